@@ -1,0 +1,39 @@
+// Owns a file that appears whole or not at all: written under a temporary name beside its place, then renamed.
+// Called by the image writer and the statistics; also before rendering, to see that a file can be written.
+#pragma once
+
+#include "file_descriptor.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace cli {
+
+class AtomicFile {
+  public:
+    // Creates the temporary file. Like the others throws Failure(ExitCode::file), which says why.
+    explicit AtomicFile(const std::string &path);
+    AtomicFile(const AtomicFile &) = delete;
+    AtomicFile &operator=(const AtomicFile &) = delete;
+    ~AtomicFile(); // removes the temporary file unless committed
+
+    void write(std::span<const std::byte> bytes);
+    void commit();
+
+    // All that the constructor checks, and leaves nothing behind.
+    static void check_writable(const std::string &path) { const AtomicFile probe(path); }
+
+  private:
+    [[noreturn]] void fail(int error) const;
+    void refuse_unsuitable_target() const;
+    FileDescriptor create_temporary();
+
+    std::string path_; // as the user wrote it, for messages
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    FileDescriptor file_;
+};
+
+} // namespace cli

@@ -1,0 +1,63 @@
+// Owns the program's exit codes and the exception that carries one to main.
+// Called by everything in cli/; the list in `pt --help` repeats it.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace cli {
+
+enum class ExitCode {
+    done = 0,
+    internal = 1,
+    usage = 2,
+    scene = 3,
+    no_device = 4,
+    device_lost = 5,
+    file = 6,
+    signal = 128 // plus the signal's number
+};
+
+inline constexpr const char *exit_code_help = "Exit codes:\n"
+                                              "  0    done\n"
+                                              "  1    internal error, or a message of the validation layer\n"
+                                              "  2    usage: a wrong option or value\n"
+                                              "  3    scene: the scene file is not valid\n"
+                                              "  4    no usable Vulkan device or driver\n"
+                                              "  5    device lost; another try may succeed\n"
+                                              "  6    a file could not be read or written\n"
+                                              "  130  SIGINT: the samples done so far were written, if there were any\n"
+                                              "  143  SIGTERM: the same\n";
+
+class Failure : public std::runtime_error {
+  public:
+    Failure(ExitCode code, const std::string &message) : std::runtime_error(message), code_(code) {}
+    ExitCode code() const { return code_; }
+
+  private:
+    ExitCode code_;
+};
+
+// A failed call of pt.h whose arguments are not the user's. Where they are, the caller knows better: usage or scene.
+constexpr ExitCode exit_code_of(pt_result result) {
+    switch (result) {
+    case PT_ERROR_INVALID_ARGUMENT:
+        return ExitCode::usage;
+    case PT_ERROR_INVALID_SCENE:
+        return ExitCode::scene;
+    // Another device or driver may do what this one cannot.
+    case PT_ERROR_UNSUPPORTED:
+    case PT_ERROR_NO_DEVICE:
+    case PT_ERROR_OUT_OF_DEVICE_MEMORY:
+    case PT_ERROR_SHADER:
+        return ExitCode::no_device;
+    case PT_ERROR_DEVICE_LOST:
+        return ExitCode::device_lost;
+    default:
+        return ExitCode::internal;
+    }
+}
+
+} // namespace cli

@@ -1,0 +1,17 @@
+// Owns the answer to a misspelt name: which known one was meant.
+// Called by the scene file reader (keys, materials) and by the options that take a name.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+// The known name that is fewest edits away; empty if none is close enough to be meant.
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
+
+// `unknown key "raduis", did you mean "radius"?` Without a near name, a short list of known ones is given whole.
+std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known);
+
+} // namespace cli

@@ -1,0 +1,43 @@
+// Owns the way from linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
+// Called by render_command for the formats that cannot hold radiance, and by the options for the names.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+
+using Colour = std::array<double, 3>; // linear, Rec. 709 primaries
+
+enum class ToneCurve {
+    none,     // clamp to [0, 1]
+    reinhard, // Reinhard et al. 2002
+    aces,     // Narkowicz's fit of ACES, 2015
+    agx,      // Sobotka's AgX base
+    neutral   // Khronos PBR Neutral, 2024
+};
+
+inline constexpr std::array<std::string_view, 5> tone_curve_names{"none", "reinhard", "aces", "agx", "neutral"};
+
+std::optional<ToneCurve> find_tone_curve(std::string_view name);
+
+struct ToneMap {
+    double exposure = 0.0; // stops: radiance is multiplied by 2^exposure
+    ToneCurve curve = ToneCurve::none;
+    std::optional<double> gamma; // encode with the power 1 / gamma in place of the sRGB curve
+};
+
+// Radiance >= 0 to light of the display, each component in [0, 1].
+Colour apply_curve(ToneCurve curve, const Colour &radiance);
+
+// Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
+double encode_srgb(double light);
+
+// R, G, B triples in, as many bytes out.
+std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map);
+
+} // namespace cli

@@ -1,0 +1,15 @@
+# Compiler settings of this project's own targets, which link pt_warnings privately: users of the library do not get them.
+add_library(pt_warnings INTERFACE)
+target_compile_options(
+  pt_warnings
+  INTERFACE -Wall
+            -Wextra
+            -Wpedantic
+            -Wshadow
+            -Wconversion
+            -Werror
+)
+if(PT_SANITIZE)
+  target_compile_options(pt_warnings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(pt_warnings INTERFACE -fsanitize=address,undefined)
+endif()

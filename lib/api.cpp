@@ -1,0 +1,150 @@
+// The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in Renderer and in
+// the validated_* functions. Called by programs through pt.h.
+#include "guard.h"
+#include "image.h"
+#include "renderer.h"
+#include "rules.h"
+#include "struct_size.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct pt_context {
+    explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
+
+    pt::Renderer renderer;
+    pt::LastError last_error;
+};
+
+namespace pt {
+
+namespace {
+
+// Of the calls without a context that this thread made.
+thread_local LastError thread_last_error;
+
+void require_not_null(const void *pointer, const char *name) {
+    if (!pointer)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
+}
+
+// Runs a call on a context, or fails without one.
+template <typename Call>
+pt_result guard_context(pt_context *context, Call &&call) noexcept {
+    return guard(context ? context->last_error : thread_last_error, [&] {
+        require_not_null(context, "context");
+        return call(context->renderer);
+    });
+}
+
+CreateSettings validated_create(const pt_create_info &info) {
+    constexpr std::uint32_t known_flags = PT_CREATE_VALIDATION;
+    constexpr std::uint32_t default_submit_milliseconds = 50;
+    Violations violations;
+    const Subject create(violations, "create");
+    create.require((info.flags & ~known_flags) == 0, "flags", info.flags,
+                   "must be a combination of PT_CREATE_* of pt.h");
+    create.require(info.submit_milliseconds <= 1000, "submit_milliseconds", info.submit_milliseconds,
+                   "must be <= 1000");
+    create.require(info.reserved == 0, "reserved", info.reserved, "must be 0");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    CreateSettings settings;
+    settings.validation = (info.flags & PT_CREATE_VALIDATION) != 0;
+    settings.device = info.device ? info.device : "";
+    settings.log = {info.log, info.log_user};
+    settings.submit_milliseconds =
+        info.submit_milliseconds == 0 ? default_submit_milliseconds : info.submit_milliseconds;
+    return settings;
+}
+
+} // namespace
+
+} // namespace pt
+
+uint32_t pt_version(void) {
+    return PT_VERSION;
+}
+
+const char *pt_result_name(pt_result result) {
+    return pt::result_name(result);
+}
+
+pt_result pt_get_devices(pt_device_info *devices, uint32_t *count) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(count, "count");
+        const std::vector<pt_device_info> all = pt::list_devices();
+        const auto available = static_cast<std::uint32_t>(all.size());
+        *count = devices ? std::min(*count, available) : available;
+        if (devices)
+            std::copy_n(all.begin(), *count, devices);
+    });
+}
+
+pt_result pt_create(const pt_create_info *info, pt_context **context) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(context, "context");
+        *context = nullptr;
+        const pt_create_info create = info ? pt::copy_in(info, "create") : pt_create_info{};
+        *context = std::make_unique<pt_context>(pt::validated_create(create)).release();
+    });
+}
+
+const char *pt_last_error(const pt_context *context) {
+    return (context ? context->last_error : pt::thread_last_error).c_str();
+}
+
+void pt_destroy(pt_context *context) {
+    delete context;
+}
+
+pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
+    return pt::guard_context(context, [&](const pt::Renderer &renderer) {
+        pt::require_not_null(device, "device");
+        *device = renderer.device();
+    });
+}
+
+pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
+    return pt::guard_context(
+        context, [&](pt::Renderer &renderer) { renderer.set_scene(pt::validated_scene(pt::copy_in(scene, "scene"))); });
+}
+
+pt_result pt_set_camera(pt_context *context, const pt_camera *camera) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        renderer.set_camera(pt::validated_camera(pt::copy_in(camera, "camera")));
+    });
+}
+
+pt_result pt_set_render(pt_context *context, const pt_render *render) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        renderer.set_render(pt::validated_render(pt::copy_in(render, "render")));
+    });
+}
+
+pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_accumulate_info accumulate = pt::copy_in(info, "accumulate");
+        pt::Violations violations;
+        pt::Subject(violations, "accumulate")
+            .require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+        violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+        return renderer.accumulate(accumulate.sample_count, accumulate.progress, accumulate.progress_user);
+    });
+}
+
+pt_result pt_readback(pt_context *context, const pt_image *image) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_image target = pt::copy_in(image, "image");
+        // Before pt_set_render there is no size to check against; the renderer refuses then.
+        const bool sized = renderer.width() > 0;
+        const auto [data, row_floats] =
+            sized ? pt::validated_image(target, renderer.width(), renderer.height()) : pt::Image{};
+        renderer.readback(data, row_floats);
+    });
+}
+
+pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
+}

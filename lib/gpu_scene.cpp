@@ -1,0 +1,120 @@
+// Turns a validated scene and camera into bytes for the kernel; see gpu_scene.h.
+#include "gpu_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pt {
+
+namespace {
+
+float mean(const glm::vec3 &colour) {
+    return (colour.r + colour.g + colour.b) / 3.0F;
+}
+
+// Sphere indices in the kernel's order: lamps first, otherwise as in the scene.
+std::vector<std::uint32_t> kernel_order(const Scene &scene) {
+    std::vector<std::uint32_t> order(scene.spheres.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+    std::ranges::stable_partition(order, [&](std::uint32_t i) {
+        return scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F);
+    });
+    return order;
+}
+
+// The specular lobe is chosen in proportion to what it can reflect, but if there is one it is never left to chance.
+float specular_probability(const Material &material) {
+    const float specular = mean(material.specular);
+    return specular > 0.0F ? specular / (specular + mean(material.diffuse)) : 0.0F;
+}
+
+// Writes the words of the surface with a kernel index.
+class Writer {
+public:
+    Writer(std::vector<glm::vec4> &words, const Features &features) : words_(words), features_(features) {}
+
+    void material(std::uint32_t surface, const Material &material) {
+        const std::uint32_t count = features_.surface_count();
+        words_[count + surface] = glm::vec4(material.emission, mean(material.emission));
+        words_[2 * count + surface] = glm::vec4(material.diffuse, specular_probability(material));
+        if (features_.gloss)
+            words_[3 * count + surface] = glm::vec4(material.specular, material.glossiness);
+    }
+
+    void sphere(std::uint32_t surface, const Sphere &sphere, const Camera &camera) {
+        const glm::dvec3 opening = sphere.center + camera.shutter_open * sphere.motion - camera.position;
+        const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
+        words_[surface] = glm::vec4(glm::vec3(opening), static_cast<float>(sphere.radius));
+        if (features_.motion)
+            words_[scene_word_count(features_) - features_.sphere_count + surface] = glm::vec4(glm::vec3(way), 0.0F);
+    }
+
+    void plane(std::uint32_t surface, const Plane &plane, const Camera &camera) {
+        const double offset = plane.offset + glm::dot(plane.normal, camera.position);
+        words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(offset));
+    }
+
+private:
+    std::vector<glm::vec4> &words_;
+    const Features &features_;
+};
+
+// One round of splitmix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014): neighbouring
+// seeds become unrelated words.
+std::uint64_t mixed(std::uint64_t seed) {
+    std::uint64_t z = seed + 0x9e3779b97f4a7c15U;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31);
+}
+
+} // namespace
+
+std::vector<glm::vec4> gpu_scene(const Scene &scene, const Camera &camera, const Features &features) {
+    std::vector<glm::vec4> words(scene_word_count(features));
+    Writer writer(words, features);
+    std::uint32_t surface = 0;
+    for (const std::uint32_t i : kernel_order(scene)) {
+        writer.sphere(surface, scene.spheres[i], camera);
+        writer.material(surface++, scene.materials[scene.spheres[i].material]);
+    }
+    for (const Plane &plane : scene.planes) {
+        writer.plane(surface, plane, camera);
+        writer.material(surface++, scene.materials[plane.material]);
+    }
+    return words;
+}
+
+double film_unit(const Scene &scene) {
+    float brightest = 0.0F;
+    const auto include = [&](std::uint32_t material) {
+        const glm::vec3 &emission = scene.materials[material].emission;
+        brightest = std::max({brightest, emission.r, emission.g, emission.b});
+    };
+    for (const Sphere &sphere : scene.spheres)
+        include(sphere.material);
+    for (const Plane &plane : scene.planes)
+        include(plane.material);
+    if (brightest == 0.0F)
+        return 1.0;
+    int exponent = 0; // brightest = fraction * 2^exponent with fraction in [1/2, 1)
+    std::frexp(brightest, &exponent);
+    // The kernel multiplies by 1 / unit, which must be a normal float32.
+    return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
+}
+
+gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
+    const std::uint64_t seed = mixed(render.seed);
+    gpu::FrameConstants constants{};
+    constants.camera_right = camera.right;
+    constants.camera_up = camera.up;
+    constants.camera_forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
+    constants.film_scale = static_cast<float>(1.0 / film_unit);
+    constants.width = render.width;
+    constants.height = render.height;
+    constants.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+    return constants;
+}
+
+} // namespace pt

@@ -1,0 +1,20 @@
+// Where a caller wants an image, checked against its size. Made by api.cpp for Renderer::readback.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pt {
+
+struct Image {
+    float *data;
+    std::size_t row_floats; // distance between rows
+};
+
+// Checks that an image whose struct_size is settled holds width x height pixels, both >= 1. Throws
+// PT_ERROR_INVALID_ARGUMENT with all broken rules.
+Image validated_image(const pt_image &image, std::uint32_t width, std::uint32_t height);
+
+} // namespace pt

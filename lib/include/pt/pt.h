@@ -1,0 +1,261 @@
+/* pt: an offscreen path tracer for spheres and planes on any Vulkan device.
+ *
+ * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
+ *
+ * Conventions
+ *   World      right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1].
+ *   Colour     linear RGB radiance, unclamped. Row 0 of an image is the top row.
+ *   Numbers    every number must be finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32
+ *              numbers too.
+ *   Structs    a struct passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and
+ *              grows only at its tail; a zero field means "default". A shorter struct is read as if zeros followed;
+ *              a longer one is accepted only if the tail unknown to this library is zero. Elements of arrays
+ *              (pt_material, pt_sphere, pt_plane, pt_device_info) are frozen. Reserved fields must be zero.
+ *   Results    a call is one transaction: if it fails (result < 0) it has changed nothing, except that a lost device
+ *              stays lost (PT_ERROR_DEVICE_LOST from then on; destroy the context and create another).
+ *              Every failure has a message, see pt_last_error.
+ *   Threads    different contexts are independent and may be used at the same time; one context is used by one thread
+ *              at a time. The library starts no threads, prints nothing, reads no files and has no globals.
+ *   Callbacks  run inside the call, on the calling thread, and must not call back into the same context.
+ */
+#ifndef PT_H
+#define PT_H
+
+#include <stdint.h>
+
+#ifndef PT_API
+#define PT_API
+#endif
+
+/* Version of this header: major * 1000000 + minor * 1000 + patch. */
+#define PT_VERSION 1000u
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* < 0: error; 0: done; > 0: done with a remark. The numbers never change. */
+typedef int32_t pt_result;
+enum {
+    PT_OK = 0,
+    PT_CANCELLED = 1,               /* the progress callback asked to stop; whole samples were kept */
+    PT_ERROR_INVALID_ARGUMENT = -1, /* a field, size or pointer breaks a rule of this header */
+    PT_ERROR_INVALID_SCENE = -2,    /* a scene breaks a rule; the message names field, value and rule */
+    PT_ERROR_INVALID_STATE = -3,    /* something has to be set first; the message says what */
+    PT_ERROR_UNSUPPORTED = -4,      /* valid, but beyond this device, driver or library */
+    PT_ERROR_NO_DEVICE = -5,        /* no Vulkan driver, or no device fits; the message has the reasons */
+    PT_ERROR_OUT_OF_HOST_MEMORY = -6,
+    PT_ERROR_OUT_OF_DEVICE_MEMORY = -7,
+    PT_ERROR_DEVICE_LOST = -8,
+    PT_ERROR_SHADER = -9,   /* the driver refused to build the kernel */
+    PT_ERROR_INTERNAL = -10 /* a bug in this library or in the driver */
+};
+
+/* One renderer on one device. */
+typedef struct pt_context pt_context;
+
+/* ---- Devices ---------------------------------------------------------------------------------------------------- */
+
+/* pt_device_info.kind */
+enum {
+    PT_DEVICE_OTHER = 0,
+    PT_DEVICE_INTEGRATED_GPU = 1,
+    PT_DEVICE_DISCRETE_GPU = 2,
+    PT_DEVICE_VIRTUAL_GPU = 3,
+    PT_DEVICE_CPU = 4
+};
+
+typedef struct pt_device_info {
+    uint32_t kind;         /* PT_DEVICE_* */
+    uint32_t suitable;     /* 1: pt_create can use it; 0: reason says why not */
+    uint64_t memory_bytes; /* size of its largest memory heap that kernels can reach quickly */
+    uint8_t uuid[16];      /* tells two equal devices apart; stable over reboots */
+    char name[256];        /* UTF-8, zero-terminated, like the two below */
+    char driver[256];      /* driver name and version */
+    char reason[256];      /* empty if suitable */
+} pt_device_info;
+
+/* ---- Scene ------------------------------------------------------------------------------------------------------ */
+
+/* Reflection is the physically-normalised Phong model
+ *     f(wi, wo) = diffuse / pi + specular * (n + 2) / (2 pi) * max(0, dot(wo, reflect(wi)))^n,   n = glossiness,
+ * where n = 0 stands for the limit n -> 0: a lobe that is constant on the half space about the mirror direction.
+ * Components are R, G, B, each >= 0; diffuse + specular may exceed 1 (such a surface gains energy). */
+typedef struct pt_material {
+    float diffuse[3];
+    float specular[3];
+    float emission[3]; /* radiance, the same in every direction and on both sides */
+    float glossiness;  /* n >= 0 */
+} pt_material;
+
+/* Visible, lit and emitting on both sides. The centre at time t is center + t * motion. */
+typedef struct pt_sphere {
+    double center[3];
+    double radius; /* > 0 */
+    double motion[3];
+    uint32_t material; /* index into pt_scene.materials */
+    uint32_t reserved;
+} pt_sphere;
+
+/* The points x with dot(normal, x) + offset = 0. Visible, lit and emitting on both sides. */
+typedef struct pt_plane {
+    double normal[3]; /* any length but 0; (normal, offset) is divided by it */
+    double offset;
+    uint32_t material; /* index into pt_scene.materials */
+    uint32_t reserved;
+} pt_plane;
+
+typedef struct pt_scene {
+    uint32_t struct_size;
+    uint32_t material_count;
+    uint32_t sphere_count;
+    uint32_t plane_count;
+    const pt_material *materials; /* the arrays are copied; NULL where the count is 0 */
+    const pt_sphere *spheres;
+    const pt_plane *planes;
+} pt_scene;
+
+/* A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
+typedef struct pt_camera {
+    uint32_t struct_size;
+    uint32_t reserved;
+    double position[3];
+    double target[3];    /* the point in the middle of the image; must differ from position */
+    double up[3];        /* not parallel to the viewing direction; default (0, 1, 0) */
+    double vertical_fov; /* full vertical angle in (0, pi); default pi / 4 */
+    double shutter_open; /* 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
+    double shutter_close;
+} pt_camera;
+
+/* ---- Rendering -------------------------------------------------------------------------------------------------- */
+
+/* How light is found. All converge to the same image; they differ in noise and in time. */
+/* pt_render.estimator */
+enum {
+    PT_ESTIMATOR_BEST = 0,    /* what this version considers best: mis */
+    PT_ESTIMATOR_UNIFORM = 1, /* directions uniform on the hemisphere; lamps are found by chance */
+    PT_ESTIMATOR_MIS = 5      /* lamps sampled by solid angle and directions by the material, combined */
+};
+
+typedef struct pt_render {
+    uint32_t struct_size;
+    uint32_t width;           /* pixels, >= 1 */
+    uint32_t height;          /* pixels, >= 1 */
+    uint32_t max_path_length; /* surface vertices after the camera, 1 = emission only; [1, 1024]; default 6 */
+    uint64_t seed;            /* equal inputs, device and driver and equal seed: equal bits */
+    uint32_t first_sample;    /* index of the first sample: samples a..b of one sequence may be taken anywhere */
+    uint32_t estimator;       /* PT_ESTIMATOR_* */
+} pt_render;
+
+/* Called after every submission to the device with the share of this call that is done, in [0, 1], never falling.
+ * Return 0 to go on; anything else stops the call within one submission. */
+typedef int32_t (*pt_progress_fn)(void *user, double fraction);
+
+typedef struct pt_accumulate_info {
+    uint32_t struct_size;
+    uint32_t sample_count;   /* samples to add to every pixel, >= 1; indices must stay below 2^32 */
+    pt_progress_fn progress; /* may be NULL */
+    void *progress_user;
+} pt_accumulate_info;
+
+typedef struct pt_image {
+    uint32_t struct_size;
+    uint32_t reserved;
+    float *data;         /* receives R, G, B of each pixel, row by row from the top */
+    uint64_t size_bytes; /* of data; at least (height - 1) * row_bytes + width * 12 */
+    uint64_t row_bytes;  /* distance between rows, a multiple of 4; default width * 12 */
+} pt_image;
+
+/* bits of pt_stats.features: what the kernel contains because the scene needs it */
+enum {
+    PT_FEATURE_LAMPS = 1,  /* emitting spheres, sampled directly */
+    PT_FEATURE_GLOSS = 2,  /* specular lobes */
+    PT_FEATURE_MOTION = 4, /* spheres that move while the shutter is open */
+    PT_FEATURE_LARGE = 8   /* more surfaces than a uniform buffer holds */
+};
+
+typedef struct pt_stats {
+    uint32_t struct_size;
+    uint32_t sample_count;     /* whole samples in every pixel */
+    uint64_t rejected_samples; /* left out of all pixels: NaN, infinite, negative or too bright */
+    uint64_t device_bytes;     /* memory allocated on the device now */
+    uint64_t submit_count;     /* submissions since pt_create */
+    double device_seconds;     /* time spent in them */
+    uint32_t features;         /* PT_FEATURE_* */
+    uint32_t reserved;
+} pt_stats;
+
+/* ---- Context ---------------------------------------------------------------------------------------------------- */
+
+/* level of a log line */
+enum { PT_LOG_ERROR = 1, PT_LOG_WARNING = 2, PT_LOG_INFO = 3 };
+
+/* Receives one UTF-8 line without its line break. */
+typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
+
+/* bits of pt_create_info.flags */
+enum {
+    PT_CREATE_VALIDATION = 1 /* the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
+};
+
+typedef struct pt_create_info {
+    uint32_t struct_size;
+    uint32_t flags; /* PT_CREATE_* */
+    /* NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
+     * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case. */
+    const char *device;
+    pt_log_fn log; /* may be NULL */
+    void *log_user;
+    uint32_t submit_milliseconds; /* aim for the length of one submission, [1, 1000]; default 50 */
+    uint32_t reserved;
+} pt_create_info;
+
+/* -- any thread, no context -- */
+
+/* Version of the library, like PT_VERSION. */
+PT_API uint32_t pt_version(void);
+
+/* Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for others. Static, never NULL. */
+PT_API const char *pt_result_name(pt_result result);
+
+/* Lists the Vulkan devices. devices == NULL: *count receives their number. Else at most *count are written, and *count
+ * receives how many were. PT_ERROR_NO_DEVICE if Vulkan itself is not there. */
+PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
+
+/* info may be NULL: all defaults. On success *context is owned by the caller; on failure it is NULL. */
+PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
+
+/* Message of the last call on this context that failed ("" if none did), valid until the next call on it. With NULL:
+ * of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such call.
+ * Never NULL. */
+PT_API const char *pt_last_error(const pt_context *context);
+
+/* -- one thread at a time per context -- */
+
+/* Waits for the device and frees everything. NULL is allowed. */
+PT_API void pt_destroy(pt_context *context);
+
+/* What this context runs on. */
+PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
+
+/* The three setters may be called in any order and again at any time. Each copies what it is given and, on success,
+ * discards the samples accumulated so far. */
+PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
+PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
+PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
+
+/* Adds samples to every pixel and returns when they are done. However the samples are split over calls, the sum has the
+ * same bits. Needs scene, camera and render settings. */
+PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
+
+/* Writes the mean radiance of the samples so far. PT_ERROR_INVALID_STATE if there is none. */
+PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
+
+/* stats->struct_size must be set; as many bytes are written. */
+PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

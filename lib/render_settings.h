@@ -1,0 +1,22 @@
+// Render settings that obey the rules of pt.h, with defaults applied. Made by api.cpp, held by Renderer.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstdint>
+
+namespace pt {
+
+struct RenderSettings {
+    std::uint32_t width; // width * height < 2^32
+    std::uint32_t height;
+    std::uint32_t max_path_length;
+    std::uint64_t seed;
+    std::uint32_t first_sample;
+    std::uint32_t estimator; // never PT_ESTIMATOR_BEST: the one that it stands for
+};
+
+// Takes over settings whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
+RenderSettings validated_render(const pt_render &render);
+
+} // namespace pt

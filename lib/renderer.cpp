@@ -1,0 +1,237 @@
+// The renderer's loop; see renderer.h.
+#include "renderer.h"
+
+#include "commit.spv.h"
+#include "error.h"
+#include "gpu_scene.h"
+#include "pathtrace.spv.h"
+#include "vulkan/device_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+constexpr std::array kernel_bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
+                                        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+
+// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
+// measured slices size the rest.
+constexpr double assumed_tests_per_second = 2.5e8;
+
+std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
+    std::vector<pt_device_info> devices;
+    for (const vk::raii::PhysicalDevice &device : instance.physical_devices())
+        devices.push_back(vulkan::describe(device));
+    return devices;
+}
+
+vk::raii::PhysicalDevice chosen_device(const vulkan::Instance &instance, const std::string &wanted) {
+    return instance.physical_devices()[vulkan::choose_device(describe_all(instance), wanted.c_str())];
+}
+
+} // namespace
+
+std::vector<pt_device_info> list_devices() {
+    return describe_all(vulkan::Instance(Log{}, false));
+}
+
+Renderer::Renderer(const CreateSettings &settings) :
+    log_(settings.log), instance_(log_, settings.validation), device_(chosen_device(instance_, settings.device)),
+    target_seconds_(settings.submit_milliseconds * 1e-3) {}
+
+void Renderer::discard_samples() {
+    if (film_)
+        film_->clear();
+    kernel_.reset();
+    samples_done_ = 0;
+    pass_pixels_done_ = 0;
+}
+
+void Renderer::set_scene(Scene scene) {
+    device_.require_alive();
+    discard_samples();
+    scene_ = std::move(scene);
+}
+
+void Renderer::set_camera(const Camera &camera) {
+    device_.require_alive();
+    discard_samples();
+    camera_ = camera;
+}
+
+void Renderer::set_render(const RenderSettings &settings) {
+    device_.require_alive();
+    const bool same_size = settings_ && settings.width == settings_->width && settings.height == settings_->height;
+    if (!same_size) {
+        Film film(device_, settings.width, settings.height, max_strip_pixels(device_.limits()));
+        kernel_.reset(); // its descriptor sets name the old film
+        film_ = std::move(film);
+    }
+    discard_samples();
+    settings_ = settings;
+}
+
+void Renderer::require_settings() const {
+    device_.require_alive();
+    if (!scene_)
+        throw Error(PT_ERROR_INVALID_STATE, "no scene: call pt_set_scene first");
+    if (!camera_)
+        throw Error(PT_ERROR_INVALID_STATE, "no camera: call pt_set_camera first");
+    if (!settings_)
+        throw Error(PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
+}
+
+void Renderer::prepare_pipelines(const Features &features) {
+    if (!commit_pipeline_)
+        commit_pipeline_.emplace(device_, commit_spirv, kernel_bindings, sizeof(gpu::FrameConstants),
+                                 std::span<const std::uint32_t>{});
+    if (traced_features_ == features)
+        return;
+    trace_pipeline_.emplace(device_, pathtrace_spirv, kernel_bindings, sizeof(gpu::FrameConstants),
+                            specialization_constants(features));
+    traced_features_ = features;
+}
+
+void Renderer::prepare_kernel() {
+    if (kernel_)
+        return;
+    const Features features = features_of(*scene_, *camera_, *settings_);
+    const std::vector<glm::vec4> words = gpu_scene(*scene_, *camera_, features);
+    const std::uint64_t scene_bytes = std::max<std::uint64_t>(words.size(), gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
+    const vulkan::Limits &limits = device_.limits();
+    if (scene_bytes > limits.max_storage_buffer_range)
+        throw Error(PT_ERROR_UNSUPPORTED, "the scene takes " + std::to_string(scene_bytes) +
+                                              " bytes, more than this device can bind (" +
+                                              std::to_string(limits.max_storage_buffer_range) + ")");
+    const std::uint64_t trips = loop_trips_per_sample(features);
+    if (trips > limits.loop_trip_budget)
+        throw Error(PT_ERROR_UNSUPPORTED, "a sample of this scene takes up to " + std::to_string(trips) +
+                                              " loop trips, and this driver stops a kernel after " +
+                                              std::to_string(limits.loop_trip_budget) +
+                                              ": fewer surfaces or a smaller max_path_length would do");
+
+    prepare_pipelines(features);
+    const double unit = film_unit(*scene_);
+    ScheduleLimits schedule_limits{};
+    schedule_limits.target_seconds = target_seconds_;
+    schedule_limits.first_slice_paths =
+        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(features));
+    schedule_limits.max_samples =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.loop_trip_budget / trips, UINT32_MAX));
+    schedule_limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+
+    Kernel kernel{features,
+                  unit,
+                  frame_constants(*camera_, *settings_, unit),
+                  vulkan::Buffer(device_, vulkan::BufferUse::Scene, scene_bytes, "scene"),
+                  {},
+                  {},
+                  Schedule(film_->pixel_count(), schedule_limits)};
+    kernel.scene.upload(std::as_bytes(std::span(words)), 0);
+    for (Film::Strip &strip : film_->strips()) {
+        const std::array buffers = {&kernel.scene, &kernel.scene, &strip.words, &strip.pass};
+        kernel.trace_sets.push_back(trace_pipeline_->bind(buffers));
+        kernel.commit_sets.push_back(commit_pipeline_->bind(buffers));
+    }
+    kernel_ = std::move(kernel);
+}
+
+// Submits a slice, and with the last slice of a split pass the addition of its samples to the film.
+double Renderer::run(const Slice &slice) {
+    const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
+    const bool pass_complete = !slice.whole && slice_end == film_->pixel_count();
+    gpu::FrameConstants frame = kernel_->frame;
+    frame.first_sample = settings_->first_sample + samples_done_;
+    frame.sample_count = slice.sample_count;
+    frame.split_pass = slice.whole ? 0 : 1;
+
+    // Dispatches a kernel over the part of [first, end) in each strip.
+    const auto dispatch = [&](const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
+                              const std::vector<vulkan::DescriptorSet> &sets, std::uint32_t first, std::uint32_t end) {
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            const Film::Strip &strip = film_->strips()[i];
+            const std::uint32_t strip_first = std::max(first, strip.first_pixel);
+            const std::uint32_t strip_end = std::min(end, strip.first_pixel + strip.pixel_count);
+            if (strip_first >= strip_end)
+                continue;
+            frame.strip_first_pixel = strip.first_pixel;
+            frame.strip_pixel_count = strip.pixel_count;
+            frame.first_pixel = strip_first - strip.first_pixel;
+            frame.pixel_count = strip_end - strip_first;
+            const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
+            pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups);
+        }
+    };
+    const double seconds = device_.submit([&](const vk::raii::CommandBuffer &commands) {
+        dispatch(commands, *trace_pipeline_, kernel_->trace_sets, slice.first_pixel, slice_end);
+        if (pass_complete) {
+            vulkan::barrier_between_dispatches(commands);
+            dispatch(commands, *commit_pipeline_, kernel_->commit_sets, 0, film_->pixel_count());
+        }
+    });
+    ++submit_count_;
+    device_seconds_ += seconds;
+    return seconds;
+}
+
+// Counts what a slice has done.
+void Renderer::advance(const Slice &slice) {
+    const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
+    if (slice_end == film_->pixel_count()) {
+        samples_done_ += slice.sample_count;
+        pass_pixels_done_ = 0;
+    } else {
+        pass_pixels_done_ = slice_end;
+    }
+}
+
+pt_result Renderer::accumulate(std::uint32_t sample_count, pt_progress_fn progress, void *progress_user) {
+    require_settings();
+    const std::uint64_t first = std::uint64_t{settings_->first_sample} + samples_done_;
+    if (first + sample_count > std::uint64_t{1} << 32)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": sample indices would pass 2^32 (the next is " +
+                                                   std::to_string(first) + ")");
+    prepare_kernel();
+
+    const std::uint32_t samples_before = samples_done_;
+    const std::uint32_t samples_wanted = samples_done_ + sample_count;
+    const double start = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
+    while (samples_done_ < samples_wanted) {
+        const Slice slice = kernel_->schedule.next(samples_wanted - samples_done_, pass_pixels_done_);
+        kernel_->schedule.measured(slice, run(slice));
+        advance(slice);
+        if (!progress)
+            continue;
+        const double pass = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
+        const double done = samples_done_ - samples_before + pass - start;
+        const bool stop = progress(progress_user, done / (sample_count - start)) != 0;
+        if (stop && samples_done_ < samples_wanted)
+            return PT_CANCELLED;
+    }
+    return PT_OK;
+}
+
+void Renderer::readback(float *data, std::size_t row_floats) {
+    require_settings();
+    if (samples_done_ == 0)
+        throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
+    film_->read_radiance(kernel_->film_unit, samples_done_, data, row_floats);
+}
+
+pt_stats Renderer::stats() {
+    pt_stats stats{};
+    stats.sample_count = samples_done_;
+    stats.rejected_samples = film_ && !device_.lost() ? film_->rejected_samples() : 0;
+    stats.device_bytes = device_.allocated_bytes();
+    stats.submit_count = submit_count_;
+    stats.device_seconds = device_seconds_;
+    stats.features = kernel_ ? feature_bits(kernel_->features) : 0;
+    return stats;
+}
+
+} // namespace pt

@@ -1,0 +1,92 @@
+// The loop from settings to exact sums: specialise, dispatch slices, read back. One per pt_context, called by api.cpp.
+#pragma once
+
+#include "camera.h"
+#include "scene_features.h"
+#include "film.h"
+#include "log.h"
+#include "render_settings.h"
+#include "scene.h"
+#include "schedule.h"
+#include "vulkan/compute_pipeline.h"
+#include "vulkan/device.h"
+#include "vulkan/instance.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+// pt_create_info, checked, with its defaults applied.
+struct CreateSettings {
+    bool validation = false;
+    std::string device; // empty: the best
+    Log log;
+    std::uint32_t submit_milliseconds = 50;
+};
+
+// All Vulkan devices of this machine.
+std::vector<pt_device_info> list_devices();
+
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost.
+class Renderer {
+public:
+    explicit Renderer(const CreateSettings &settings);
+
+    const pt_device_info &device() const { return device_.info(); }
+    std::uint32_t width() const { return settings_ ? settings_->width : 0; }
+    std::uint32_t height() const { return settings_ ? settings_->height : 0; }
+
+    // Each setter discards the samples so far.
+    void set_scene(Scene scene);
+    void set_camera(const Camera &camera);
+    void set_render(const RenderSettings &settings);
+
+    // PT_OK or PT_CANCELLED.
+    pt_result accumulate(std::uint32_t sample_count, pt_progress_fn progress, void *progress_user);
+
+    // Mean radiance, rows row_floats apart.
+    void readback(float *data, std::size_t row_floats);
+
+    pt_stats stats();
+
+private:
+    // What the kernel needs besides the film: made from scene, camera and render settings together.
+    struct Kernel {
+        Features features;
+        double film_unit;
+        gpu::FrameConstants frame;
+        vulkan::Buffer scene;
+        std::vector<vulkan::DescriptorSet> trace_sets; // one per strip of the film
+        std::vector<vulkan::DescriptorSet> commit_sets;
+        Schedule schedule;
+    };
+
+    void discard_samples();
+    void require_settings() const;
+    void prepare_pipelines(const Features &features);
+    void prepare_kernel();
+    double run(const Slice &slice);
+    void advance(const Slice &slice);
+
+    Log log_;
+    vulkan::Instance instance_;
+    vulkan::Device device_;
+    double target_seconds_;
+    std::optional<Scene> scene_;
+    std::optional<Camera> camera_;
+    std::optional<RenderSettings> settings_;
+    std::optional<Film> film_;
+    std::optional<Features> traced_features_; // that trace_pipeline_ is specialised to
+    std::optional<vulkan::ComputePipeline> trace_pipeline_;
+    std::optional<vulkan::ComputePipeline> commit_pipeline_;
+    std::optional<Kernel> kernel_;       // empty after a setter
+    std::uint32_t samples_done_ = 0;     // whole samples in every pixel
+    std::uint32_t pass_pixels_done_ = 0; // of the split pass under way
+    std::uint64_t submit_count_ = 0;
+    double device_seconds_ = 0.0;
+};
+
+} // namespace pt

@@ -1,0 +1,31 @@
+// Vectors whose squared length may be beyond double, made harmless. Used by scene and camera for directions.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pt {
+
+// A vector times 2^-exponent, its largest component in [1/2, 1). Powers of two round nothing (components below 2^-1000 of
+// the largest apart), so vectors that differ by one of them have the same direction to the last bit.
+struct ScaledVector {
+    glm::dvec3 vector;
+    int exponent;
+};
+
+inline ScaledVector scaled(const glm::dvec3 &v) {
+    const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
+}
+
+// v / |v| for a finite v that is not 0. By division: a product with 1 / |v| would round twice, and axes would not stay exact.
+inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
+    const glm::dvec3 vector = scaled(v).vector;
+    return vector / glm::length(vector);
+}
+
+} // namespace pt

@@ -1,0 +1,43 @@
+// A scene that obeys the rules of pt.h, owned. Made by api.cpp, held by Renderer, read by features and gpu_scene.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+struct Material {
+    glm::vec3 diffuse;
+    glm::vec3 specular;
+    glm::vec3 emission;
+    float glossiness;
+};
+
+struct Sphere {
+    glm::dvec3 center;
+    double radius;
+    glm::dvec3 motion;
+    std::uint32_t material; // index into Scene::materials
+};
+
+// dot(normal, x) + offset = 0
+struct Plane {
+    glm::dvec3 normal; // unit vector
+    double offset;
+    std::uint32_t material; // index into Scene::materials
+};
+
+struct Scene {
+    std::vector<Material> materials;
+    std::vector<Sphere> spheres;
+    std::vector<Plane> planes;
+};
+
+// Copies a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
+Scene validated_scene(const pt_scene &scene);
+
+} // namespace pt

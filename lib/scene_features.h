@@ -1,0 +1,46 @@
+// What a scene needs of the kernel: everything else is left out of it. Renderer specialises pathtrace.comp with this.
+#pragma once
+
+#include "camera.h"
+#include "gpu_layout.h"
+#include "render_settings.h"
+#include "scene.h"
+
+#include <array>
+#include <cstdint>
+
+namespace pt {
+
+struct Features {
+    std::uint32_t sphere_count;
+    std::uint32_t plane_count;
+    std::uint32_t lamp_count; // emitting spheres
+    std::uint32_t max_path_length;
+    std::uint32_t estimator;
+    bool gloss;            // some material in use has a specular lobe
+    bool motion;           // some sphere moves while the shutter is open
+    bool scene_in_uniform; // the scene fits into a uniform buffer
+
+    bool operator==(const Features &) const = default;
+
+    std::uint32_t surface_count() const { return sphere_count + plane_count; }
+};
+
+Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
+
+// Length of the scene buffer in words of four floats (gpu_layout.h has its layout).
+std::uint32_t scene_word_count(const Features &features);
+
+// Values of the specialization constants, by constant_id.
+std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
+
+// Upper bound of the loop trips that the kernel needs for one sample, with no loop unrolled.
+std::uint64_t loop_trips_per_sample(const Features &features);
+
+// Ray-surface tests of a path of full length: its cost, to within a small factor.
+std::uint64_t surface_tests_per_path(const Features &features);
+
+// PT_FEATURE_* bits.
+std::uint32_t feature_bits(const Features &features);
+
+} // namespace pt

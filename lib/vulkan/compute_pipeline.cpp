@@ -1,0 +1,110 @@
+// Pipelines and descriptor sets; see compute_pipeline.h.
+#include "vulkan/compute_pipeline.h"
+
+#include "vulkan/result.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace pt::vulkan {
+
+namespace {
+
+vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<const vk::DescriptorType> types) {
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (std::uint32_t i = 0; i < types.size(); ++i)
+        bindings.push_back({.binding = i,
+                            .descriptorType = types[i],
+                            .descriptorCount = 1,
+                            .stageFlags = vk::ShaderStageFlagBits::eCompute});
+    return device.handle().createDescriptorSetLayout(
+        {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+}
+
+vk::raii::Pipeline create_pipeline(const Device &device, const vk::raii::PipelineLayout &layout,
+                                   std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
+    const vk::raii::ShaderModule module =
+        device.handle().createShaderModule({.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
+    std::vector<vk::SpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < constants.size(); ++i)
+        entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+    const vk::SpecializationInfo specialization{.mapEntryCount = static_cast<std::uint32_t>(entries.size()),
+                                                .pMapEntries = entries.data(),
+                                                .dataSize = constants.size_bytes(),
+                                                .pData = constants.data()};
+    const vk::PipelineShaderStageCreateInfo stage{.stage = vk::ShaderStageFlagBits::eCompute,
+                                                  .module = *module,
+                                                  .pName = "main",
+                                                  .pSpecializationInfo = &specialization};
+    try {
+        return device.handle().createComputePipeline(device.pipeline_cache(), {.stage = stage, .layout = *layout});
+    } catch (const vk::SystemError &error) {
+        const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
+        // What is neither memory nor a lost device is the kernel's.
+        throw Error(result == PT_ERROR_INTERNAL || result == PT_ERROR_NO_DEVICE ? PT_ERROR_SHADER : result,
+                    std::string("building a kernel: ") + error.what());
+    }
+}
+
+} // namespace
+
+ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> spirv,
+                                 std::span<const vk::DescriptorType> bindings, std::uint32_t push_constant_bytes,
+                                 std::span<const std::uint32_t> constants) :
+    device_(&device), bindings_(bindings.begin(), bindings.end()) {
+    device.require_alive();
+    translated("building a kernel", [&] {
+        set_layout_ = create_set_layout(device, bindings);
+        const vk::DescriptorSetLayout set_layout = *set_layout_;
+        const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = push_constant_bytes};
+        layout_ = device.handle().createPipelineLayout({.setLayoutCount = 1,
+                                                        .pSetLayouts = &set_layout,
+                                                        .pushConstantRangeCount = push_constant_bytes > 0 ? 1U : 0U,
+                                                        .pPushConstantRanges = &push});
+        pipeline_ = create_pipeline(device, layout_, spirv, constants);
+    });
+}
+
+DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
+    return translated("binding buffers", [&] {
+        std::vector<vk::DescriptorPoolSize> sizes;
+        for (const vk::DescriptorType type : bindings_)
+            sizes.push_back({.type = type, .descriptorCount = 1});
+        DescriptorSet set;
+        set.pool_ = device_->handle().createDescriptorPool({.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
+                                                            .maxSets = 1,
+                                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
+                                                            .pPoolSizes = sizes.data()});
+        const vk::DescriptorSetLayout layout = *set_layout_;
+        set.set_ = std::move(device_->handle().allocateDescriptorSets(
+            {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+        for (std::uint32_t i = 0; i < bindings_.size(); ++i) {
+            // A uniform binding sees the 16 KiB that every device offers.
+            constexpr std::uint64_t uniform_range = 16384;
+            const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer;
+            const vk::DescriptorBufferInfo info{
+                .buffer = buffers[i]->handle(),
+                .range = uniform ? std::min<std::uint64_t>(uniform_range, buffers[i]->size()) : VK_WHOLE_SIZE};
+            device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set.set_,
+                                                                          .dstBinding = i,
+                                                                          .descriptorCount = 1,
+                                                                          .descriptorType = bindings_[i],
+                                                                          .pBufferInfo = &info},
+                                                   {});
+        }
+        return set;
+    });
+}
+
+void ComputePipeline::dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
+                               std::span<const std::byte> push_constants, std::uint32_t group_count) const {
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(), {});
+    if (!push_constants.empty())
+        commands.pushConstants<std::byte>(
+            *layout_, vk::ShaderStageFlagBits::eCompute, 0,
+            vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push_constants.size()), push_constants.data()));
+    commands.dispatch(group_count, 1, 1);
+}
+
+} // namespace pt::vulkan

@@ -1,0 +1,46 @@
+// A compute kernel, specialised, with the buffers that it is bound to. Made by Renderer.
+#pragma once
+
+#include "vulkan/buffer.h"
+#include "vulkan/device.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace pt::vulkan {
+
+// Buffers bound to a kernel. They must outlive the last dispatch with it.
+class DescriptorSet {
+public:
+    vk::DescriptorSet handle() const { return *set_; }
+
+private:
+    friend class ComputePipeline;
+    vk::raii::DescriptorPool pool_ = nullptr;
+    vk::raii::DescriptorSet set_ = nullptr; // freed before its pool
+};
+
+class ComputePipeline {
+public:
+    // bindings[i] is the type of binding i of set 0; constants[i] are the bits of the specialization constant with id i.
+    // Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
+                    std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
+
+    // buffers[i] goes to binding i.
+    DescriptorSet bind(std::span<Buffer *const> buffers) const;
+
+    // Records a dispatch of group_count workgroups along x.
+    void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
+                  std::span<const std::byte> push_constants, std::uint32_t group_count) const;
+
+private:
+    Device *device_;
+    std::vector<vk::DescriptorType> bindings_;
+    vk::raii::DescriptorSetLayout set_layout_ = nullptr;
+    vk::raii::PipelineLayout layout_ = nullptr;
+    vk::raii::Pipeline pipeline_ = nullptr;
+};
+
+} // namespace pt::vulkan

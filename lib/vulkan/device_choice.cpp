@@ -1,0 +1,159 @@
+// Description and ranking of devices; see device_choice.h.
+#include "vulkan/device_choice.h"
+
+#include "error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+
+namespace pt::vulkan {
+
+namespace {
+
+template <std::size_t size>
+void copy_text(char (&target)[size], const std::string &text) {
+    const std::size_t length = std::min(text.size(), size - 1);
+    std::memcpy(target, text.data(), length);
+    target[length] = '\0';
+}
+
+std::string unsuitable_reason(const vk::raii::PhysicalDevice &device, std::uint32_t api_version) {
+    if (api_version < VK_API_VERSION_1_2)
+        return "Vulkan 1.2 is needed, it has " + std::to_string(VK_API_VERSION_MAJOR(api_version)) + "." +
+               std::to_string(VK_API_VERSION_MINOR(api_version));
+    const auto computes = [](const vk::QueueFamilyProperties &family) {
+        return static_cast<bool>(family.queueFlags & vk::QueueFlagBits::eCompute);
+    };
+    if (!std::ranges::any_of(device.getQueueFamilyProperties(), computes))
+        return "it has no queue for compute";
+    return "";
+}
+
+std::uint64_t largest_device_heap(const vk::raii::PhysicalDevice &device) {
+    const vk::PhysicalDeviceMemoryProperties memory = device.getMemoryProperties();
+    std::uint64_t largest = 0;
+    for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & vk::MemoryHeapFlagBits::eDeviceLocal)
+            largest = std::max<std::uint64_t>(largest, memory.memoryHeaps[i].size);
+    return largest;
+}
+
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string uuid_digits(const pt_device_info &device) {
+    constexpr char digits[] = "0123456789abcdef";
+    std::string text;
+    for (const std::uint8_t byte : device.uuid) {
+        text += digits[byte >> 4];
+        text += digits[byte & 15];
+    }
+    return text;
+}
+
+bool is_uuid(const std::string &digits) {
+    return digits.size() == 32 && digits.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+bool is_index(const std::string &text) {
+    return !text.empty() && text.size() < 32 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// Why a device is not what was asked for by words; empty if it is. Indices are not handled here.
+std::string mismatch(const pt_device_info &device, const std::string &wanted) {
+    if (wanted.empty())
+        return "";
+    if (wanted == "cpu")
+        return device.kind == PT_DEVICE_CPU ? "" : "not a CPU";
+    if (wanted == "gpu")
+        return device.kind == PT_DEVICE_CPU || device.kind == PT_DEVICE_OTHER ? "not a GPU" : "";
+    std::string digits = wanted;
+    std::erase(digits, '-');
+    if (is_uuid(digits))
+        return uuid_digits(device) == digits ? "" : "another UUID";
+    return lower_case(device.name).find(wanted) != std::string::npos ? "" : "the name does not contain it";
+}
+
+// Lower is better.
+int rank(const pt_device_info &device) {
+    constexpr std::array best_first = {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU,
+                                       PT_DEVICE_CPU};
+    const auto found = std::ranges::find_if(
+        best_first, [&](int kind) { return static_cast<std::uint32_t>(kind) == device.kind; });
+    return static_cast<int>(found - best_first.begin());
+}
+
+std::size_t indexed_device(std::span<const pt_device_info> devices, const std::string &wanted) {
+    std::uint64_t index = UINT64_MAX;
+    std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (index >= devices.size())
+        throw Error(PT_ERROR_NO_DEVICE, "device = " + wanted + ": must be an index below " +
+                                            std::to_string(devices.size()) + ", the number of devices");
+    const pt_device_info &device = devices[index];
+    if (!device.suitable)
+        throw Error(PT_ERROR_NO_DEVICE, "device " + wanted + " (" + device.name + ") does not fit: " + device.reason);
+    return index;
+}
+
+} // namespace
+
+pt_device_info describe(const vk::raii::PhysicalDevice &device) {
+    const vk::PhysicalDeviceProperties basic = device.getProperties();
+    pt_device_info info{};
+    switch (basic.deviceType) {
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        info.kind = PT_DEVICE_INTEGRATED_GPU;
+        break;
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        info.kind = PT_DEVICE_DISCRETE_GPU;
+        break;
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        info.kind = PT_DEVICE_VIRTUAL_GPU;
+        break;
+    case vk::PhysicalDeviceType::eCpu:
+        info.kind = PT_DEVICE_CPU;
+        break;
+    default:
+        info.kind = PT_DEVICE_OTHER;
+    }
+    copy_text(info.name, basic.deviceName);
+    info.memory_bytes = largest_device_heap(device);
+    const std::string reason = unsuitable_reason(device, basic.apiVersion);
+    copy_text(info.reason, reason);
+    info.suitable = reason.empty() ? 1 : 0;
+    if (basic.apiVersion >= VK_API_VERSION_1_2) { // the properties below are part of it
+        const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceIDProperties,
+                                                 vk::PhysicalDeviceDriverProperties>();
+        const auto &uuid = chain.get<vk::PhysicalDeviceIDProperties>().deviceUUID;
+        std::copy(uuid.begin(), uuid.end(), info.uuid);
+        const auto &driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+        copy_text(info.driver, std::string(driver.driverName.data()) + ", " + driver.driverInfo.data());
+    }
+    return info;
+}
+
+std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted) {
+    if (is_index(wanted))
+        return indexed_device(devices, wanted);
+    const std::string words = lower_case(wanted);
+    std::size_t best = devices.size();
+    std::string reasons;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const std::string against = devices[i].suitable ? mismatch(devices[i], words) : devices[i].reason;
+        if (!against.empty())
+            reasons += "\n  " + std::to_string(i) + ": " + devices[i].name + ": " + against;
+        else if (best == devices.size() || rank(devices[i]) < rank(devices[best]))
+            best = i;
+    }
+    if (best == devices.size())
+        throw Error(PT_ERROR_NO_DEVICE,
+                    (wanted.empty() ? "no device fits:" : "no device fits \"" + wanted + "\":") + reasons);
+    return best;
+}
+
+} // namespace pt::vulkan

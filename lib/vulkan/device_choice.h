@@ -1,0 +1,20 @@
+// Describes the Vulkan devices and picks one. Used by Renderer and list_devices.
+#pragma once
+
+#include "api.h"
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace pt::vulkan {
+
+pt_device_info describe(const vk::raii::PhysicalDevice &device);
+
+// Index of the device that pt_create_info.device asks for, "" for the best. Throws PT_ERROR_NO_DEVICE with the reason
+// against each device if none fits.
+std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
+
+} // namespace pt::vulkan

@@ -1,0 +1,108 @@
+// Creation of the instance and the explanation of its failures; see instance.h.
+#include "vulkan/instance.h"
+
+#include "error.h"
+#include "vulkan/result.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace pt::vulkan {
+
+namespace {
+
+constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                          VkDebugUtilsMessageTypeFlagsEXT /*types*/,
+                                          const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
+    const int32_t level =
+        severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? PT_LOG_ERROR : PT_LOG_WARNING;
+    static_cast<const Log *>(user)->write(level, data->pMessage);
+    return VK_FALSE;
+}
+
+vk::DebugUtilsMessengerCreateInfoEXT messenger_info(const Log &log) {
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    return {.messageSeverity = Severity::eWarning | Severity::eError,
+            .messageType = Type::eGeneral | Type::eValidation | Type::ePerformance,
+            .pfnUserCallback = &on_message,
+            .pUserData = const_cast<Log *>(&log)};
+}
+
+template <typename Properties, typename Name>
+bool contains(const std::vector<Properties> &list, Name name, const char *wanted) {
+    return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
+}
+
+// What decides which drivers the loader finds, and what to do about it. The only place where the library reads the
+// environment: to explain it.
+std::string driver_advice(const vk::raii::Context &context) {
+    const std::uint32_t version = context.enumerateInstanceVersion();
+    std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+                         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+                         std::to_string(VK_API_VERSION_PATCH(version));
+    for (const char *name :
+         {"VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"})
+        if (const char *value = std::getenv(name))
+            advice += std::string(", ") + name + "=" + value;
+    return advice + "): install the GPU's Vulkan driver, or mesa-vulkan-drivers to render on the CPU";
+}
+
+} // namespace
+
+Instance::Instance(const Log &log, bool validation) : context_(&::vkGetInstanceProcAddr) {
+    std::vector<const char *> layers;
+    std::vector<const char *> extensions;
+    vk::InstanceCreateFlags flags;
+    if (contains(context_.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
+                 VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+        // Layered implementations are listed only to those who ask.
+        extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+        flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
+    }
+    if (validation) {
+        if (!contains(context_.enumerateInstanceLayerProperties(), &vk::LayerProperties::layerName, validation_layer))
+            throw Error(PT_ERROR_UNSUPPORTED, std::string("the validation layer ") + validation_layer +
+                                                  " is not installed (Debian: vulkan-validationlayers)");
+        layers.push_back(validation_layer);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    }
+    const vk::ApplicationInfo application{.pApplicationName = "pt", .apiVersion = VK_API_VERSION_1_2};
+    const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
+    try {
+        instance_ = vk::raii::Instance(context_, {.pNext = validation ? &messages : nullptr,
+                                                  .flags = flags,
+                                                  .pApplicationInfo = &application,
+                                                  .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                                  .ppEnabledLayerNames = layers.data(),
+                                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                                  .ppEnabledExtensionNames = extensions.data()});
+    } catch (const vk::OutOfHostMemoryError &) {
+        throw Error(PT_ERROR_OUT_OF_HOST_MEMORY, "creating the Vulkan instance: out of memory");
+    } catch (const vk::SystemError &error) {
+        throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context_));
+    }
+    if (validation)
+        messenger_.emplace(translated("creating the validation messenger", [&] {
+            return instance_.createDebugUtilsMessengerEXT(messages);
+        }));
+}
+
+std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
+    std::vector<vk::raii::PhysicalDevice> devices;
+    std::string reason = "the drivers found no device";
+    try {
+        devices = instance_.enumeratePhysicalDevices();
+    } catch (const vk::SystemError &error) {
+        reason = error.what();
+    }
+    if (devices.empty())
+        throw Error(PT_ERROR_NO_DEVICE, "no Vulkan device: " + reason + driver_advice(context_));
+    return devices;
+}
+
+} // namespace pt::vulkan

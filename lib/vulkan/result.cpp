@@ -1,0 +1,31 @@
+// Translation table; see result.h.
+#include "vulkan/result.h"
+
+namespace pt::vulkan {
+
+pt_result result_of(vk::Result result) {
+    switch (result) {
+    case vk::Result::eErrorOutOfHostMemory:
+        return PT_ERROR_OUT_OF_HOST_MEMORY;
+    case vk::Result::eErrorOutOfDeviceMemory:
+    case vk::Result::eErrorFragmentedPool:
+    case vk::Result::eErrorOutOfPoolMemory:
+    case vk::Result::eErrorTooManyObjects:
+        return PT_ERROR_OUT_OF_DEVICE_MEMORY;
+    case vk::Result::eErrorDeviceLost:
+        return PT_ERROR_DEVICE_LOST;
+    case vk::Result::eErrorInvalidShaderNV:
+        return PT_ERROR_SHADER;
+    case vk::Result::eErrorIncompatibleDriver:
+    case vk::Result::eErrorInitializationFailed:
+        return PT_ERROR_NO_DEVICE;
+    case vk::Result::eErrorLayerNotPresent:
+    case vk::Result::eErrorExtensionNotPresent:
+    case vk::Result::eErrorFeatureNotPresent:
+        return PT_ERROR_UNSUPPORTED;
+    default:
+        return PT_ERROR_INTERNAL;
+    }
+}
+
+} // namespace pt::vulkan

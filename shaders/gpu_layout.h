@@ -1,0 +1,93 @@
+// Everything that the host and the kernels must agree on: specialization constants, bindings, buffers, push constants.
+// Included by the GLSL sources and, for the host, by lib/gpu_scene.h, lib/film.h and lib/renderer.cpp.
+#ifndef PT_GPU_LAYOUT_H
+#define PT_GPU_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+namespace pt::gpu {
+using uint = std::uint32_t;
+using uvec2 = glm::uvec2;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+#define PT_CONSTANT constexpr uint
+#else
+#define PT_CONSTANT const uint
+#endif
+
+// ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
+PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres; the emitting ones come first
+PT_CONSTANT ID_PLANE_COUNT = 1;      // planes
+PT_CONSTANT ID_LAMP_COUNT = 2;       // spheres that emit
+PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
+PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
+PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
+PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
+PT_CONSTANT ID_SCENE_IN_UNIFORM = 7; // 1: the scene is read from the uniform buffer, 0: from the storage buffer
+PT_CONSTANT CONSTANT_COUNT = 8;
+
+// The numbers of pt.h's PT_ESTIMATOR_*.
+PT_CONSTANT ESTIMATOR_UNIFORM = 1;
+PT_CONSTANT ESTIMATOR_MIS = 5;
+
+// ---- Bindings of set 0 ---------------------------------------------------------------------------------------------
+PT_CONSTANT BINDING_SCENE_UNIFORM = 0;
+PT_CONSTANT BINDING_SCENE_STORAGE = 1;
+PT_CONSTANT BINDING_FILM = 2;
+PT_CONSTANT BINDING_PASS = 3;
+
+// Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
+PT_CONSTANT WORKGROUP_SIZE = 64;
+
+// ---- Scene buffer: an array of vec4, positions relative to the camera ------------------------------------------------
+// With S = spheres + planes and each block following the one before:
+//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset
+//   emission[S]       radiance R, G, B; mean of the three
+//   diffuse[S]        R, G, B; probability of choosing the specular lobe
+//   specular[S]       R, G, B; glossiness          (only with GLOSS)
+//   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
+// The uniform buffer has the 16 KiB that every Vulkan device offers.
+PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
+
+// ---- Film: planes of one uint per pixel of the strip -----------------------------------------------------------------
+// Words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least significant word
+// first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units (FrameConstants.film_scale).
+PT_CONSTANT FILM_SUM_WORDS = 4;
+PT_CONSTANT FILM_FRACTION_BITS = 64;
+PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
+PT_CONSTANT FILM_REJECTED = 13; // samples left out
+PT_CONSTANT FILM_WORDS = 14;
+// A sample is accepted if all its components, in film units, lie in [0, 2^28): 2^32 of them stay below 2^60.
+PT_CONSTANT FILM_MAX_EXPONENT = 28;
+
+// ---- Push constants ----------------------------------------------------------------------------------------------
+struct FrameConstants {
+    vec3 camera_right; // unit vector
+    float film_scale;  // radiance times this is in film units; a power of two
+    vec3 camera_up;    // unit vector
+    uint width;        // of the image, pixels
+    vec3 camera_forward; // as long as the image plane is far away in pixels
+    uint height;         // of the image, pixels
+    uvec2 seed;          // well mixed words made from pt_render.seed
+    uint strip_first_pixel; // index of the strip's first pixel in the image, row by row
+    uint strip_pixel_count;
+    uint first_pixel; // of this slice, in the strip
+    uint pixel_count;
+    uint first_sample; // index of the slice's first sample
+    uint sample_count; // >= 1
+    uint split_pass;   // 1: keep the slice's one sample per pixel aside, 0: add the samples to the film
+};
+
+#ifdef __cplusplus
+// Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
+static_assert(sizeof(FrameConstants) == 84 && sizeof(FrameConstants) <= 128);
+static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
+static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
+static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 80);
+} // namespace pt::gpu
+#endif
+#undef PT_CONSTANT
+
+#endif

@@ -1,0 +1,39 @@
+// The path tracer's kernel: each invocation takes sample_count samples of one pixel of a slice.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "gpu_layout.h"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { FrameConstants frame; };
+
+#include "film.glsl"
+#include "path.glsl"
+
+// One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there, so that
+// the film always holds whole samples. The last component counts the sample.
+layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pass;
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= frame.pixel_count)
+        return;
+    uint pixel_in_strip = frame.first_pixel + gl_GlobalInvocationID.x;
+    uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
+    uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
+
+    FilmPixel gathered = empty_film_pixel();
+    vec3 value;
+    uint done = 0u;
+    do {
+        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done);
+        value = path_radiance(frame, pixel, key) * frame.film_scale;
+        film_add(gathered, value);
+        ++done;
+    } while (done < frame.sample_count);
+
+    if (frame.split_pass == 1u)
+        split_pass.samples[pixel_in_strip] = vec4(value, 1.0);
+    else
+        film_store(pixel_in_strip, frame.strip_pixel_count, gathered);
+}

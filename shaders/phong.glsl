@@ -1,0 +1,75 @@
+// The physically-normalised Phong model: value, sampling, density. Used by path.glsl and lights.glsl.
+// f = diffuse / pi + specular (n + 2) / (2 pi) max(0, wo . r)^n with r the mirror direction (Lafortune and Willems, "Using
+// the Modified Phong Reflectance Model for Physically Based Rendering", 1994).
+#ifndef PHONG_GLSL
+#define PHONG_GLSL
+
+#include "sampling.glsl"
+#include "scene.glsl"
+#include "vertex.glsl"
+
+struct Material {
+    vec3 diffuse;
+    vec3 specular;
+    float glossiness;           // n
+    float specular_probability; // with which direction sampling chooses the specular lobe
+};
+
+Material material_of(uint surface)
+{
+    vec4 diffuse = diffuse_of(surface);
+    vec4 specular = specular_of(surface);
+    return Material(diffuse.rgb, specular.rgb, specular.a, GLOSS == 1 ? diffuse.a : 0.0);
+}
+
+// max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r.
+// With y = |wo - r|^2 / 2 = 1 - wo . r this is exp(n log(1 - y)); y from the chord keeps its relative precision as wo nears
+// r, where all of a glossy lobe lies. pow(wo . r, n) is 35% off at n = 1e6.
+float lobe_power(vec3 r, vec3 wo, float n)
+{
+    vec3 chord = wo - r;
+    float y = 0.5 * dot(chord, chord);
+    return y < 1.0 ? exp_negative(n * log_one_minus(y)) : 0.0;
+}
+
+// What a surface does with light along a direction.
+struct Reflection {
+    vec3 value;    // f times the cosine of the outgoing direction; 0 below the horizon
+    float density; // of choosing that direction by sample_direction, over solid angle
+};
+
+Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
+{
+    float cosine = max(dot(vertex.normal, outgoing), 0.0);
+    float p = material.specular_probability;
+    vec3 f = material.diffuse / PI;
+    float density = (1.0 - p) * cosine / PI;
+    if (GLOSS == 1) {
+        float n = material.glossiness;
+        float lobe = lobe_power(reflect(vertex.incoming, vertex.normal), outgoing, n) / (2.0 * PI);
+        f += material.specular * ((n + 2.0) * lobe);
+        density += p * (n + 1.0) * lobe;
+    }
+    return Reflection(f * cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
+}
+
+// Direction about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n + 1)),
+// taken as its distance from 1.
+vec3 lobe_direction(vec3 r, float n, vec2 u)
+{
+    return direction_about(r, one_minus_exp(log_one_minus(u.x) / (n + 1.0)), u.y);
+}
+
+// The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither redrawn nor
+// renormalised there, so that its density stays the one that reflection() states.
+vec3 sample_direction(Material material, Vertex vertex, vec3 u)
+{
+    if (ESTIMATOR == ESTIMATOR_UNIFORM)
+        return uniform_hemisphere_direction(vertex.normal, u.yz);
+    vec3 direction = cosine_hemisphere_direction(vertex.normal, u.yz);
+    if (GLOSS == 1 && u.x < material.specular_probability)
+        direction = lobe_direction(reflect(vertex.incoming, vertex.normal), material.glossiness, u.yz);
+    return direction;
+}
+
+#endif

@@ -1,0 +1,73 @@
+// Directions from random numbers, each with its density over solid angle. Used by phong.glsl and lights.glsl.
+#ifndef SAMPLING_GLSL
+#define SAMPLING_GLSL
+
+#include "maths.glsl"
+
+// A direction as polar angle from the z axis and azimuth about it. The polar angle is held by its cosine and sine: Vulkan
+// allows acos an error of 4096 ulp, and nothing here needs the angle itself.
+struct SphericalAngles {
+    float cos_polar;
+    float sin_polar;
+    float azimuth; // in turns, [0, 1)
+};
+
+// Two random numbers to the spherical angles of a direction uniform on the sphere, density 1 / (4 pi).
+// Archimedes: the cosine of the polar angle, 1 - 2 u, is uniform. Its sine is taken as 2 sqrt(u (1 - u)), since
+// sqrt(1 - cos^2) cancels at the poles.
+SphericalAngles uniform_spherical_angles(vec2 u)
+{
+    return SphericalAngles(1.0 - 2.0 * u.x, 2.0 * sqrt(u.x * (1.0 - u.x)), u.y);
+}
+
+// Spherical angles to a unit vector.
+vec3 spherical_direction(SphericalAngles angles)
+{
+    float sine, cosine;
+    sin_cos_turn(angles.azimuth, sine, cosine);
+    return vec3(angles.sin_polar * cosine, angles.sin_polar * sine, angles.cos_polar);
+}
+
+// Direction uniform on the hemisphere about the unit vector axis, density 1 / (2 pi): that of the sphere, mirrored up.
+vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
+{
+    vec3 direction = spherical_direction(uniform_spherical_angles(u));
+    return dot(direction, axis) < 0.0 ? -direction : direction;
+}
+
+// Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building an
+// Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included.
+vec3 rotate_to_axis(vec3 axis, vec3 v)
+{
+    float s = axis.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (s + axis.z);
+    float b = axis.x * axis.y * a;
+    vec3 tangent = vec3(1.0 + s * axis.x * axis.x * a, s * b, -s * axis.x);
+    vec3 bitangent = vec3(b, s + axis.y * axis.y * a, -axis.y);
+    return v.x * tangent + v.y * bitangent + v.z * axis;
+}
+
+// Direction about the unit vector axis with density cos(theta) / pi: a uniform point of the disc, lifted to the sphere
+// (Malley). The height is sqrt(1 - u), not sqrt(1 - x^2 - y^2), which cancels near the horizon.
+vec3 cosine_hemisphere_direction(vec3 axis, vec2 u)
+{
+    return rotate_to_axis(axis, spherical_direction(SphericalAngles(sqrt(1.0 - u.x), sqrt(u.x), u.y)));
+}
+
+// Direction in a cone about axis, given the distance one_minus_cos of its polar cosine from 1. With h = 1 - cos,
+// sin = sqrt(h (2 - h)) has no cancellation however narrow the cone.
+vec3 direction_about(vec3 axis, float one_minus_cos, float azimuth)
+{
+    float sin_polar = sqrt(one_minus_cos * (2.0 - one_minus_cos));
+    return rotate_to_axis(axis, spherical_direction(SphericalAngles(1.0 - one_minus_cos, sin_polar, azimuth)));
+}
+
+// Weight of a sample of density a in the power heuristic with exponent 2 against a technique of density b (Veach 1997,
+// section 9.2.4), a > 0, b >= 0. Through the ratio, so that no square overflows unless the weight is 0.
+float power_heuristic(float a, float b)
+{
+    float ratio = b / a;
+    return 1.0 / (1.0 + ratio * ratio);
+}
+
+#endif

@@ -1,0 +1,51 @@
+// Access to the scene buffer as gpu_layout.h describes it, and the constants that fit the kernel to the scene.
+// Used by intersect.glsl, phong.glsl, lights.glsl and path.glsl.
+#ifndef SCENE_GLSL
+#define SCENE_GLSL
+
+#include "gpu_layout.h"
+
+layout(constant_id = ID_SPHERE_COUNT) const uint SPHERE_COUNT = 1;
+layout(constant_id = ID_PLANE_COUNT) const uint PLANE_COUNT = 0;
+layout(constant_id = ID_LAMP_COUNT) const uint LAMP_COUNT = 0;
+layout(constant_id = ID_MAX_PATH_LENGTH) const uint MAX_PATH_LENGTH = 2;
+layout(constant_id = ID_ESTIMATOR) const uint ESTIMATOR = ESTIMATOR_MIS;
+layout(constant_id = ID_GLOSS) const uint GLOSS = 1;
+layout(constant_id = ID_MOTION) const uint MOTION = 1;
+layout(constant_id = ID_SCENE_IN_UNIFORM) const uint SCENE_IN_UNIFORM = 1;
+
+layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform { vec4 words[UNIFORM_SCENE_WORDS]; } scene_uniform;
+layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { vec4 words[]; } scene_storage;
+
+const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
+
+// A surface is its index: spheres first, then planes.
+const uint NO_SURFACE = 0xffffffffu;
+
+vec4 scene_word(uint index)
+{
+    return SCENE_IN_UNIFORM == 1 ? scene_uniform.words[index] : scene_storage.words[index];
+}
+
+// Sphere: centre as the shutter opens and radius. Plane: unit normal and offset.
+vec4 geometry_of(uint surface) { return scene_word(surface); }
+
+// Radiance and its mean.
+vec4 emission_of(uint surface) { return scene_word(SURFACE_COUNT + surface); }
+
+// Diffuse albedo and the probability of choosing the specular lobe.
+vec4 diffuse_of(uint surface) { return scene_word(2u * SURFACE_COUNT + surface); }
+
+// Specular factor and glossiness.
+vec4 specular_of(uint surface) { return GLOSS == 1 ? scene_word(3u * SURFACE_COUNT + surface) : vec4(0.0); }
+
+// Centre and radius at a time, from 0 (shutter opens) to 1 (shutter closes): the one function that tracing, lamp sampling and densities share.
+vec4 sphere_at(uint sphere, float time)
+{
+    vec4 centre_radius = geometry_of(sphere);
+    if (MOTION == 1)
+        centre_radius.xyz += time * scene_word((3u + GLOSS) * SURFACE_COUNT + sphere).xyz;
+    return centre_radius;
+}
+
+#endif

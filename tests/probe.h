@@ -1,0 +1,36 @@
+// Runs a small kernel that calls the shipped shader functions on the device, for the tests that compare their results.
+#pragma once
+
+#include "vulkan/compute_pipeline.h"
+#include "vulkan/device.h"
+#include "vulkan/instance.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+// The device that all probes of a test program share, with the validation layer unless PT_TEST_NO_VALIDATION is set.
+pt::vulkan::Device &probe_device();
+
+class Probe {
+public:
+    Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes);
+
+    // Gives the kernel input (binding 3) and push constants, runs one invocation per item of invocations, and returns
+    // output_count values (binding 2, zero before). Guard words after the output must survive.
+    template <typename Output, typename Push>
+    std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
+                            std::uint32_t invocations) {
+        std::vector<Output> output(output_count);
+        run_bytes(std::as_bytes(input), std::as_writable_bytes(std::span(output)), std::as_bytes(std::span(&push, 1)),
+                  invocations);
+        return output;
+    }
+
+private:
+    void run_bytes(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
+                   std::uint32_t invocations);
+
+    pt::vulkan::ComputePipeline pipeline_;
+};

@@ -1,0 +1,32 @@
+// Draws directions with the shipped sampling functions: one per invocation.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "phong.glsl"
+#include "random.glsl"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { vec4 axis; uint kind; float glossiness; uint seed; uint count; };
+layout(set = 0, binding = 2) writeonly buffer Output { vec4 directions[]; };
+
+const uint UNIFORM_SPHERE = 0u;
+const uint UNIFORM_HEMISPHERE = 1u;
+const uint COSINE_HEMISPHERE = 2u;
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= count)
+        return;
+    vec2 u = random_4d(SampleKey(uvec2(seed, 7u), index, 0u), BLOCK_CAMERA).xy;
+    vec3 direction;
+    if (kind == UNIFORM_SPHERE)
+        direction = spherical_direction(uniform_spherical_angles(u));
+    else if (kind == UNIFORM_HEMISPHERE)
+        direction = uniform_hemisphere_direction(axis.xyz, u);
+    else if (kind == COSINE_HEMISPHERE)
+        direction = cosine_hemisphere_direction(axis.xyz, u);
+    else
+        direction = lobe_direction(axis.xyz, glossiness, u);
+    directions[index] = vec4(direction, 0.0);
+}

@@ -1,0 +1,23 @@
+// Adds given samples, per_pixel of them to each pixel, with the shipped film functions.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "film.glsl"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { uint per_pixel; uint count; };
+layout(set = 0, binding = 3) readonly buffer Input { vec4 samples[]; };
+
+void main()
+{
+    uint pixel = gl_GlobalInvocationID.x;
+    if (pixel >= count)
+        return;
+    FilmPixel gathered = empty_film_pixel();
+    uint i = 0u;
+    do {
+        film_add(gathered, samples[pixel * per_pixel + i].rgb);
+        ++i;
+    } while (i < per_pixel);
+    film_store(pixel, count, gathered);
+}

@@ -1,0 +1,21 @@
+// Copies every push constant out, so that the host can see where the kernel reads each.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "gpu_layout.h"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { FrameConstants frame; };
+layout(set = 0, binding = 2) writeonly buffer Output { vec4 values[]; };
+
+void main()
+{
+    if (gl_GlobalInvocationID.x != 0u)
+        return;
+    values[0] = vec4(frame.camera_right, frame.film_scale);
+    values[1] = vec4(frame.camera_up, frame.width);
+    values[2] = vec4(frame.camera_forward, frame.height);
+    values[3] = vec4(frame.seed, frame.strip_first_pixel, frame.strip_pixel_count);
+    values[4] = vec4(frame.first_pixel, frame.pixel_count, frame.first_sample, frame.sample_count);
+    values[5] = vec4(frame.split_pass);
+}
