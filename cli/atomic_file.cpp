@@ -23,8 +23,7 @@ std::filesystem::path follow_links(const std::string &path) {
 
 } // namespace
 
-AtomicFile::AtomicFile(const std::string &path) :
-    path_(path), target_(follow_links(path)), file_(create_temporary()) {}
+AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(follow_links(path)), file_(create_temporary()) {}
 
 AtomicFile::~AtomicFile() {
     if (file_.is_open()) {

@@ -12,7 +12,7 @@
 namespace cli {
 
 class AtomicFile {
-  public:
+public:
     // Creates the temporary file. Like the others throws Failure(ExitCode::file), which says why.
     explicit AtomicFile(const std::string &path);
     AtomicFile(const AtomicFile &) = delete;
@@ -25,7 +25,7 @@ class AtomicFile {
     // All that the constructor checks, and leaves nothing behind.
     static void check_writable(const std::string &path) { const AtomicFile probe(path); }
 
-  private:
+private:
     [[noreturn]] void fail(int error) const;
     void refuse_unsuitable_target() const;
     FileDescriptor create_temporary();

@@ -32,11 +32,11 @@ inline constexpr const char *exit_code_help = "Exit codes:\n"
                                               "  143  SIGTERM: the same\n";
 
 class Failure : public std::runtime_error {
-  public:
+public:
     Failure(ExitCode code, const std::string &message) : std::runtime_error(message), code_(code) {}
     ExitCode code() const { return code_; }
 
-  private:
+private:
     ExitCode code_;
 };
 

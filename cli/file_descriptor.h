@@ -8,7 +8,7 @@
 namespace cli {
 
 class FileDescriptor {
-  public:
+public:
     explicit FileDescriptor(int descriptor) : descriptor_(descriptor) {}
     FileDescriptor(const FileDescriptor &) = delete;
     FileDescriptor &operator=(const FileDescriptor &) = delete;
@@ -24,7 +24,7 @@ class FileDescriptor {
         }
     }
 
-  private:
+private:
     int descriptor_;
 };
 

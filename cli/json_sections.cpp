@@ -17,9 +17,11 @@ namespace {
 using nlohmann::json;
 
 class SectionParser : public nlohmann::json_sax<json> {
-  public:
+public:
     SectionParser(std::string_view text, const std::string &file_name, JsonSectionHandler &handler) :
-        text_(text), root_{nullptr, file_name, 0, false}, handler_(handler) {}
+        text_(text),
+        root_{nullptr, file_name, 0, false},
+        handler_(handler) {}
 
     bool null() override { return scalar(nullptr); }
     bool boolean(bool value) override { return scalar(value); }
@@ -35,7 +37,7 @@ class SectionParser : public nlohmann::json_sax<json> {
     bool key(string_t &name) override;
     bool parse_error(std::size_t position, const std::string &token, const json::exception &error) override;
 
-  private:
+private:
     // An array or object that is open, and where in it the parser is.
     struct Level {
         bool is_array;
@@ -52,7 +54,8 @@ class SectionParser : public nlohmann::json_sax<json> {
     bool end();
     json *add(json value);
     void count_element();
-    template <typename Use> void with_place(Use use) const;
+    template <typename Use>
+    void with_place(Use use) const;
 
     std::string_view text_;
     JsonPlace root_;
@@ -65,7 +68,8 @@ class SectionParser : public nlohmann::json_sax<json> {
 };
 
 // Calls use(place) with the place of the value that begins now.
-template <typename Use> void SectionParser::with_place(Use use) const {
+template <typename Use>
+void SectionParser::with_place(Use use) const {
     std::vector<JsonPlace> places{root_};
     places.reserve(levels_.size() + 1); // elements point to each other and must not move
     for (const Level &level : levels_) {
@@ -152,7 +156,8 @@ bool SectionParser::parse_error(std::size_t position, const std::string &token, 
         count_element();
         with_place([&](const JsonPlace &place) { refuse(place, "the number " + token + " is too large"); });
     }
-    const std::string_view before = text_.substr(0, std::min(position, text_.size() + 1) - std::min<std::size_t>(position, 1));
+    const std::string_view before =
+        text_.substr(0, std::min(position, text_.size() + 1) - std::min<std::size_t>(position, 1));
     const auto line = std::count(before.begin(), before.end(), '\n') + 1;
     const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 = 0: the first line
     // "[json.exception...] parse error at line 1, column 2: syntax error while ...": the position is said already.

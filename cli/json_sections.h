@@ -12,7 +12,7 @@
 namespace cli {
 
 class JsonSectionHandler {
-  public:
+public:
     virtual ~JsonSectionHandler() = default;
 
     // A member of the root begins; kind is what it is. Places are valid during the call.

@@ -29,7 +29,8 @@ std::string shown(const json &value) {
     refuse(place, rule + ", is " + shown(value));
 }
 
-template <std::size_t Count> std::array<double, Count> read_numbers(const json &value, const JsonPlace &place) {
+template <std::size_t Count>
+std::array<double, Count> read_numbers(const json &value, const JsonPlace &place) {
     const std::string rule = "must be an array of " + std::to_string(Count) + " numbers";
     if (!value.is_array()) {
         refuse_value(value, place, rule);
@@ -129,9 +130,13 @@ std::string_view read_text(const json &value, const JsonPlace &place) {
     return value.get_ref<const std::string &>();
 }
 
-std::array<double, 3> read_vector(const json &value, const JsonPlace &place) { return read_numbers<3>(value, place); }
+std::array<double, 3> read_vector(const json &value, const JsonPlace &place) {
+    return read_numbers<3>(value, place);
+}
 
-std::array<double, 2> read_pair(const json &value, const JsonPlace &place) { return read_numbers<2>(value, place); }
+std::array<double, 2> read_pair(const json &value, const JsonPlace &place) {
+    return read_numbers<2>(value, place);
+}
 
 std::array<float, 3> read_colour(const json &value, const JsonPlace &place) {
     if (value.is_number()) {
@@ -153,7 +158,8 @@ void refuse_unknown_key(const JsonPlace &object, std::string_view key, std::span
 }
 
 JsonObject::JsonObject(const json &value, const JsonPlace &place, std::initializer_list<std::string_view> known) :
-    value_(value), place_(place) {
+    value_(value),
+    place_(place) {
     if (!value.is_object()) {
         refuse_value(value, place, "must be an object");
     }

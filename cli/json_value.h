@@ -49,13 +49,13 @@ std::array<float, 3> read_colour(const nlohmann::json &value, const JsonPlace &p
 
 // An object whose every key is known.
 class JsonObject {
-  public:
+public:
     JsonObject(const nlohmann::json &value, const JsonPlace &place, std::initializer_list<std::string_view> known);
 
-    const nlohmann::json *find(const char *key) const;   // nullptr if absent
+    const nlohmann::json *find(const char *key) const;    // nullptr if absent
     const nlohmann::json &require(const char *key) const; // refused if absent
 
-  private:
+private:
     const nlohmann::json &value_;
     const JsonPlace &place_;
 };

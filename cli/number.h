@@ -11,7 +11,8 @@
 
 namespace cli {
 
-template <typename Number> std::optional<Number> parse_number(std::string_view text) {
+template <typename Number>
+std::optional<Number> parse_number(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || end != text.data() + text.size()) {

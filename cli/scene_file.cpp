@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <sstream>
 #include <unordered_map>
 
 namespace cli {
@@ -34,7 +35,7 @@ void store(const std::array<Number, Count> &from, Number (&destination)[Count]) 
 }
 
 class SceneReader : public JsonSectionHandler {
-  public:
+public:
     explicit SceneReader(SceneFile &scene);
 
     void begin_section(const JsonPlace &place, json::value_t kind) override;
@@ -43,7 +44,7 @@ class SceneReader : public JsonSectionHandler {
     // What can be said only at the end of the file.
     void finish(const JsonPlace &root);
 
-  private:
+private:
     using ItemReader = void (SceneReader::*)(const JsonPlace &, const json &);
 
     void camera_item(const JsonPlace &place, const json &value);
@@ -131,8 +132,7 @@ void SceneReader::camera_item(const JsonPlace &place, const json &value) {
         camera.shutter_open = open;
         // pt.h takes [0, 0] as its default, the whole of [0, 1]. Here it is the instant 0, and the smallest number
         // after 0 makes an interval in which nothing moves.
-        camera.shutter_close =
-            open == 0.0 && close == 0.0 ? std::numeric_limits<double>::denorm_min() : close;
+        camera.shutter_close = open == 0.0 && close == 0.0 ? std::numeric_limits<double>::denorm_min() : close;
     } else {
         refuse_unknown_key(*place.parent, place.key, known);
     }
@@ -251,6 +251,22 @@ void SceneReader::finish(const JsonPlace &root) {
     }
 }
 
+std::string explain_line(const SceneFile &scene, std::string line) {
+    constexpr std::string_view target = "camera.target";
+    constexpr std::string_view array = "materials[";
+    if (line.starts_with(target)) {
+        line.replace(0, target.size(), "camera.look_at"); // the file's word for it
+    }
+    if (line.starts_with(array)) {
+        const std::string_view index_text = std::string_view(line).substr(array.size(), line.find(']') - array.size());
+        const auto index = parse_number<std::size_t>(index_text);
+        if (index && *index < scene.material_names.size()) {
+            line += " (material \"" + scene.material_names[*index] + "\")";
+        }
+    }
+    return scene.path + ": " + line;
+}
+
 } // namespace
 
 pt_scene SceneFile::scene() const {
@@ -266,22 +282,12 @@ pt_scene SceneFile::scene() const {
 }
 
 std::string SceneFile::explain(const std::string &message) const {
-    constexpr std::string_view array = "materials[";
-    constexpr std::string_view target = "camera.target";
-    std::string explained = message;
-    if (const std::size_t found = explained.find(target); found != std::string::npos) {
-        explained.replace(found, target.size(), "camera.look_at"); // the file's word for it
+    std::istringstream lines(message); // one for each broken rule
+    std::string explained;
+    for (std::string line; std::getline(lines, line);) {
+        explained += (explained.empty() ? "" : "\n") + explain_line(*this, line);
     }
-    if (const std::size_t found = explained.find(array); found != std::string::npos) {
-        const std::size_t digits = found + array.size();
-        const std::size_t end = explained.find(']', digits);
-        const auto index = parse_number<std::size_t>(std::string_view(explained).substr(
-            digits, end == std::string::npos ? 0 : end - digits));
-        if (index && *index < material_names.size()) {
-            explained += " (material \"" + material_names[*index] + "\")";
-        }
-    }
-    return path + ": " + explained;
+    return explained;
 }
 
 SceneFile parse_scene(std::string_view text, const std::string &path) {
@@ -293,6 +299,8 @@ SceneFile parse_scene(std::string_view text, const std::string &path) {
     return scene;
 }
 
-SceneFile read_scene_file(const std::string &path) { return parse_scene(read_file(path), path); }
+SceneFile read_scene_file(const std::string &path) {
+    return parse_scene(read_file(path), path);
+}
 
 } // namespace cli

@@ -29,7 +29,7 @@ struct SceneFile {
 
     pt_scene scene() const; // points into this object
 
-    // The library's "materials[1].glossiness = -1: must be >= 0", with the file and the material's name added.
+    // The library's lines "materials[1].glossiness = -1: must be >= 0", with the file and the material's name added.
     std::string explain(const std::string &message) const;
 };
 

@@ -10,7 +10,9 @@
 namespace cli {
 namespace {
 
-char lower(char letter) { return static_cast<char>(std::tolower(static_cast<unsigned char>(letter))); }
+char lower(char letter) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
 
 // Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours (Damerau 1964, which
 // found that four misspellings in five are one of these), ignoring case. Three rows of the table are kept.

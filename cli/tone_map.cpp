@@ -138,11 +138,10 @@ std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const T
     const double scale = std::exp2(map.exposure);
     std::vector<std::uint8_t> bytes(radiance.size());
     for (std::size_t i = 0; i < radiance.size(); i += 3) {
-        const Colour light = apply_curve(
-            map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
+        const Colour light =
+            apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double signal =
-                map.gamma ? std::pow(light[channel], 1.0 / *map.gamma) : encode_srgb(light[channel]);
+            const double signal = map.gamma ? std::pow(light[channel], 1.0 / *map.gamma) : encode_srgb(light[channel]);
             // lround rounds halves away from 0; no dither, so that equal pictures are equal files.
             bytes[i + channel] = static_cast<std::uint8_t>(std::lround(signal * 255.0));
         }

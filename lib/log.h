@@ -18,7 +18,7 @@ struct Log {
         if (!function)
             return;
         try {
-            for (std::string::size_type start = 0; start <= message.size();) {
+            for (std::string::size_type start = 0; start < message.size();) {
                 const std::string::size_type end = std::min(message.find('\n', start), message.size());
                 function(user, level, message.substr(start, end - start).c_str());
                 start = end + 1;

@@ -49,7 +49,7 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     if (SPHERE_COUNT > 0u) {
         uint i = 0u;
-        do {
+        [[unroll]] do {
             vec4 sphere = sphere_at(i, time);
             keep_closer(hit, sphere_distance(sphere.xyz - origin, sphere.w, direction, false), i);
             ++i;
@@ -57,7 +57,7 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
     }
     if (PLANE_COUNT > 0u) {
         uint i = SPHERE_COUNT;
-        do {
+        [[unroll]] do {
             vec4 plane = geometry_of(i);
             keep_closer(hit, plane_distance(dot(plane.xyz, origin) + plane.w, plane.xyz, direction, false), i);
             ++i;
@@ -81,7 +81,7 @@ Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction
     blocked = false;
     if (SPHERE_COUNT > 0u) {
         uint i = 0u;
-        do {
+        [[unroll]] do {
             vec4 sphere = sphere_at(i, time);
             vec3 to_centre = sphere.xyz - origin;
             keep_closer(hit, sphere_distance(to_centre, sphere.w, direction, i == leaving), i);
@@ -92,7 +92,7 @@ Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction
     }
     if (PLANE_COUNT > 0u) {
         uint i = SPHERE_COUNT;
-        do {
+        [[unroll]] do {
             vec4 plane = geometry_of(i);
             float height = dot(plane.xyz, origin) + plane.w;
             keep_closer(hit, plane_distance(height, plane.xyz, direction, i == leaving), i);

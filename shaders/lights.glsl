@@ -48,7 +48,7 @@ LampChoice lamp_choice(Vertex vertex, float time)
 {
     LampChoice choice = LampChoice(0.0, 0.0);
     uint lamp = 0u;
-    do {
+    [[unroll]] do {
         float weight = view_lamp(vertex, lamp, time).weight;
         choice.total_weight += weight;
         choice.lamp_count += weight > 0.0 ? 1.0 : 0.0;
@@ -87,7 +87,7 @@ uint choose_lamp(Vertex vertex, LampChoice choice, float time, float u)
     if (LAMP_COUNT > 1u) {
         float cumulated = 0.0;
         uint lamp = 0u;
-        do {
+        [[unroll]] do {
             float probability = lamp_probability(choice, view_lamp(vertex, lamp, time).weight);
             chosen = cumulated <= u && probability > 0.0 ? lamp : chosen;
             cumulated += probability;

@@ -1,6 +1,7 @@
 // The path tracer's kernel: each invocation takes sample_count samples of one pixel of a slice.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "gpu_layout.h"
 

@@ -31,8 +31,8 @@ std::vector<glm::vec4> draw(const Case &test_case, std::uint32_t seed) {
         std::uint32_t kind;
         float glossiness;
         std::uint32_t seed, count;
-    } push{glm::vec4(glm::normalize(test_case.axis), 0.0F), test_case.kind, static_cast<float>(test_case.exponent), seed,
-           samples};
+    } push{glm::vec4(glm::normalize(test_case.axis), 0.0F), test_case.kind, static_cast<float>(test_case.exponent),
+           seed, samples};
     return Probe(directions_spirv, sizeof push).run<glm::vec4>({}, samples, push, samples);
 }
 
@@ -69,8 +69,7 @@ double quantile(const Case &test_case, double share) {
 double deviate(const Case &test_case, const std::vector<glm::vec4> &directions) {
     constexpr int bands = 31;
     constexpr int sectors = 33;
-    const glm::dvec3 axis =
-        test_case.kind == uniform_sphere ? glm::dvec3(0, 0, 1) : glm::normalize(test_case.axis);
+    const glm::dvec3 axis = test_case.kind == uniform_sphere ? glm::dvec3(0, 0, 1) : glm::normalize(test_case.axis);
     const glm::dvec3 helper = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 tangent = glm::normalize(glm::cross(axis, helper));
     const glm::dvec3 bitangent = glm::cross(axis, tangent);
@@ -83,7 +82,8 @@ double deviate(const Case &test_case, const std::vector<glm::vec4> &directions) 
         const glm::dvec3 direction(drawn);
         const auto band = std::upper_bound(bounds.begin(), bounds.end(), glm::dot(direction, axis)) - bounds.begin();
         const double azimuth = std::atan2(glm::dot(direction, bitangent), glm::dot(direction, tangent));
-        const int sector = std::min(static_cast<int>((azimuth / (2.0 * std::numbers::pi) + 0.5) * sectors), sectors - 1);
+        const int sector =
+            std::min(static_cast<int>((azimuth / (2.0 * std::numbers::pi) + 0.5) * sectors), sectors - 1);
         ++observed[static_cast<std::size_t>(band * sectors + sector)];
     }
     const std::vector<double> expected(observed.size(), static_cast<double>(samples) / (bands * sectors));
@@ -117,7 +117,8 @@ TEST_P(Directions, FollowTheirDensity) {
         const glm::dvec3 across = direction - cosine * axis;
         const double sine = glm::length(across);
         if (sine > 0.0)
-            drawn = glm::vec4(glm::vec3(moved * axis + std::sqrt(std::max(0.0, 1.0 - moved * moved)) / sine * across), 0);
+            drawn =
+                glm::vec4(glm::vec3(moved * axis + std::sqrt(std::max(0.0, 1.0 - moved * moved)) / sine * across), 0);
     }
     EXPECT_GT(deviate(GetParam(), wrong), bound);
 }

@@ -5,6 +5,8 @@
 #include "vulkan/device.h"
 #include "vulkan/instance.h"
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -1,6 +1,7 @@
 // Draws directions with the shipped sampling functions: one per invocation.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "phong.glsl"
 #include "random.glsl"

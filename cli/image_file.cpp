@@ -1,0 +1,142 @@
+// Owns the writing of images: which formats there are, and the module that encodes them.
+// Called by render_command.
+#include "image_file.h"
+
+#include "atomic_file.h"
+#include "exit_code.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <dlfcn.h>
+#include <filesystem>
+#include <unistd.h>
+
+namespace cli {
+namespace {
+
+// PT_MODULE_DIRECTORY is relative to the program, so that an installed tree can be moved.
+std::filesystem::path module_path() {
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+    return (program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so").lexically_normal();
+}
+
+// Never unloaded: OpenImageIO keeps threads and static objects.
+pt_encode_image_fn load_module(const std::filesystem::path &path) {
+    void *module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void *symbol = module == nullptr ? nullptr : dlsym(module, PT_ENCODE_IMAGE_SYMBOL);
+    if (symbol == nullptr) {
+        throw Failure(ExitCode::internal, std::string("cannot load the image module: ") + dlerror());
+    }
+    return reinterpret_cast<pt_encode_image_fn>(symbol);
+}
+
+const char *module_extension(ImageFormat format) {
+    switch (format) {
+    case ImageFormat::exr:
+        return "exr";
+    case ImageFormat::png:
+        return "png";
+    case ImageFormat::jpeg:
+        break;
+    }
+    return "jpg";
+}
+
+// What became of writing the encoded bytes. The sink runs under the module's C frame, which no exception may cross.
+struct Sink {
+    AtomicFile &file;
+    std::exception_ptr error;
+
+    static void receive(void *user, const void *bytes, std::size_t size) {
+        auto *sink = static_cast<Sink *>(user);
+        try {
+            sink->file.write({static_cast<const std::byte *>(bytes), size});
+        } catch (...) {
+            sink->error = std::current_exception();
+        }
+    }
+};
+
+} // namespace
+
+std::optional<ImageFormat> image_format(const std::string &path) {
+    std::string extension = std::filesystem::path(path).extension();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    if (extension == ".exr") {
+        return ImageFormat::exr;
+    }
+    if (extension == ".png") {
+        return ImageFormat::png;
+    }
+    if (extension == ".jpg" || extension == ".jpeg") {
+        return ImageFormat::jpeg;
+    }
+    return std::nullopt;
+}
+
+std::uint32_t longest_side(ImageFormat format) {
+    switch (format) {
+    case ImageFormat::exr:
+        break;
+    case ImageFormat::png:
+        return 1'000'000; // libpng's default limit
+    case ImageFormat::jpeg:
+        return 65'500; // JPEG_MAX_DIMENSION of libjpeg
+    }
+    return 2'147'483'647; // sizes are 32-bit signed numbers
+}
+
+ImageWriter::ImageWriter() {
+    const std::filesystem::path path = module_path();
+    if (access(path.c_str(), R_OK) != 0) {
+        throw Failure(ExitCode::internal, "the image module is missing: " + path.string());
+    }
+    encode_ = std::async(std::launch::async, [this, path] {
+        try {
+            return load_module(path);
+        } catch (...) {
+            failed_ = true;
+            throw;
+        }
+    });
+}
+
+void ImageWriter::write_radiance(const std::string &path, std::uint32_t width, std::uint32_t height,
+                                 std::span<const float> radiance, std::span<const pt_image_attribute> attributes) {
+    pt_image_data image{};
+    image.width = width;
+    image.height = height;
+    image.radiance = radiance.data();
+    write(path, image, attributes);
+}
+
+void ImageWriter::write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
+                              std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes) {
+    pt_image_data image{};
+    image.width = width;
+    image.height = height;
+    image.bytes = bytes.data();
+    write(path, image, attributes);
+}
+
+void ImageWriter::write(const std::string &path, pt_image_data image, std::span<const pt_image_attribute> attributes) {
+    const pt_encode_image_fn encode = encode_.get();
+    AtomicFile file(path);
+    Sink sink{file, nullptr};
+    std::array<char, 512> message{};
+    image.extension = module_extension(image_format(path).value());
+    image.attributes = attributes.data();
+    image.attribute_count = attributes.size();
+    if (encode(&image, &Sink::receive, &sink, message.data(), message.size()) != 0) {
+        throw Failure(ExitCode::file, "cannot write " + path + ": " + message.data());
+    }
+    if (sink.error) {
+        std::rethrow_exception(sink.error);
+    }
+    file.commit();
+}
+
+} // namespace cli

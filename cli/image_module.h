@@ -1,0 +1,37 @@
+// Owns the interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261
+// shared objects and 0.2 s are paid only when an image is written. Called by image_file.cpp, implemented by
+// image_module.cpp. Plain C types, no exceptions across it.
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+extern "C" {
+
+struct pt_image_attribute {
+    const char *name;
+    const char *text; // NULL: a number
+    double number;
+    int32_t is_float; // 1: a number written as float32; 0: as int32
+    int32_t reserved;
+};
+
+struct pt_image_data {
+    const char *extension; // "exr", "png" or "jpg"
+    uint32_t width;
+    uint32_t height;
+    const float *radiance; // R, G, B triples for "exr", else NULL
+    const uint8_t *bytes;  // R, G, B triples for the others, else NULL
+    const pt_image_attribute *attributes;
+    size_t attribute_count;
+};
+
+// Receives the whole encoded file. Must not throw.
+typedef void (*pt_image_sink)(void *user, const void *bytes, size_t size);
+
+// Encodes an image in memory. Returns 0, or -1 with a zero-terminated reason in message.
+typedef int32_t (*pt_encode_image_fn)(const pt_image_data *image, pt_image_sink sink, void *user, char *message,
+                                      size_t message_size);
+}
+
+#define PT_ENCODE_IMAGE_SYMBOL "pt_encode_image"

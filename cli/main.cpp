@@ -1,0 +1,65 @@
+// Owns the program `pt`: the choice of a subcommand, and the end of every exception in an exit code.
+#include "devices_command.h"
+#include "exit_code.h"
+#include "message.h"
+#include "render_command.h"
+#include "render_options.h"
+#include "render_report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace {
+
+int fail(cli::ExitCode code, const std::string &message) {
+    cli::print_message(message);
+    return static_cast<int>(code);
+}
+
+int parse_and_run(int argument_count, char **arguments) {
+    CLI::App program("pt: an offscreen path tracer for spheres and planes on any Vulkan device", "pt");
+    program.footer(cli::exit_code_help);
+    program.set_version_flag("--version", "pt " + cli::version_text());
+    program.require_subcommand(1);
+
+    cli::RenderOptions options;
+    CLI::App *render = program.add_subcommand("render", "Render a scene file to images");
+    cli::add_render_options(*render, options);
+    render->footer("A file that cannot be written whole is left as it was.\n\n" + std::string(cli::exit_code_help));
+
+    bool as_json = false;
+    CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
+    devices->add_flag("--json", as_json, "Print JSON");
+
+    try {
+        program.parse(argument_count, arguments);
+    } catch (const CLI::ParseError &error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+            return program.exit(error); // --help and --version
+        }
+        return fail(cli::ExitCode::usage, std::string(error.what()) + " (see `pt --help`, `pt render --help`)");
+    }
+    return render->parsed() ? cli::run_render(options) : cli::run_devices(as_json);
+}
+
+} // namespace
+
+int main(int argument_count, char **arguments) {
+    int code = 0;
+    try {
+        code = parse_and_run(argument_count, arguments);
+    } catch (const cli::Failure &failure) {
+        return fail(failure.code(), failure.what());
+    } catch (const std::bad_alloc &) {
+        return fail(cli::ExitCode::internal, "out of memory");
+    } catch (const std::exception &error) {
+        return fail(cli::ExitCode::internal, std::string("internal error: ") + error.what());
+    }
+    if (!std::cout.flush()) {
+        return fail(cli::ExitCode::file, "cannot write to standard output");
+    }
+    return code;
+}

@@ -1,0 +1,90 @@
+// Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
+// Called by render_command from the library's progress callback.
+#include "progress.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace cli {
+namespace {
+
+constexpr std::chrono::milliseconds update_interval{100};
+constexpr const char *erase_line = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long long>(std::ceil(seconds));
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+    return text.data();
+}
+
+// What is left, if it goes on as it went so far.
+double remaining_seconds(double fraction, double seconds) {
+    return seconds * (1.0 - fraction) / fraction;
+}
+
+} // namespace
+
+ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal) {
+    if (quiet || name == "none") {
+        return ProgressStyle::none;
+    }
+    if (name == "json") {
+        return ProgressStyle::json;
+    }
+    return is_terminal ? ProgressStyle::line : ProgressStyle::none;
+}
+
+Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint32_t sample_count,
+                   Clock::time_point start) :
+    output_(output),
+    style_(style),
+    pixel_count_(static_cast<double>(pixel_count)),
+    sample_count_(sample_count),
+    start_(start),
+    next_update_(start) {}
+
+Progress::~Progress() {
+    if (style_ == ProgressStyle::line) {
+        output_ << erase_line << std::flush;
+    }
+}
+
+void Progress::update(double fraction, Clock::time_point now) {
+    if (style_ == ProgressStyle::none || fraction <= 0.0 || (now < next_update_ && fraction < 1.0)) {
+        return;
+    }
+    next_update_ = now + update_interval;
+    // Below the clock's resolution there is no speed to tell.
+    const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
+    if (style_ == ProgressStyle::json) {
+        print_json(fraction, seconds);
+    } else {
+        print_line(fraction, seconds);
+    }
+}
+
+void Progress::print_line(double fraction, double seconds) {
+    const double samples = fraction * sample_count_;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%u spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction,
+                  std::floor(samples), sample_count_, samples * pixel_count_ / seconds * 1e-6,
+                  duration_text(remaining_seconds(fraction, seconds)).c_str());
+    output_ << erase_line << text.data() << std::flush;
+}
+
+void Progress::print_json(double fraction, double seconds) {
+    const double samples = fraction * sample_count_;
+    const nlohmann::ordered_json line{{"fraction", fraction},
+                                      {"samples_per_pixel", static_cast<std::uint32_t>(samples)},
+                                      {"samples_per_pixel_total", sample_count_},
+                                      {"paths_per_second", samples * pixel_count_ / seconds},
+                                      {"seconds", seconds},
+                                      {"eta_seconds", remaining_seconds(fraction, seconds)}};
+    output_ << line.dump() << std::endl;
+}
+
+} // namespace cli

@@ -1,0 +1,43 @@
+// Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
+// Called by render_command from the library's progress callback.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <ostream>
+#include <string>
+
+namespace cli {
+
+enum class ProgressStyle { none, line, json };
+
+class Progress {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    // pixel_count times sample_count paths are to be traced from now on.
+    Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint32_t sample_count,
+             Clock::time_point start);
+    Progress(const Progress &) = delete;
+    Progress &operator=(const Progress &) = delete;
+    ~Progress(); // leaves the terminal's line empty for what is printed next
+
+    // The share that is done, in [0, 1]. Prints at most ten times a second, and at the end.
+    void update(double fraction, Clock::time_point now);
+
+private:
+    void print_line(double fraction, double seconds);
+    void print_json(double fraction, double seconds);
+
+    std::ostream &output_;
+    ProgressStyle style_;
+    double pixel_count_;
+    std::uint32_t sample_count_;
+    Clock::time_point start_;
+    Clock::time_point next_update_;
+};
+
+// "auto", "json" or "none"; a terminal is asked for by auto alone.
+ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal);
+
+} // namespace cli

@@ -1,0 +1,204 @@
+// Owns `pt render`: scene file and options in, images out.
+// Called by main.
+#include "render_command.h"
+
+#include "context.h"
+#include "exit_code.h"
+#include "image_file.h"
+#include "interrupt.h"
+#include "message.h"
+#include "progress.h"
+#include "render_output.h"
+#include "render_report.h"
+#include "render_settings.h"
+#include "scene_file.h"
+
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <unistd.h>
+
+namespace cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Messages of the validation layer. Each means a mistake in this program or its library.
+struct ValidationLog {
+    std::uint64_t count = 0;
+
+    static void receive(void *user, std::int32_t level, const char *line) {
+        if (level == PT_LOG_ERROR || level == PT_LOG_WARNING) {
+            ++static_cast<ValidationLog *>(user)->count;
+            print_message(std::string("validation: ") + line);
+        }
+    }
+};
+
+pt_create_info create_info(const RenderOptions &options, ValidationLog &log) {
+    pt_create_info info{};
+    info.struct_size = sizeof(pt_create_info);
+    info.device = options.device.empty() ? nullptr : options.device.c_str();
+    info.submit_milliseconds = options.submit_milliseconds;
+    if (options.validation) {
+        info.flags = PT_CREATE_VALIDATION;
+        info.log = &ValidationLog::receive;
+        info.log_user = &log;
+    }
+    return info;
+}
+
+// The scene file's author is the one who can mend what the library refuses here.
+void require_scene(const Context &context, const SceneFile &file, pt_result result) {
+    if (result < 0) {
+        const ExitCode code = result == PT_ERROR_INVALID_ARGUMENT ? ExitCode::scene : exit_code_of(result);
+        throw Failure(code, file.explain(context.last_error()));
+    }
+}
+
+void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
+    if (result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_UNSUPPORTED) {
+        const std::string message = context.last_error();
+        const ExitCode code = settings.blame(message);
+        throw Failure(code, code == ExitCode::scene ? file.explain(message) : message);
+    }
+    context.require(result);
+}
+
+void describe(const Context &context, const SceneFile &file, const RenderSettings &settings) {
+    const pt_scene scene = file.scene();
+    require_scene(context, file, pt_set_scene(context.get(), &scene));
+    require_scene(context, file, pt_set_camera(context.get(), &file.camera));
+    require_render(context, file, settings, pt_set_render(context.get(), &settings.render));
+}
+
+// What the library's progress callback needs.
+struct Watch {
+    Progress &progress;
+    const ImageWriter &writer;
+
+    static std::int32_t receive(void *user, double fraction) {
+        auto *watch = static_cast<Watch *>(user);
+        watch->progress.update(fraction, Clock::now());
+        return interrupt_signal() != 0 || watch->writer.failed() ? 1 : 0;
+    }
+};
+
+void accumulate(const Context &context, const RenderOptions &options, const RenderSettings &settings,
+                const ImageWriter &writer) {
+    if (interrupt_signal() != 0) {
+        return;
+    }
+    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
+    Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
+                      pixel_count, settings.sample_count, Clock::now());
+    Watch watch{progress, writer};
+    pt_accumulate_info info{};
+    info.struct_size = sizeof(pt_accumulate_info);
+    info.sample_count = settings.sample_count;
+    info.progress = &Watch::receive;
+    info.progress_user = &watch;
+    context.require(pt_accumulate(context.get(), &info));
+}
+
+std::vector<float> read_image(const Context &context, const pt_render &render) {
+    std::vector<float> radiance(std::size_t{3} * render.width * render.height);
+    pt_image image{};
+    image.struct_size = sizeof(pt_image);
+    image.data = radiance.data();
+    image.size_bytes = radiance.size() * sizeof(float);
+    context.require(pt_readback(context.get(), &image));
+    return radiance;
+}
+
+void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
+    if (report.stats.rejected_samples > 0) {
+        print_message("warning: " + std::to_string(report.stats.rejected_samples) +
+                      " samples were left out: not finite, negative or too bright");
+    }
+    std::cout << "wrote ";
+    for (const std::string &path : written) {
+        std::cout << path << (&path == &written.back() ? ": " : ", ");
+    }
+    std::cout << summary_text(report) << std::endl;
+}
+
+ExitCode write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
+                       std::span<const float> radiance, Clock::time_point start) {
+    const std::vector<std::string> written = write_images(writer, options, report, radiance);
+    report.total_seconds = seconds_since(start);
+    if (!options.stats.empty()) {
+        write_stats(options.stats, report);
+    }
+    if (!options.quiet && !written.empty()) {
+        print_summary(report, written);
+    }
+    return written.size() == options.outputs.size() ? ExitCode::done : ExitCode::file;
+}
+
+void print_interruption(std::uint32_t done, std::uint32_t wanted) {
+    const std::string signal = interrupt_signal() == SIGINT ? "SIGINT" : "SIGTERM";
+    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " + std::to_string(wanted) +
+                  " samples per pixel" + (done == 0 ? "; nothing was written" : ""));
+}
+
+ExitCode render(const RenderOptions &options, const SceneFile &file, const RenderSettings &settings, ValidationLog &log,
+                Clock::time_point start) {
+    RenderReport report{};
+    report.scene = file.path;
+    report.render = settings.render;
+    report.requested_sample_count = settings.sample_count;
+
+    const Clock::time_point create_start = Clock::now();
+    const pt_create_info info = create_info(options, log);
+    const Context context(info);
+    context.require(pt_get_context_device(context.get(), &report.device));
+    describe(context, file, settings);
+    report.create_seconds = seconds_since(create_start);
+
+    // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
+    ImageWriter writer;
+    const Clock::time_point accumulate_start = Clock::now();
+    accumulate(context, options, settings, writer);
+    report.accumulate_seconds = seconds_since(accumulate_start);
+    report.total_seconds = seconds_since(start);
+
+    report.stats.struct_size = sizeof(pt_stats);
+    context.require(pt_get_stats(context.get(), &report.stats));
+    if (interrupt_signal() != 0) {
+        print_interruption(report.stats.sample_count, settings.sample_count);
+        if (report.stats.sample_count == 0) {
+            return ExitCode::done; // as far as this function is concerned
+        }
+    }
+    writer.wait();
+    return write_outputs(writer, options, report, read_image(context, settings.render), start);
+}
+
+} // namespace
+
+int run_render(const RenderOptions &options) {
+    const Clock::time_point start = Clock::now();
+    check_extensions(options);
+    const SceneFile file = read_scene_file(options.scene);
+    const RenderSettings settings = merge_settings(options, file);
+    check_outputs(options, settings);
+    catch_interrupts();
+
+    ValidationLog log;
+    const ExitCode code = render(options, file, settings, log, start);
+    // Only now, for the layer reports leaks when the context goes.
+    if (log.count > 0) {
+        return static_cast<int>(ExitCode::internal);
+    }
+    if (code == ExitCode::done && interrupt_signal() != 0) {
+        return static_cast<int>(ExitCode::signal) + interrupt_signal();
+    }
+    return static_cast<int>(code);
+}
+
+} // namespace cli

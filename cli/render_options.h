@@ -1,0 +1,43 @@
+// Owns the options of `pt render`: their names, help and syntax.
+// Called by main; read by render_command and render_settings.
+#pragma once
+
+#include "number.h"
+#include "tone_map.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string stats;
+
+    // Nothing where the scene file or a default decides.
+    std::optional<ImageSize> size;
+    std::optional<std::uint32_t> sample_count;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint32_t> max_path_length;
+    std::optional<std::uint32_t> estimator;
+    std::uint32_t first_sample = 0;
+
+    ToneMap tone_map;
+
+    std::string device;
+    std::uint32_t submit_milliseconds = 0; // 0: the library's default
+    bool validation = false;
+
+    std::string progress = "auto";
+    bool quiet = false;
+};
+
+// The options write into `options` when the command line is parsed, so it has to live as long as the command.
+void add_render_options(CLI::App &command, RenderOptions &options);
+
+} // namespace cli

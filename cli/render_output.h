@@ -1,0 +1,29 @@
+// Owns the outputs of a rendering: the checks before it, the images and the statistics after it.
+// Called by render_command.
+#pragma once
+
+#include "image_file.h"
+#include "render_options.h"
+#include "render_report.h"
+#include "render_settings.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+// Throws Failure(ExitCode::usage) if an output's name tells no known format.
+void check_extensions(const RenderOptions &options);
+
+// All else that can go wrong with the outputs and can be known before an hour of rendering.
+void check_outputs(const RenderOptions &options, const RenderSettings &settings);
+
+// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
+// of those written.
+std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
+                                      std::span<const float> radiance);
+
+void write_stats(const std::string &path, const RenderReport &report);
+
+} // namespace cli

@@ -1,0 +1,134 @@
+// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
+// Called by render_command.
+#include "render_report.h"
+
+#include "estimator.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ctime>
+#include <limits>
+#include <sys/resource.h>
+
+namespace cli {
+namespace {
+
+std::vector<std::string> feature_names(std::uint32_t features) {
+    struct Feature {
+        std::uint32_t bit;
+        const char *name;
+    };
+    std::vector<std::string> names;
+    for (const auto &[bit, name] : {Feature{PT_FEATURE_LAMPS, "lamps"}, Feature{PT_FEATURE_GLOSS, "gloss"},
+                                    Feature{PT_FEATURE_MOTION, "motion"}, Feature{PT_FEATURE_LARGE, "large"}}) {
+        if ((features & bit) != 0) {
+            names.emplace_back(name);
+        }
+    }
+    return names;
+}
+
+std::uint64_t peak_host_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+double paths_per_second(const RenderReport &report) {
+    const double pixels = static_cast<double>(report.render.width) * report.render.height;
+    return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
+}
+
+// The form that OpenEXR's standard attribute capDate and TIFF's DateTime have: local time.
+std::string date_text() {
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y:%m:%d %H:%M:%S", &local);
+    return text.data();
+}
+
+} // namespace
+
+std::string version_text() {
+    const std::uint32_t version = pt_version();
+    return std::to_string(version / 1'000'000) + "." + std::to_string(version / 1'000 % 1'000) + "." +
+           std::to_string(version % 1'000);
+}
+
+std::string uuid_text(const std::uint8_t (&uuid)[16]) {
+    std::string text;
+    for (std::size_t i = 0; i < 16; ++i) {
+        std::array<char, 3> digits{};
+        std::snprintf(digits.data(), digits.size(), "%02x", uuid[i]);
+        if (i == 4 || i == 6 || i == 8 || i == 10) {
+            text += '-';
+        }
+        text += digits.data();
+    }
+    return text;
+}
+
+nlohmann::ordered_json stats_json(const RenderReport &report) {
+    const pt_render &render = report.render;
+    return {{"version", version_text()},
+            {"scene", report.scene},
+            {"width", render.width},
+            {"height", render.height},
+            {"spp", report.stats.sample_count},
+            {"spp_requested", report.requested_sample_count},
+            {"first_sample", render.first_sample},
+            {"seed", render.seed},
+            {"max_path_length", render.max_path_length},
+            {"estimator", estimator_name(render.estimator)},
+            {"device",
+             {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}},
+            {"seconds",
+             {{"create", report.create_seconds},
+              {"accumulate", report.accumulate_seconds},
+              {"device", report.stats.device_seconds},
+              {"total", report.total_seconds}}},
+            {"submissions", report.stats.submit_count},
+            {"rejected_samples", report.stats.rejected_samples},
+            {"device_bytes", report.stats.device_bytes},
+            {"peak_host_bytes", peak_host_bytes()},
+            {"features", feature_names(report.stats.features)},
+            {"paths_per_second", paths_per_second(report)}};
+}
+
+std::string summary_text(const RenderReport &report) {
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "%u samples per pixel of %ux%u in %.2f s on ", report.stats.sample_count,
+                  report.render.width, report.render.height, report.total_seconds);
+    return text.data() + std::string(report.device.name);
+}
+
+// samplesPerPixel and renderTimeSeconds have pbrt's names and types, which other tools read. Numbers that may not fit
+// OpenEXR's signed 32-bit integer are texts.
+ImageMetadata::ImageMetadata(const RenderReport &report) {
+    add("software", "pt " + version_text());
+    add("DateTime", date_text()); // becomes capDate in OpenEXR
+    add_whole("samplesPerPixel", report.stats.sample_count);
+    attributes_.push_back({"renderTimeSeconds", nullptr, report.accumulate_seconds, 1, 0});
+    add("pt.seed", std::to_string(report.render.seed));
+    add("pt.firstSample", std::to_string(report.render.first_sample));
+    add_whole("pt.maxPathLength", report.render.max_path_length);
+    add("pt.estimator", std::string(estimator_name(report.render.estimator)));
+    add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
+    add("pt.device", report.device.name);
+    add("pt.driver", report.device.driver);
+}
+
+void ImageMetadata::add(const char *name, std::string text) {
+    texts_.push_back(std::make_unique<std::string>(std::move(text)));
+    attributes_.push_back({name, texts_.back()->c_str(), 0.0, 0, 0});
+}
+
+void ImageMetadata::add_whole(const char *name, std::uint32_t number) {
+    constexpr std::uint32_t largest = std::numeric_limits<std::int32_t>::max();
+    attributes_.push_back({name, nullptr, static_cast<double>(std::min(number, largest)), 0, 0});
+}
+
+} // namespace cli

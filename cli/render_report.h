@@ -1,0 +1,57 @@
+// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
+// Called by render_command.
+#pragma once
+
+#include "image_module.h"
+
+#include <pt/pt.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct RenderReport {
+    std::string scene;
+    pt_render render;
+    std::uint32_t requested_sample_count;
+    pt_stats stats;
+    pt_device_info device;
+    double create_seconds;
+    double accumulate_seconds;
+    double total_seconds;
+};
+
+// "0.1.0", from the library's number.
+std::string version_text();
+
+// 32 hexadecimal digits in the usual groups.
+std::string uuid_text(const std::uint8_t (&uuid)[16]);
+
+nlohmann::ordered_json stats_json(const RenderReport &report);
+
+// "64 samples per pixel of 256x128 in 1.23 s on llvmpipe"
+std::string summary_text(const RenderReport &report);
+
+// Attributes of the image file, which keep the texts that they point to.
+class ImageMetadata {
+public:
+    explicit ImageMetadata(const RenderReport &report);
+    ImageMetadata(const ImageMetadata &) = delete;
+    ImageMetadata &operator=(const ImageMetadata &) = delete;
+
+    const std::vector<pt_image_attribute> &attributes() const { return attributes_; }
+
+private:
+    void add(const char *name, std::string text);
+    void add_whole(const char *name, std::uint32_t number);
+
+    std::vector<std::unique_ptr<std::string>> texts_;
+    std::vector<pt_image_attribute> attributes_;
+};
+
+} // namespace cli

@@ -1,0 +1,42 @@
+// Owns the merge of command line, scene file and defaults, in this order of rank.
+// Called by render_command.
+#include "render_settings.h"
+
+namespace cli {
+namespace {
+
+constexpr std::uint32_t default_side = 512;
+constexpr std::uint32_t default_sample_count = 64;
+// The library's own, which is asked for by 0 there but has to be known for the report.
+constexpr std::uint32_t default_max_path_length = 6;
+
+template <typename Value>
+Value first_given(const std::optional<Value> &option, const std::optional<Value> &scene, Value otherwise) {
+    return option.value_or(scene.value_or(otherwise));
+}
+
+} // namespace
+
+ExitCode RenderSettings::blame(const std::string &message) const {
+    const bool about_path_length = message.find("max_path_length") != std::string::npos;
+    const bool from_scene = about_path_length ? max_path_length_from_scene : size_from_scene;
+    return from_scene ? ExitCode::scene : ExitCode::usage;
+}
+
+RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene) {
+    RenderSettings settings{};
+    pt_render &render = settings.render;
+    render.struct_size = sizeof(pt_render);
+    render.width = options.size ? options.size->width : scene.width.value_or(default_side);
+    render.height = options.size ? options.size->height : scene.height.value_or(default_side);
+    render.max_path_length = first_given(options.max_path_length, scene.max_path_length, default_max_path_length);
+    render.seed = first_given(options.seed, scene.seed, std::uint64_t{0});
+    render.first_sample = options.first_sample;
+    render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
+    settings.sample_count = first_given(options.sample_count, scene.sample_count, default_sample_count);
+    settings.size_from_scene = !options.size && (scene.width || scene.height);
+    settings.max_path_length_from_scene = !options.max_path_length && scene.max_path_length;
+    return settings;
+}
+
+} // namespace cli

@@ -1,0 +1,170 @@
+// Owns a stand-in for libpt that needs no device and fails on demand, for tests of the command line: which exit code
+// follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which command_line_test.py
+// runs. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the length of one sample;
+// FAKE_PT_LOG=function makes it send a line to the log.
+#include <pt/pt.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+
+struct pt_context {
+    pt_create_info info{};
+    pt_render render{};
+    std::uint32_t sample_count = 0;
+    std::string error;
+};
+
+namespace {
+
+thread_local std::string creation_error;
+
+std::string setting(const char *name) {
+    const char *value = std::getenv(name);
+    return value == nullptr ? "" : value;
+}
+
+pt_result failure(const std::string &function) {
+    const std::string wanted = setting("FAKE_PT_FAIL");
+    const bool fails = wanted.rfind(function + ":", 0) == 0;
+    return fails ? std::atoi(wanted.c_str() + function.size() + 1) : PT_OK;
+}
+
+pt_result call(pt_context *context, const std::string &function) {
+    if (context->info.log != nullptr && setting("FAKE_PT_LOG") == function) {
+        context->info.log(context->info.log_user, PT_LOG_ERROR, "a message of the layer");
+    }
+    const pt_result result = failure(function);
+    if (result < 0) {
+        context->error = setting("FAKE_PT_MESSAGE");
+    }
+    return result;
+}
+
+pt_device_info fake_device() {
+    pt_device_info device{};
+    device.kind = PT_DEVICE_CPU;
+    device.suitable = failure("suitable") == PT_OK ? 1 : 0;
+    device.memory_bytes = std::uint64_t{1} << 30;
+    for (int i = 0; i < 16; ++i) {
+        device.uuid[i] = static_cast<std::uint8_t>(i * 17);
+    }
+    std::strcpy(device.name, "fake device");
+    std::strcpy(device.driver, "fake driver 1.0");
+    std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
+    return device;
+}
+
+} // namespace
+
+std::uint32_t pt_version() {
+    return PT_VERSION;
+}
+
+const char *pt_result_name(pt_result) {
+    return "unknown result";
+}
+
+pt_result pt_get_devices(pt_device_info *devices, std::uint32_t *count) {
+    const pt_result result = failure("devices");
+    if (result < 0) {
+        creation_error = "no Vulkan device";
+        return result;
+    }
+    *count = 1;
+    if (devices != nullptr) {
+        *devices = fake_device();
+    }
+    return PT_OK;
+}
+
+pt_result pt_create(const pt_create_info *info, pt_context **context) {
+    const pt_result result = failure("create");
+    if (result < 0) {
+        creation_error = setting("FAKE_PT_MESSAGE");
+        *context = nullptr;
+        return result;
+    }
+    *context = new pt_context;
+    (*context)->info = *info;
+    return PT_OK;
+}
+
+const char *pt_last_error(const pt_context *context) {
+    return context == nullptr ? creation_error.c_str() : context->error.c_str();
+}
+
+void pt_destroy(pt_context *context) {
+    if (context != nullptr) {
+        call(context, "destroy");
+    }
+    delete context;
+}
+
+pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
+    *device = fake_device();
+    return call(context, "context_device");
+}
+
+pt_result pt_set_scene(pt_context *context, const pt_scene *) {
+    return call(context, "set_scene");
+}
+
+pt_result pt_set_camera(pt_context *context, const pt_camera *) {
+    return call(context, "set_camera");
+}
+
+pt_result pt_set_render(pt_context *context, const pt_render *render) {
+    context->render = *render;
+    return call(context, "set_render");
+}
+
+pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
+    const std::string milliseconds = setting("FAKE_PT_SAMPLE_MS");
+    const pt_result result = call(context, "accumulate");
+    if (result < 0) {
+        return result;
+    }
+    for (std::uint32_t sample = 1; sample <= info->sample_count; ++sample) {
+        if (!milliseconds.empty()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(milliseconds.c_str())));
+        }
+        // Two submissions to a sample: the first callback after a cancelled one finds half a sample more.
+        const double total = info->sample_count;
+        if (info->progress(info->progress_user, (sample - 0.5) / total) != 0) {
+            return PT_CANCELLED;
+        }
+        context->sample_count = sample;
+        if (info->progress(info->progress_user, sample / total) != 0) {
+            return PT_CANCELLED;
+        }
+    }
+    return PT_OK;
+}
+
+// Red grows to the right from 0 to 1, green downwards; blue is 2 everywhere, brighter than a display.
+pt_result pt_readback(pt_context *context, const pt_image *image) {
+    const pt_render &render = context->render;
+    float *value = image->data;
+    for (std::uint32_t y = 0; y < render.height; ++y) {
+        for (std::uint32_t x = 0; x < render.width; ++x) {
+            *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
+            *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
+            *value++ = 2.0F;
+        }
+    }
+    return call(context, "readback");
+}
+
+pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
+    stats->sample_count = context->sample_count;
+    stats->rejected_samples = failure("rejected") == PT_OK ? 0 : 3;
+    stats->device_bytes = 4096;
+    stats->submit_count = 2 * std::uint64_t{context->sample_count};
+    stats->device_seconds = 0.25;
+    stats->features = PT_FEATURE_LAMPS | PT_FEATURE_MOTION;
+    return call(context, "stats");
+}

@@ -1,0 +1,78 @@
+// Tests on a real device through pt.h. The validation layer watches: what it or the library warns of fails the test.
+// From the environment: PT_TEST_DEVICE chooses the device as pt_create_info.device does; with PT_TEST_NO_VALIDATION set,
+// contexts are made without the layer, for leak checks.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct DestroyContext {
+    void operator()(pt_context *context) const { pt_destroy(context); }
+};
+using Context = std::unique_ptr<pt_context, DestroyContext>;
+
+class ContextFixture : public testing::Test {
+protected:
+    void SetUp() override {
+        context_ = create_context();
+        ASSERT_TRUE(context_);
+    }
+
+    // The layer reports leaks when a context is destroyed, so that comes first.
+    void TearDown() override {
+        context_.reset();
+        for (const std::string &line : complaints_)
+            ADD_FAILURE() << line;
+    }
+
+    pt_context *context() const { return context_.get(); }
+
+    // Another context, with what adjust makes of the fixture's settings. To be destroyed before the test ends.
+    Context create_context(const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {}) {
+        pt_create_info info{};
+        info.struct_size = sizeof info;
+        info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
+        info.device = std::getenv("PT_TEST_DEVICE");
+        info.log = &ContextFixture::collect;
+        info.log_user = &complaints_;
+        adjust(info);
+        pt_context *created = nullptr;
+        EXPECT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
+        return Context(created);
+    }
+
+    void accumulate(std::uint32_t sample_count) {
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr};
+        ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
+    }
+
+    // Fills image, which has the image's size.
+    void readback(std::vector<float> &image) {
+        const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+        ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+    }
+
+    pt_stats stats() {
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
+        return stats;
+    }
+
+private:
+    static void collect(void *user, int32_t level, const char *line) {
+        if (level == PT_LOG_ERROR || level == PT_LOG_WARNING)
+            static_cast<std::vector<std::string> *>(user)->push_back(line);
+    }
+
+    std::vector<std::string> complaints_;
+    Context context_;
+};

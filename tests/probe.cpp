@@ -1,0 +1,73 @@
+// The shared device and the run of a probe; see probe.h.
+#include "probe.h"
+
+#include "vulkan/device_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+void on_message(void * /*user*/, int32_t level, const char *line) {
+    if (level <= PT_LOG_WARNING)
+        ADD_FAILURE() << "the Vulkan layer says: " << line;
+}
+
+// Instance and device of the whole program, best device first, as pt_create chooses it.
+struct SharedDevice {
+    pt::Log log{&on_message, nullptr};
+    pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
+    pt::vulkan::Device device{chosen()};
+
+    vk::raii::PhysicalDevice chosen() const {
+        std::vector<vk::raii::PhysicalDevice> devices = instance.physical_devices();
+        std::vector<pt_device_info> infos;
+        for (const vk::raii::PhysicalDevice &candidate : devices)
+            infos.push_back(pt::vulkan::describe(candidate));
+        return devices[pt::vulkan::choose_device(infos, "")];
+    }
+};
+
+constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+
+constexpr std::size_t guard_bytes = 4096;
+constexpr std::byte guard_value{0xa5};
+constexpr std::uint32_t workgroup_size = 64;
+
+} // namespace
+
+pt::vulkan::Device &probe_device() {
+    static SharedDevice shared;
+    return shared.device;
+}
+
+Probe::Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes) :
+    pipeline_(probe_device(), spirv, bindings, push_bytes, {}) {}
+
+void Probe::run_bytes(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
+                      std::uint32_t invocations) {
+    using pt::vulkan::Buffer;
+    using pt::vulkan::BufferUse;
+    pt::vulkan::Device &device = probe_device();
+    Buffer scene(device, BufferUse::Scene, 16384, "scene of a probe");
+    Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
+    Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
+    out.clear();
+    in.upload(input, 0);
+    std::vector<std::byte> guard(guard_bytes, guard_value);
+    out.upload(guard, output.size());
+
+    const std::array buffers = {&scene, &scene, &out, &in};
+    const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
+    device.submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);
+    });
+    out.download(output, 0);
+    out.download(guard, output.size());
+    for (const std::byte value : guard)
+        ASSERT_EQ(value, guard_value) << "the kernel wrote past its output";
+}
