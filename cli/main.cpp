@@ -21,9 +21,9 @@ int fail(cli::ExitCode code, const std::string &message) {
 
 int parse_and_run(int argument_count, char **arguments) {
     CLI::App program("pt: an offscreen path tracer for spheres and planes on any Vulkan device", "pt");
+    program.require_subcommand(0, 1);
     program.footer(cli::exit_code_help);
     program.set_version_flag("--version", "pt " + cli::version_text());
-    program.require_subcommand(1);
 
     cli::RenderOptions options;
     CLI::App *render = program.add_subcommand("render", "Render a scene file to images");
@@ -40,9 +40,16 @@ int parse_and_run(int argument_count, char **arguments) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(error); // --help and --version
         }
-        return fail(cli::ExitCode::usage, std::string(error.what()) + " (see `pt --help`, `pt render --help`)");
+        return fail(cli::ExitCode::usage,
+                    std::string(error.what()) + " (see pt " + (render->parsed() ? "render " : "") + "--help)");
     }
-    return render->parsed() ? cli::run_render(options) : cli::run_devices(as_json);
+    if (render->parsed()) {
+        return cli::run_render(options);
+    }
+    if (devices->parsed()) {
+        return cli::run_devices(as_json);
+    }
+    return fail(cli::ExitCode::usage, "a subcommand is missing: render or devices (see pt --help)");
 }
 
 } // namespace

@@ -40,7 +40,10 @@ CLI::Option *add_real_number(CLI::App &command, const std::string &name, Target 
     const auto read = [&target, name, smallest, largest](const std::string &text) {
         const auto number = parse_number<double>(text);
         if (!number || *number < smallest || *number > largest) {
-            refuse(name, CLI::detail::to_string(smallest) + " <= number <= " + CLI::detail::to_string(largest), text);
+            refuse(name,
+                   "must be a number from " + CLI::detail::to_string(smallest) + " to " +
+                       CLI::detail::to_string(largest),
+                   text);
         }
         target = *number;
     };

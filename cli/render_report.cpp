@@ -100,8 +100,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 
 std::string summary_text(const RenderReport &report) {
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%u samples per pixel of %ux%u in %.2f s on ", report.stats.sample_count,
-                  report.render.width, report.render.height, report.total_seconds);
+    std::snprintf(text.data(), text.size(), "%ux%u, %u spp in %.2f s on ", report.render.width, report.render.height,
+                  report.stats.sample_count, report.total_seconds);
     return text.data() + std::string(report.device.name);
 }
 

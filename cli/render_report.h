@@ -34,7 +34,7 @@ std::string uuid_text(const std::uint8_t (&uuid)[16]);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
-// "64 samples per pixel of 256x128 in 1.23 s on llvmpipe"
+// "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
 
 // Attributes of the image file, which keep the texts that they point to.

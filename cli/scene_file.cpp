@@ -261,7 +261,7 @@ std::string explain_line(const SceneFile &scene, std::string line) {
         const std::string_view index_text = std::string_view(line).substr(array.size(), line.find(']') - array.size());
         const auto index = parse_number<std::size_t>(index_text);
         if (index && *index < scene.material_names.size()) {
-            line += " (material \"" + scene.material_names[*index] + "\")";
+            line.append(" (material \"").append(scene.material_names[*index]).append("\")");
         }
     }
     return scene.path + ": " + line;
@@ -285,7 +285,10 @@ std::string SceneFile::explain(const std::string &message) const {
     std::istringstream lines(message); // one for each broken rule
     std::string explained;
     for (std::string line; std::getline(lines, line);) {
-        explained += (explained.empty() ? "" : "\n") + explain_line(*this, line);
+        if (!explained.empty()) {
+            explained += '\n';
+        }
+        explained += explain_line(*this, line);
     }
     return explained;
 }

@@ -7,7 +7,8 @@ namespace pt {
 
 namespace {
 
-// A wrong guess must not run into the seconds after which drivers kill a submission.
+// Of a slice over one that has been measured. A wrong guess must not run into the seconds after which drivers kill a
+// submission.
 constexpr double max_growth = 2.0;
 
 } // namespace
@@ -15,7 +16,7 @@ constexpr double max_growth = 2.0;
 Schedule::Schedule(std::uint32_t pixel_count, const ScheduleLimits &limits) :
     pixel_count_(pixel_count),
     limits_(limits),
-    budget_(std::max(limits.first_slice_paths, double{1} * limits.pixel_granularity)) {}
+    budget_(std::max(limits.first_slice_paths, static_cast<double>(limits.pixel_granularity))) {}
 
 Slice Schedule::next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_done) const {
     if (pass_pixels_done > 0 || budget_ < pixel_count_)
@@ -48,11 +49,10 @@ void Schedule::measured(const Slice &slice, double seconds) {
         return;
     const double paths = static_cast<double>(slice.pixel_count) * slice.sample_count;
     const double expected_seconds = limits_.target_seconds * paths / budget_;
-    const double budget_seconds = limits_.target_seconds + (seconds - expected_seconds);
-    const double growth = std::min(limits_.target_seconds / std::max(budget_seconds, 0.0), max_growth);
-    const double largest_slice = static_cast<double>(pixel_count_) * limits_.max_samples;
-    const double smallest_slice = limits_.pixel_granularity;
-    budget_ = std::max(std::min(budget_ * growth, largest_slice), smallest_slice);
+    const double budget_seconds = std::max(limits_.target_seconds + (seconds - expected_seconds), 0.0);
+    const double learnt = budget_ * (limits_.target_seconds / budget_seconds);
+    const double smallest = limits_.pixel_granularity;
+    budget_ = std::max({smallest, std::min(learnt, budget_), std::min(learnt, max_growth * paths)});
 }
 
 } // namespace pt
