@@ -40,7 +40,8 @@ build)
 render)
     install_packages
     build release --target pt-cli
-    build/bin/pt render cli/scenes/coursework.json --size 1024x512 --spp 256 --exposure -3 --tonemap agx -o coursework.png
+    build/bin/pt render cli/scenes/coursework.json --size 1024x512 --spp 64 --max-path-length 6 \
+        --exposure -3 --tonemap agx -o coursework.png
     ;;
 test)
     install_packages
