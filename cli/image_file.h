@@ -23,7 +23,8 @@ enum class ImageFormat {
 // By the extension, whatever its case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
 std::optional<ImageFormat> image_format(const std::string &path);
 
-// The longest side that the format, or the library that encodes it, can hold.
+// The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
+// ends the whole process if it is asked for more.
 std::uint32_t longest_side(ImageFormat format);
 
 // Encodes and writes images. The module is loaded in the background from construction on.

@@ -46,7 +46,8 @@ std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
 }
 
 Film::Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels) :
-    width_(width), height_(height) {
+    width_(width),
+    height_(height) {
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(max_strip_pixels, pixel_count() - first);
         const std::uint64_t words_bytes = std::uint64_t{count} * gpu::FILM_WORDS * sizeof(std::uint32_t);

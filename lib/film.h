@@ -31,6 +31,8 @@ public:
         vulkan::Buffer pass;  // one vec4 per pixel: samples of a split pass
     };
 
+    static constexpr std::uint64_t bytes_per_pixel = gpu::FILM_WORDS * sizeof(std::uint32_t) + sizeof(glm::vec4);
+
     // Zeroed. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
     Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 

@@ -17,9 +17,8 @@ std::vector<std::uint32_t> kernel_order(const Scene &scene) {
     std::vector<std::uint32_t> order(scene.spheres.size());
     for (std::uint32_t i = 0; i < order.size(); ++i)
         order[i] = i;
-    std::ranges::stable_partition(order, [&](std::uint32_t i) {
-        return scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F);
-    });
+    std::ranges::stable_partition(
+        order, [&](std::uint32_t i) { return scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F); });
     return order;
 }
 

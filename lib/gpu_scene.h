@@ -2,10 +2,10 @@
 #pragma once
 
 #include "camera.h"
-#include "scene_features.h"
 #include "gpu_layout.h"
 #include "render_settings.h"
 #include "scene.h"
+#include "scene_features.h"
 
 #include <vector>
 

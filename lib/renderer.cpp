@@ -22,6 +22,16 @@ constexpr std::array kernel_bindings = {vk::DescriptorType::eUniformBuffer, vk::
 // measured slices size the rest.
 constexpr double assumed_tests_per_second = 2.5e8;
 
+// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
+void require_film_memory(const RenderSettings &settings, const pt_device_info &device) {
+    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.height * Film::bytes_per_pixel;
+    if (bytes > device.memory_bytes)
+        throw Error(PT_ERROR_UNSUPPORTED, "render.width * height = " + std::to_string(settings.width) + " * " +
+                                              std::to_string(settings.height) + ": the film takes " +
+                                              std::to_string(bytes) + " bytes, and the device has " +
+                                              std::to_string(device.memory_bytes));
+}
+
 std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
     std::vector<pt_device_info> devices;
     for (const vk::raii::PhysicalDevice &device : instance.physical_devices())
@@ -40,7 +50,9 @@ std::vector<pt_device_info> list_devices() {
 }
 
 Renderer::Renderer(const CreateSettings &settings) :
-    log_(settings.log), instance_(log_, settings.validation), device_(chosen_device(instance_, settings.device)),
+    log_(settings.log),
+    instance_(log_, settings.validation),
+    device_(instance_, chosen_device(instance_, settings.device)),
     target_seconds_(settings.submit_milliseconds * 1e-3) {}
 
 void Renderer::discard_samples() {
@@ -67,6 +79,7 @@ void Renderer::set_render(const RenderSettings &settings) {
     device_.require_alive();
     const bool same_size = settings_ && settings.width == settings_->width && settings.height == settings_->height;
     if (!same_size) {
+        require_film_memory(settings, device_.info());
         Film film(device_, settings.width, settings.height, max_strip_pixels(device_.limits()));
         kernel_.reset(); // its descriptor sets name the old film
         film_ = std::move(film);
@@ -101,7 +114,8 @@ void Renderer::prepare_kernel() {
         return;
     const Features features = features_of(*scene_, *camera_, *settings_);
     const std::vector<glm::vec4> words = gpu_scene(*scene_, *camera_, features);
-    const std::uint64_t scene_bytes = std::max<std::uint64_t>(words.size(), gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
+    const std::uint64_t scene_bytes =
+        std::max<std::uint64_t>(words.size(), gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
     const vulkan::Limits &limits = device_.limits();
     if (scene_bytes > limits.max_storage_buffer_range)
         throw Error(PT_ERROR_UNSUPPORTED, "the scene takes " + std::to_string(scene_bytes) +
@@ -127,7 +141,7 @@ void Renderer::prepare_kernel() {
     Kernel kernel{features,
                   unit,
                   frame_constants(*camera_, *settings_, unit),
-                  vulkan::Buffer(device_, vulkan::BufferUse::Scene, scene_bytes, "scene"),
+                  vulkan::Buffer(device_, vulkan::BufferUse::UniformOrStorage, scene_bytes, "scene"),
                   {},
                   {},
                   Schedule(film_->pixel_count(), schedule_limits)};

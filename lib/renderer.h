@@ -2,11 +2,11 @@
 #pragma once
 
 #include "camera.h"
-#include "scene_features.h"
 #include "film.h"
 #include "log.h"
 #include "render_settings.h"
 #include "scene.h"
+#include "scene_features.h"
 #include "schedule.h"
 #include "vulkan/compute_pipeline.h"
 #include "vulkan/device.h"

@@ -148,7 +148,8 @@ TEST(Phong, SpecularAlbedoIsTheClosedForm) {
         if (entry.angle_degrees >= 89.9)
             continue; // the cosine of grazing directions is below the tolerance
         const double found = integrate_lobe(entry.exponent, entry.angle_degrees, 1.0F).value;
-        EXPECT_NEAR(found, entry.albedo, tolerance) << "n = " << entry.exponent << ", " << entry.angle_degrees << " deg";
+        EXPECT_NEAR(found, entry.albedo, tolerance)
+            << "n = " << entry.exponent << ", " << entry.angle_degrees << " deg";
         ++compared;
     }
     EXPECT_GT(compared, 70);

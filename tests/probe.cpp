@@ -20,7 +20,7 @@ void on_message(void * /*user*/, int32_t level, const char *line) {
 struct SharedDevice {
     pt::Log log{&on_message, nullptr};
     pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
-    pt::vulkan::Device device{chosen()};
+    pt::vulkan::Device device{instance, chosen()};
 
     vk::raii::PhysicalDevice chosen() const {
         std::vector<vk::raii::PhysicalDevice> devices = instance.physical_devices();
@@ -53,7 +53,7 @@ void Probe::run_bytes(std::span<const std::byte> input, std::span<std::byte> out
     using pt::vulkan::Buffer;
     using pt::vulkan::BufferUse;
     pt::vulkan::Device &device = probe_device();
-    Buffer scene(device, BufferUse::Scene, 16384, "scene of a probe");
+    Buffer scene(device, BufferUse::UniformOrStorage, 16384, "scene of a probe");
     Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
     Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
     out.clear();

@@ -15,4 +15,5 @@ struct ReferenceImage {
 ReferenceImage read_reference(const std::string &name);
 
 // Writes an EXR of R, G, B per pixel.
-void write_image(const std::string &path, std::uint32_t width, std::uint32_t height, const std::vector<float> &radiance);
+void write_image(const std::string &path, std::uint32_t width, std::uint32_t height,
+                 const std::vector<float> &radiance);

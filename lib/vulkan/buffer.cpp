@@ -7,27 +7,23 @@
 #include <array>
 #include <cstring>
 #include <optional>
-#include <utility>
 
 namespace pt::vulkan {
 
 namespace {
 
 using Property = vk::MemoryPropertyFlagBits;
-constexpr vk::MemoryPropertyFlags host_readable =
-    Property::eHostVisible | Property::eHostCoherent | Property::eHostCached;
+using Usage = vk::BufferUsageFlagBits;
+constexpr vk::MemoryPropertyFlags host_visible = Property::eHostVisible | Property::eHostCoherent;
+constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHostCached;
 
-// Large transfers go through a staging buffer of this size at most.
-constexpr std::uint64_t max_staging_bytes = 64U << 20;
-
-vk::raii::Buffer create_buffer(const Device &device, vk::BufferUsageFlags usage, std::uint64_t bytes) {
-    return device.handle().createBuffer({.size = bytes, .usage = usage, .sharingMode = vk::SharingMode::eExclusive});
-}
+// Transfers go through a staging buffer of this size at most. Copying it over a bus takes about a millisecond, many
+// times what a submission costs, and it holds down little of the host's memory.
+constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
 // Index of the first memory type that the buffer may use and that has the first of the wanted properties to be found.
-std::uint32_t memory_type(const Device &device, std::uint32_t allowed,
+std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                           std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
-    const vk::PhysicalDeviceMemoryProperties &memory = device.memory_properties();
     for (const vk::MemoryPropertyFlags wanted : wanted_best_first)
         for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
             if ((allowed >> i & 1) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
@@ -35,142 +31,131 @@ std::uint32_t memory_type(const Device &device, std::uint32_t allowed,
     throw Error(PT_ERROR_UNSUPPORTED, "the device has no memory of the kind that a buffer needs");
 }
 
+// A Vulkan buffer and its memory, which stays mapped if it has the properties named by mapped_if.
 struct Allocation {
-    vk::raii::DeviceMemory memory;
-    vk::MemoryPropertyFlags properties;
-    std::uint64_t bytes;
-};
-
-Allocation allocate(const Device &device, const vk::raii::Buffer &buffer,
-                    std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
-    const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
-    const std::uint32_t type = memory_type(device, needs.memoryTypeBits, wanted_best_first);
-    return {device.handle().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type}),
-            device.memory_properties().memoryTypes[type].propertyFlags, needs.size};
-}
-
-// Host memory that the device can copy from and to.
-class Staging {
-public:
-    Staging(const Device &device, std::uint64_t bytes) :
-        buffer_(create_buffer(device, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst,
-                              bytes)) {
-        constexpr std::array<vk::MemoryPropertyFlags, 2> wanted = {
-            host_readable, Property::eHostVisible | Property::eHostCoherent};
-        memory_ = std::move(allocate(device, buffer_, wanted).memory);
-        buffer_.bindMemory(*memory_, 0);
-        mapped_ = static_cast<std::byte *>(memory_.mapMemory(0, VK_WHOLE_SIZE));
+    Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
+               std::span<const vk::MemoryPropertyFlags> wanted_best_first,
+               std::optional<vk::MemoryPropertyFlags> mapped_if) :
+        buffer(device.handle().createBuffer({.size = bytes, .usage = usage})) {
+        const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
+        const vk::PhysicalDeviceMemoryProperties &types = device.memory_properties();
+        const std::uint32_t type = memory_type(types, needs.memoryTypeBits, wanted_best_first);
+        memory = device.handle().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type});
+        buffer.bindMemory(*memory, 0);
+        if (mapped_if && (types.memoryTypes[type].propertyFlags & *mapped_if) == *mapped_if)
+            mapped = static_cast<std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE));
     }
 
-    vk::Buffer handle() const { return *buffer_; }
-    std::byte *data() const { return mapped_; }
-
-private:
-    vk::raii::DeviceMemory memory_ = nullptr;
-    vk::raii::Buffer buffer_;
-    std::byte *mapped_;
+    vk::raii::DeviceMemory memory = nullptr;
+    vk::raii::Buffer buffer; // destroyed before its memory is freed
+    std::byte *mapped = nullptr;
 };
+
+Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
+    vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
+    if (use == BufferUse::UniformOrStorage)
+        usage |= Usage::eUniformBuffer;
+    if (device.policy().share_memory) {
+        constexpr std::array<vk::MemoryPropertyFlags, 3> wanted = {Property::eDeviceLocal | host_readable,
+                                                                   Property::eDeviceLocal, vk::MemoryPropertyFlags{}};
+        return {device, bytes, usage, wanted, host_readable};
+    }
+    constexpr std::array<vk::MemoryPropertyFlags, 2> wanted = {Property::eDeviceLocal, vk::MemoryPropertyFlags{}};
+    return {device, bytes, usage, wanted, std::nullopt};
+}
+
+Allocation allocate_staging(const Device &device, std::uint64_t bytes) {
+    constexpr std::array wanted = {host_readable, host_visible};
+    return {device, bytes, Usage::eTransferSrc | Usage::eTransferDst, wanted, host_visible};
+}
 
 } // namespace
 
-Buffer::Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what) :
-    device_(&device), bytes_(bytes) {
+struct Buffer::State {
+    State(Device &device_of_it, BufferUse use, std::uint64_t size) :
+        device(device_of_it),
+        bytes(size),
+        allocation(allocate(device, use, bytes)) {
+        device.count_allocation(bytes);
+    }
+    ~State() { device.count_release(bytes); }
+    State(const State &) = delete;
+    State &operator=(const State &) = delete;
+
+    // Splits [0, size) into pieces that fit into the staging buffer and calls function(staging, first, length) on each.
+    template <typename Function>
+    void staged(std::uint64_t size, Function &&function) {
+        const std::uint64_t staging_bytes = std::min(bytes, max_staging_bytes);
+        if (!staging)
+            translated("allocating " + std::to_string(staging_bytes) + " bytes for transfers",
+                       [&] { staging.emplace(allocate_staging(device, staging_bytes)); });
+        for (std::uint64_t first = 0; first < size; first += staging_bytes)
+            function(*staging, first, std::min(size - first, staging_bytes));
+    }
+
+    Device &device;
+    std::uint64_t bytes;
+    Allocation allocation;
+    std::optional<Allocation> staging; // once there was a transfer that needs it
+};
+
+Buffer::Buffer(Device &device, BufferUse use, std::uint64_t bytes, const std::string &what) {
     device.require_alive();
     const std::string doing = "allocating " + std::to_string(bytes) + " bytes for the " + what;
-    if (bytes > device.limits().max_allocation_bytes)
-        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY, doing + ": the device allows " +
-                                                       std::to_string(device.limits().max_allocation_bytes) +
-                                                       " in one allocation");
-    using Usage = vk::BufferUsageFlagBits;
-    vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
-    if (use == BufferUse::Scene)
-        usage |= Usage::eUniformBuffer;
-    translated(doing, [&] {
-        // Memory that host and device share, where the device has it and is as fast in it: software Vulkan.
-        constexpr std::array<vk::MemoryPropertyFlags, 3> wanted = {
-            Property::eDeviceLocal | host_readable, Property::eDeviceLocal, vk::MemoryPropertyFlags{}};
-        const bool shared = device.info().kind == PT_DEVICE_CPU || device.info().kind == PT_DEVICE_INTEGRATED_GPU;
-        buffer_ = create_buffer(device, usage, bytes);
-        Allocation allocation = allocate(device, buffer_, std::span(wanted).subspan(shared ? 0 : 1));
-        memory_ = std::move(allocation.memory);
-        buffer_.bindMemory(*memory_, 0);
-        if (shared && (allocation.properties & host_readable) == host_readable)
-            mapped_ = static_cast<std::byte *>(memory_.mapMemory(0, VK_WHOLE_SIZE));
-    });
-    device.count_allocation(bytes);
+    const std::uint64_t limit = device.limits().max_allocation_bytes;
+    if (bytes > limit)
+        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY,
+                    doing + ": the device allows " + std::to_string(limit) + " in one allocation");
+    state_ = translated(doing, [&] { return std::make_unique<State>(device, use, bytes); });
 }
 
-Buffer::~Buffer() {
-    if (*buffer_)
-        device_->count_release(bytes_);
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer &&other) noexcept = default;
+Buffer &Buffer::operator=(Buffer &&other) noexcept = default;
+
+std::uint64_t Buffer::size() const {
+    return state_->bytes;
 }
 
-Buffer::Buffer(Buffer &&other) noexcept :
-    device_(other.device_), bytes_(other.bytes_), memory_(std::exchange(other.memory_, nullptr)),
-    buffer_(std::exchange(other.buffer_, nullptr)), mapped_(std::exchange(other.mapped_, nullptr)) {}
-
-Buffer &Buffer::operator=(Buffer &&other) noexcept {
-    Buffer moved(std::move(other));
-    swap(moved);
-    return *this;
-}
-
-void Buffer::swap(Buffer &other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(bytes_, other.bytes_);
-    memory_.swap(other.memory_);
-    buffer_.swap(other.buffer_);
-    std::swap(mapped_, other.mapped_);
+vk::Buffer Buffer::handle() const {
+    return *state_->allocation.buffer;
 }
 
 void Buffer::upload(std::span<const std::byte> data, std::uint64_t offset) {
-    device_->require_alive();
+    state_->device.require_alive();
     if (data.empty())
         return;
-    if (mapped_) {
-        std::memcpy(mapped_ + offset, data.data(), data.size());
+    if (state_->allocation.mapped) {
+        std::memcpy(state_->allocation.mapped + offset, data.data(), data.size());
         return;
     }
-    translated("uploading", [&] {
-        const Staging staging(*device_, std::min<std::uint64_t>(data.size(), max_staging_bytes));
-        for (std::uint64_t done = 0; done < data.size();) {
-            const std::uint64_t piece = std::min<std::uint64_t>(data.size() - done, max_staging_bytes);
-            std::memcpy(staging.data(), data.data() + done, piece);
-            const vk::BufferCopy copy{.srcOffset = 0, .dstOffset = offset + done, .size = piece};
-            device_->submit([&](const vk::raii::CommandBuffer &commands) {
-                commands.copyBuffer(staging.handle(), *buffer_, copy);
-            });
-            done += piece;
-        }
+    state_->staged(data.size(), [&](const Allocation &staging, std::uint64_t first, std::uint64_t length) {
+        std::memcpy(staging.mapped, data.data() + first, length);
+        const vk::BufferCopy copy{.srcOffset = 0, .dstOffset = offset + first, .size = length};
+        state_->device.submit(
+            [&](const vk::raii::CommandBuffer &commands) { commands.copyBuffer(*staging.buffer, handle(), copy); });
     });
 }
 
 void Buffer::download(std::span<std::byte> data, std::uint64_t offset) {
-    device_->require_alive();
+    state_->device.require_alive();
     if (data.empty())
         return;
-    if (mapped_) {
-        std::memcpy(data.data(), mapped_ + offset, data.size());
+    if (state_->allocation.mapped) {
+        std::memcpy(data.data(), state_->allocation.mapped + offset, data.size());
         return;
     }
-    translated("downloading", [&] {
-        const Staging staging(*device_, std::min<std::uint64_t>(data.size(), max_staging_bytes));
-        for (std::uint64_t done = 0; done < data.size();) {
-            const std::uint64_t piece = std::min<std::uint64_t>(data.size() - done, max_staging_bytes);
-            const vk::BufferCopy copy{.srcOffset = offset + done, .dstOffset = 0, .size = piece};
-            device_->submit([&](const vk::raii::CommandBuffer &commands) {
-                commands.copyBuffer(*buffer_, staging.handle(), copy);
-            });
-            std::memcpy(data.data() + done, staging.data(), piece);
-            done += piece;
-        }
+    state_->staged(data.size(), [&](const Allocation &staging, std::uint64_t first, std::uint64_t length) {
+        const vk::BufferCopy copy{.srcOffset = offset + first, .dstOffset = 0, .size = length};
+        state_->device.submit(
+            [&](const vk::raii::CommandBuffer &commands) { commands.copyBuffer(handle(), *staging.buffer, copy); });
+        std::memcpy(data.data() + first, staging.mapped, length);
     });
 }
 
 void Buffer::clear() {
-    device_->submit([&](const vk::raii::CommandBuffer &commands) {
-        commands.fillBuffer(*buffer_, 0, VK_WHOLE_SIZE, 0);
-    });
+    state_->device.submit(
+        [&](const vk::raii::CommandBuffer &commands) { commands.fillBuffer(handle(), 0, VK_WHOLE_SIZE, 0); });
 }
 
 } // namespace pt::vulkan

@@ -5,14 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace pt::vulkan {
 
 enum class BufferUse {
-    Storage, // kernels read and write it
-    Scene    // kernels read it, as uniform or as storage
+    Storage,         // kernels read and write it
+    UniformOrStorage // kernels read it either way
 };
 
 class Buffer {
@@ -23,22 +24,17 @@ public:
     Buffer(Buffer &&other) noexcept;
     Buffer &operator=(Buffer &&other) noexcept;
 
-    std::uint64_t size() const { return bytes_; }
-    vk::Buffer handle() const { return *buffer_; }
+    std::uint64_t size() const;
+    vk::Buffer handle() const;
 
-    // All wait for the device; offsets and sizes are multiples of 4 bytes.
+    // All wait for the device; offsets and sizes are multiples of 4 bytes and lie within the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void clear();
 
 private:
-    void swap(Buffer &other) noexcept;
-
-    Device *device_;
-    std::uint64_t bytes_;
-    vk::raii::DeviceMemory memory_ = nullptr;
-    vk::raii::Buffer buffer_ = nullptr; // destroyed before its memory is freed
-    std::byte *mapped_ = nullptr;       // where the memory can be read fast by the host, else null
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 } // namespace pt::vulkan

@@ -51,7 +51,8 @@ vk::raii::Pipeline create_pipeline(const Device &device, const vk::raii::Pipelin
 ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> spirv,
                                  std::span<const vk::DescriptorType> bindings, std::uint32_t push_constant_bytes,
                                  std::span<const std::uint32_t> constants) :
-    device_(&device), bindings_(bindings.begin(), bindings.end()) {
+    device_(&device),
+    bindings_(bindings.begin(), bindings.end()) {
     device.require_alive();
     translated("building a kernel", [&] {
         set_layout_ = create_set_layout(device, bindings);
@@ -71,13 +72,13 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
         for (const vk::DescriptorType type : bindings_)
             sizes.push_back({.type = type, .descriptorCount = 1});
         DescriptorSet set;
-        set.pool_ = device_->handle().createDescriptorPool({.flags = vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet,
-                                                            .maxSets = 1,
-                                                            .poolSizeCount = static_cast<std::uint32_t>(sizes.size()),
-                                                            .pPoolSizes = sizes.data()});
+        set.pool_ = device_->handle().createDescriptorPool(
+            {.maxSets = 1, .poolSizeCount = static_cast<std::uint32_t>(sizes.size()), .pPoolSizes = sizes.data()});
         const vk::DescriptorSetLayout layout = *set_layout_;
-        set.set_ = std::move(device_->handle().allocateDescriptorSets(
-            {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]);
+        set.set_ = device_->handle()
+                       .allocateDescriptorSets(
+                           {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]
+                       .release();
         for (std::uint32_t i = 0; i < bindings_.size(); ++i) {
             // A uniform binding sees the 16 KiB that every device offers.
             constexpr std::uint64_t uniform_range = 16384;
@@ -85,7 +86,7 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
             const vk::DescriptorBufferInfo info{
                 .buffer = buffers[i]->handle(),
                 .range = uniform ? std::min<std::uint64_t>(uniform_range, buffers[i]->size()) : VK_WHOLE_SIZE};
-            device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = *set.set_,
+            device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.set_,
                                                                           .dstBinding = i,
                                                                           .descriptorCount = 1,
                                                                           .descriptorType = bindings_[i],

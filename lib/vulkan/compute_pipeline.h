@@ -13,18 +13,18 @@ namespace pt::vulkan {
 // Buffers bound to a kernel. They must outlive the last dispatch with it.
 class DescriptorSet {
 public:
-    vk::DescriptorSet handle() const { return *set_; }
+    vk::DescriptorSet handle() const { return set_; }
 
 private:
     friend class ComputePipeline;
     vk::raii::DescriptorPool pool_ = nullptr;
-    vk::raii::DescriptorSet set_ = nullptr; // freed before its pool
+    vk::DescriptorSet set_; // goes with its pool
 };
 
 class ComputePipeline {
 public:
-    // bindings[i] is the type of binding i of set 0; constants[i] are the bits of the specialization constant with id i.
-    // Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // bindings[i] is the type of binding i of set 0; constants[i] are the bits of the specialization constant with id
+    // i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 

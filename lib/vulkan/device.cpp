@@ -18,7 +18,7 @@ namespace {
 // LP_MAX_TGSI_LOOP_ITERATIONS; newer versions do not, and lose little by shorter submissions).
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 
-// A GPU that has not finished a submission after so long is taken for lost. Submissions aim at a twentieth of a second.
+// Submissions aim at a twentieth of a second; a GPU that has not finished one after so long is taken for lost.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
@@ -61,21 +61,37 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
                                          .ppEnabledExtensionNames = extensions.data()});
 }
 
-void memory_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags from, vk::AccessFlags written,
-                    vk::PipelineStageFlags to, vk::AccessFlags accessed) {
-    const vk::MemoryBarrier barrier{.srcAccessMask = written, .dstAccessMask = accessed};
-    commands.pipelineBarrier(from, to, {}, barrier, {}, {});
-}
-
 using Stage = vk::PipelineStageFlagBits;
 using Access = vk::AccessFlagBits;
-constexpr vk::AccessFlags kernel_access = Access::eShaderRead | Access::eShaderWrite;
-constexpr vk::AccessFlags transfer_access = Access::eTransferRead | Access::eTransferWrite;
+constexpr vk::PipelineStageFlags device_stages = Stage::eComputeShader | Stage::eTransfer;
+constexpr vk::AccessFlags device_writes = Access::eShaderWrite | Access::eTransferWrite;
+constexpr vk::AccessFlags device_accesses =
+    device_writes | Access::eShaderRead | Access::eUniformRead | Access::eTransferRead;
+
+// Makes what the device wrote before it visible to accesses after it.
+void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFlags stages, vk::AccessFlags accesses) {
+    const vk::MemoryBarrier barrier{.srcAccessMask = device_writes, .dstAccessMask = accesses};
+    commands.pipelineBarrier(device_stages, stages, {}, barrier, {}, {});
+}
 
 } // namespace
 
-Device::Device(const vk::raii::PhysicalDevice &physical_device) :
-    info_(describe(physical_device)), limits_(limits_of(physical_device)),
+DevicePolicy default_policy(const pt_device_info &info) {
+    // A loaded machine may take any time. Memory is one on a CPU and on an integrated GPU; a discrete GPU reads the
+    // host's over a bus, and the host reads a GPU's own uncached.
+    const bool cpu = info.kind == PT_DEVICE_CPU;
+    return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
+            .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU};
+}
+
+Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device) :
+    Device(instance, physical_device, default_policy(describe(physical_device))) {}
+
+Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy) :
+    instance_(instance),
+    info_(describe(physical_device)),
+    limits_(limits_of(physical_device)),
+    policy_(policy),
     memory_properties_(physical_device.getMemoryProperties()) {
     translated("creating the device", [&] {
         const std::uint32_t family = compute_family(physical_device);
@@ -83,22 +99,32 @@ Device::Device(const vk::raii::PhysicalDevice &physical_device) :
         queue_ = device_.getQueue(family, 0);
         command_pool_ = device_.createCommandPool(
             {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = family});
-        commands_ = std::move(device_.allocateCommandBuffers({.commandPool = *command_pool_,
-                                                              .level = vk::CommandBufferLevel::ePrimary,
-                                                              .commandBufferCount = 1})[0]);
+        commands_ = std::move(device_.allocateCommandBuffers(
+            {.commandPool = *command_pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})[0]);
         fence_ = device_.createFence({});
         pipeline_cache_ = device_.createPipelineCache({});
     });
 }
 
 Device::~Device() {
-    // Every submission has been waited for, except one that a GPU never finished: its objects are left to the driver,
-    // which may not be asked to wait for what does not end.
-    if (lost())
+    if (!pending_ || ended())
         return;
+    // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
+    // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
+    pipeline_cache_.release();
+    fence_.release();
+    commands_.release();
+    command_pool_.release();
+    device_.release();
+    instance_.abandon();
+}
+
+// Whether the last submission has come to an end by now, be it by the loss of the device.
+bool Device::ended() const {
     try {
-        device_.waitIdle();
-    } catch (const vk::SystemError &) { // nothing is left to be told to anybody
+        return fence_.getStatus() == vk::Result::eSuccess;
+    } catch (const vk::SystemError &) {
+        return true;
     }
 }
 
@@ -114,39 +140,50 @@ void Device::lose(const std::string &message) {
 
 double Device::submit(const std::function<void(const vk::raii::CommandBuffer &)> &record) {
     require_alive();
-    try {
-        commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
-        memory_barrier(commands_, Stage::eComputeShader | Stage::eTransfer, Access::eShaderWrite | Access::eTransferWrite,
-                       Stage::eComputeShader | Stage::eTransfer, kernel_access | transfer_access);
-        record(commands_);
-        memory_barrier(commands_, Stage::eComputeShader | Stage::eTransfer, Access::eShaderWrite | Access::eTransferWrite,
-                       Stage::eHost, Access::eHostRead | Access::eHostWrite);
-        commands_.end();
-        const auto start = std::chrono::steady_clock::now();
+    translated("recording work", [&] { record_work(record); });
+    const auto start = std::chrono::steady_clock::now();
+    translated("submitting work", [&] {
         const vk::CommandBuffer commands = *commands_;
-        queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence_);
-        wait();
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    } catch (const vk::DeviceLostError &error) {
-        lose(error.what());
+        try {
+            queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence_);
+        } catch (const vk::DeviceLostError &error) {
+            lose(error.what());
+        }
+    });
+    pending_ = true;
+    wait(start);
+    pending_ = false;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Device::record_work(const std::function<void(const vk::raii::CommandBuffer &)> &record) {
+    commands_.reset(); // the last recording may have failed half-way
+    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+    // A submission makes visible what the host wrote before it (Vulkan specification, "Host Write Ordering
+    // Guarantees"), but not what earlier submissions wrote: their fence makes that available, to nobody in particular.
+    write_barrier(commands_, device_stages, device_accesses);
+    record(commands_);
+    write_barrier(commands_, Stage::eHost, Access::eHostRead | Access::eHostWrite);
+    commands_.end();
+}
+
+void Device::wait(std::chrono::steady_clock::time_point start) {
+    const std::chrono::nanoseconds step = std::min(wait_step, policy_.patience);
+    try {
+        while (device_.waitForFences(*fence_, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
+               vk::Result::eTimeout)
+            if (std::chrono::steady_clock::now() - start > policy_.patience)
+                lose("it did not end a submission within " +
+                     std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
+                     " ms");
+        device_.resetFences(*fence_);
     } catch (const vk::SystemError &error) {
-        throw Error(result_of(static_cast<vk::Result>(error.code().value())),
-                    std::string("submitting work: ") + error.what());
+        lose(error.what()); // whatever the error is, nobody knows what became of the work
     }
 }
 
-void Device::wait() {
-    const bool patient = info_.kind == PT_DEVICE_CPU; // a loaded machine may take any time
-    const auto start = std::chrono::steady_clock::now();
-    while (device_.waitForFences(*fence_, VK_TRUE, static_cast<std::uint64_t>(wait_step.count())) ==
-           vk::Result::eTimeout)
-        if (!patient && std::chrono::steady_clock::now() - start > gpu_patience)
-            lose("a submission did not end within " + std::to_string(gpu_patience.count()) + " s");
-    device_.resetFences(*fence_);
-}
-
 void barrier_between_dispatches(const vk::raii::CommandBuffer &commands) {
-    memory_barrier(commands, Stage::eComputeShader, Access::eShaderWrite, Stage::eComputeShader, kernel_access);
+    write_barrier(commands, Stage::eComputeShader, Access::eShaderRead | Access::eShaderWrite | Access::eUniformRead);
 }
 
 } // namespace pt::vulkan

@@ -1,10 +1,11 @@
 // A logical device with its one compute queue. Owned by Renderer; buffers and pipelines are made on it.
 #pragma once
 
-#include "api.h"
+#include "vulkan/instance.h"
 
 #include <pt/pt.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -18,15 +19,26 @@ struct Limits {
     std::uint64_t loop_trip_budget;    // loop trips after which the driver stops an invocation, without a word
 };
 
+// How a device is used. Tests choose other than the default, to reach what their device alone would not show.
+struct DevicePolicy {
+    std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
+    bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
+};
+
+DevicePolicy default_policy(const pt_device_info &info);
+
 class Device {
 public:
-    explicit Device(const vk::raii::PhysicalDevice &physical_device);
+    // The instance must outlive the device. A device that hangs is left to the end of the process, and its instance too.
+    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device);
+    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy);
     ~Device();
     Device(const Device &) = delete;
     Device &operator=(const Device &) = delete;
 
     const pt_device_info &info() const { return info_; }
     const Limits &limits() const { return limits_; }
+    const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
     bool lost() const { return !lost_message_.empty(); }
 
@@ -44,11 +56,15 @@ public:
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
 
 private:
-    void wait();
+    void record_work(const std::function<void(const vk::raii::CommandBuffer &)> &record);
+    void wait(std::chrono::steady_clock::time_point start);
+    bool ended() const;
     [[noreturn]] void lose(const std::string &message);
 
+    Instance &instance_;
     pt_device_info info_;
     Limits limits_;
+    DevicePolicy policy_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
@@ -58,6 +74,7 @@ private:
     vk::raii::PipelineCache pipeline_cache_ = nullptr;
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_;
+    bool pending_ = false; // the end of a submission was not seen
 };
 
 // Makes what the dispatches before it wrote visible to those after it.

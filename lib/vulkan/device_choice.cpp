@@ -83,8 +83,8 @@ std::string mismatch(const pt_device_info &device, const std::string &wanted) {
 int rank(const pt_device_info &device) {
     constexpr std::array best_first = {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU,
                                        PT_DEVICE_CPU};
-    const auto found = std::ranges::find_if(
-        best_first, [&](int kind) { return static_cast<std::uint32_t>(kind) == device.kind; });
+    const auto found =
+        std::ranges::find_if(best_first, [&](int kind) { return static_cast<std::uint32_t>(kind) == device.kind; });
     return static_cast<int>(found - best_first.begin());
 }
 

@@ -18,9 +18,8 @@ constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                           VkDebugUtilsMessageTypeFlagsEXT /*types*/,
                                           const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
-    const int32_t level =
-        severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? PT_LOG_ERROR : PT_LOG_WARNING;
-    static_cast<const Log *>(user)->write(level, data->pMessage);
+    const int32_t level = severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? PT_LOG_ERROR : PT_LOG_WARNING;
+    static_cast<const Log *>(user)->write(level, data->pMessage ? data->pMessage : "");
     return VK_FALSE;
 }
 
@@ -52,44 +51,50 @@ std::string driver_advice(const vk::raii::Context &context) {
     return advice + "): install the GPU's Vulkan driver, or mesa-vulkan-drivers to render on the CPU";
 }
 
-} // namespace
-
-Instance::Instance(const Log &log, bool validation) : context_(&::vkGetInstanceProcAddr) {
+// With messages the validation layer is on and reports to them.
+vk::raii::Instance create_instance(const vk::raii::Context &context,
+                                   const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
     std::vector<const char *> extensions;
     vk::InstanceCreateFlags flags;
-    if (contains(context_.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
+    if (contains(context.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
         // Layered implementations are listed only to those who ask.
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
     }
-    if (validation) {
-        if (!contains(context_.enumerateInstanceLayerProperties(), &vk::LayerProperties::layerName, validation_layer))
+    if (messages) {
+        if (!contains(context.enumerateInstanceLayerProperties(), &vk::LayerProperties::layerName, validation_layer))
             throw Error(PT_ERROR_UNSUPPORTED, std::string("the validation layer ") + validation_layer +
                                                   " is not installed (Debian: vulkan-validationlayers)");
         layers.push_back(validation_layer);
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
     const vk::ApplicationInfo application{.pApplicationName = "pt", .apiVersion = VK_API_VERSION_1_2};
+    return context.createInstance({.pNext = messages,
+                                   .flags = flags,
+                                   .pApplicationInfo = &application,
+                                   .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                                   .ppEnabledLayerNames = layers.data(),
+                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                   .ppEnabledExtensionNames = extensions.data()});
+}
+
+} // namespace
+
+Instance::Instance(const Log &log, bool validation) : context_(&::vkGetInstanceProcAddr) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        instance_ = vk::raii::Instance(context_, {.pNext = validation ? &messages : nullptr,
-                                                  .flags = flags,
-                                                  .pApplicationInfo = &application,
-                                                  .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
-                                                  .ppEnabledLayerNames = layers.data(),
-                                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                                  .ppEnabledExtensionNames = extensions.data()});
+        // In the chain the messenger hears of the creation and destruction of the instance itself.
+        instance_ = create_instance(context_, validation ? &messages : nullptr);
     } catch (const vk::OutOfHostMemoryError &) {
         throw Error(PT_ERROR_OUT_OF_HOST_MEMORY, "creating the Vulkan instance: out of memory");
     } catch (const vk::SystemError &error) {
         throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context_));
     }
     if (validation)
-        messenger_.emplace(translated("creating the validation messenger", [&] {
-            return instance_.createDebugUtilsMessengerEXT(messages);
-        }));
+        messenger_.emplace(translated("creating the validation messenger",
+                                      [&] { return instance_.createDebugUtilsMessengerEXT(messages); }));
 }
 
 std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
@@ -103,6 +108,11 @@ std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
     if (devices.empty())
         throw Error(PT_ERROR_NO_DEVICE, "no Vulkan device: " + reason + driver_advice(context_));
     return devices;
+}
+
+void Instance::abandon() {
+    messenger_.reset();
+    instance_.release();
 }
 
 } // namespace pt::vulkan

@@ -18,6 +18,9 @@ public:
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
+    // Leaves the Vulkan instance to the end of the process: one may not be destroyed while a device of it is there.
+    void abandon();
+
 private:
     vk::raii::Context context_;
     vk::raii::Instance instance_ = nullptr;

@@ -128,17 +128,13 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     if (result < 0) {
         return result;
     }
-    for (std::uint32_t sample = 1; sample <= info->sample_count; ++sample) {
-        if (!milliseconds.empty()) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(std::atoi(milliseconds.c_str())));
-        }
-        // Two submissions to a sample: the first callback after a cancelled one finds half a sample more.
-        const double total = info->sample_count;
-        if (info->progress(info->progress_user, (sample - 0.5) / total) != 0) {
-            return PT_CANCELLED;
-        }
-        context->sample_count = sample;
-        if (info->progress(info->progress_user, sample / total) != 0) {
+    constexpr std::uint32_t submissions_per_sample = 4;
+    const auto pause = std::chrono::milliseconds(std::atoi(milliseconds.c_str())) / submissions_per_sample;
+    const std::uint64_t submissions = std::uint64_t{info->sample_count} * submissions_per_sample;
+    for (std::uint64_t done = 1; done <= submissions; ++done) {
+        std::this_thread::sleep_for(pause);
+        context->sample_count = static_cast<std::uint32_t>(done / submissions_per_sample);
+        if (info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0) {
             return PT_CANCELLED;
         }
     }
@@ -163,7 +159,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->sample_count = context->sample_count;
     stats->rejected_samples = failure("rejected") == PT_OK ? 0 : 3;
     stats->device_bytes = 4096;
-    stats->submit_count = 2 * std::uint64_t{context->sample_count};
+    stats->submit_count = 4 * std::uint64_t{context->sample_count};
     stats->device_seconds = 0.25;
     stats->features = PT_FEATURE_LAMPS | PT_FEATURE_MOTION;
     return call(context, "stats");

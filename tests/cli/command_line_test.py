@@ -1,0 +1,421 @@
+"""Tests of the program as its users meet it: exit codes, messages, files left behind.
+
+Usage: command_line_test.py PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]
+
+Most cases run the program on a stand-in for the library (fake_library.cpp), which needs no device, fails on demand and
+takes as long as it is told to. RealDevice runs the program itself.
+"""
+
+import json
+import os
+import pty
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import zlib
+
+PT, FAKE_PT, SCENES = sys.argv[1:4]
+COURSEWORK = os.path.join(SCENES, "coursework.json")
+
+RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
+          "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10}
+
+
+def read_png(path):
+    """Width, height and bytes of an 8-bit RGB image; enough of PNG (ISO 15948) for what is written here."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    position, pixels = 8, b""
+    while position < len(data):
+        length, kind = struct.unpack(">I4s", data[position:position + 8])
+        body = data[position + 8:position + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2)
+        elif kind == b"IDAT":
+            pixels += body
+        position += 12 + length
+    lines, stride, above, image = zlib.decompress(pixels), 3 * width, bytes(3 * width), []
+    for y in range(height):
+        kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
+        for x in range(stride):
+            left = line[x - 3] if x >= 3 else 0
+            corner = above[x - 3] if x >= 3 else 0
+            guesses = (left, above[x], corner)
+            paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
+            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
+        above = line
+        image.append(line)
+    return width, height, image
+
+
+def read_exr_attributes(path):
+    """Name -> (type, bytes) of an OpenEXR header."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:4] == b"\x76\x2f\x31\x01"
+    attributes, position = {}, 8
+    while data[position] != 0:
+        name_end = data.index(b"\0", position)
+        type_end = data.index(b"\0", name_end + 1)
+        size, = struct.unpack("<i", data[type_end + 1:type_end + 5])
+        body = data[type_end + 5:type_end + 5 + size]
+        attributes[data[position:name_end].decode()] = (data[name_end + 1:type_end].decode(), body)
+        position = type_end + 5 + size
+    return attributes
+
+
+def default_signals():
+    """A job in the background of a shell inherits an ignored SIGINT, which the program then respects."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+class CommandLineTest(unittest.TestCase):
+    program = FAKE_PT
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def start(self, *arguments, **environment):
+        names = {name: str(value) for name, value in environment.items()}
+        return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=default_signals)
+
+    def run_pt(self, *arguments, **environment):
+        process = self.start(*arguments, **environment)
+        self.output, self.errors = process.communicate(timeout=120)
+        return process.returncode
+
+    def expect(self, code, *arguments, error=None, **environment):
+        """Runs the program; every line on stderr of a failure must begin with its name, and `error` be in there."""
+        self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
+        if code != 0:
+            self.assertNotEqual(self.errors, "")
+            for line in self.errors.splitlines():
+                self.assertTrue(line.startswith("pt: "), line)
+        if error is not None:
+            self.assertIn(error, self.errors)
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+
+class Usage(CommandLineTest):
+    def test_help_and_version(self):
+        self.expect(0, "--version")
+        self.assertRegex(self.output, r"^pt \d+\.\d+\.\d+\n$")
+        self.expect(0, "render", "--help")
+        for text in ("--max-path-length", "Exit codes:", "143", "Sampling:"):
+            self.assertIn(text, self.output)
+
+    def test_wrong_command_lines(self):
+        for arguments in ([], ["rendr"], ["render"], ["render", COURSEWORK], ["render", "-o", "a.png"],
+                          ["render", COURSEWORK, "-o", "a.png", "--foo"], ["render", COURSEWORK, "-o"],
+                          ["render", COURSEWORK, "another.json", "-o", "a.png"], ["devices", "--jsn"]):
+            with self.subTest(arguments=arguments):
+                self.expect(2, *arguments)
+        self.assertEqual(self.files(), [])
+
+    def test_wrong_values(self):
+        for option, value in (("--size", "12"), ("--size", "1e9x1"), ("--size", "-1x5"), ("--size", ""),
+                              ("--spp", "0"), ("--spp", "-1"), ("--spp", "4294967296"), ("--spp", "many"),
+                              ("--seed", "-1"), ("--seed", "18446744073709551616"), ("--first-sample", "-1"),
+                              ("--max-path-length", "0"), ("--submit-ms", "0"), ("--estimator", "mss"),
+                              ("--tonemap", "filmic"), ("--gamma", "0"), ("--exposure", "nan"),
+                              ("--exposure", "1e9"), ("--progress", "loud")):
+            with self.subTest(option=option, value=value):
+                self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=option)
+        self.assertEqual(self.files(), [])
+
+    def test_unknown_extensions(self):
+        for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):
+            with self.subTest(name=name):
+                self.expect(2, "render", COURSEWORK, "-o", "good.png", "-o", name, error=".exr, .png, .jpg")
+        self.assertEqual(self.files(), [])
+
+    def test_a_format_too_small_for_the_picture(self):
+        self.expect(2, "render", COURSEWORK, "-o", "a.jpg", "--size", "65501x1", error="65500")
+        self.assertEqual(self.files(), [])
+
+    def test_a_negative_exposure_is_a_value(self):
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--exposure", "-2.5", "--spp", "1")
+
+
+class SceneErrors(CommandLineTest):
+    def test_scene_files(self):
+        for text, error in (("", "s.json:1:1: syntax error"), ("{", "s.json:1:2: syntax error"),
+                            ('{"film":\n{"width": NaN}}', "s.json:2:11: syntax error"),
+                            ('{"speres": []}', 'did you mean "spheres"?'),
+                            ('{"film": {"width": "wide"}}', "s.json: /film/width: must be a whole number")):
+            with self.subTest(text=text):
+                self.write("s.json", text)
+                self.expect(3, "render", "s.json", "-o", "a.png", error=error)
+        self.assertEqual(self.files(), ["s.json"])
+
+    def test_unreadable_files(self):
+        self.expect(6, "render", "none.json", "-o", "a.png", error="cannot read none.json: No such file")
+        self.expect(6, "render", ".", "-o", "a.png", error="cannot read .: Is a directory")
+
+    def test_an_empty_scene_is_a_scene(self):
+        self.write("s.json", "{}")
+        self.expect(0, "render", "s.json", "-o", "a.png", "--spp", "1", "--size", "2x2")
+
+    def test_the_librarys_rules_lead_back_to_the_file(self):
+        for function in ("set_scene", "set_camera"):
+            for result in ("INVALID_SCENE", "INVALID_ARGUMENT"):
+                self.expect(3, "render", COURSEWORK, "-o", "a.png", FAKE_PT_FAIL=f"{function}:{RESULT[result]}",
+                            FAKE_PT_MESSAGE="materials[2].glossiness = -1: must be >= 0",
+                            error=COURSEWORK + ': materials[2].glossiness = -1: must be >= 0 (material "blue ball")')
+
+    def test_settings_are_blamed_on_their_origin(self):
+        for result in ("INVALID_ARGUMENT", "UNSUPPORTED"):
+            fault = {"FAKE_PT_FAIL": f"set_render:{RESULT[result]}", "FAKE_PT_MESSAGE": "render.width = 0: must be >= 1"}
+            self.expect(3, "render", COURSEWORK, "-o", "a.png", **fault, error=COURSEWORK + ": render.width")
+            self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "9x9", **fault, error="pt: render.width")
+
+
+class DeviceErrors(CommandLineTest):
+    def test_exit_codes_of_results(self):
+        for function, result, code in (("create", "NO_DEVICE", 4), ("create", "UNSUPPORTED", 4),
+                                       ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
+                                       ("set_scene", "UNSUPPORTED", 4), ("set_render", "OUT_OF_DEVICE_MEMORY", 4),
+                                       ("accumulate", "SHADER", 4), ("accumulate", "DEVICE_LOST", 5),
+                                       ("accumulate", "INVALID_ARGUMENT", 2), ("accumulate", "INTERNAL", 1),
+                                       ("readback", "DEVICE_LOST", 5), ("stats", "INVALID_STATE", 1)):
+            with self.subTest(function=function, result=result):
+                self.write("a.png", "old")
+                self.expect(code, "render", COURSEWORK, "-o", "a.png", "--spp", "1", error="the reason",
+                            FAKE_PT_FAIL=f"{function}:{RESULT[result]}", FAKE_PT_MESSAGE="the reason")
+                self.assertEqual(self.read("a.png"), "old")
+                self.assertEqual(self.files(), ["a.png"])
+
+    def test_validation_messages_fail_the_run(self):
+        for function in ("set_scene", "destroy"):
+            self.expect(1, "render", COURSEWORK, "-o", "a.png", "--validation", "-q", FAKE_PT_LOG=function,
+                        error="pt: validation: a message of the layer")
+            self.expect(0, "render", COURSEWORK, "-o", "a.png", "-q", FAKE_PT_LOG=function)
+
+    def test_devices(self):
+        self.expect(0, "devices")
+        self.assertIn("fake device", self.output)
+        self.expect(0, "devices", "--json")
+        device, = json.loads(self.output)
+        self.assertEqual((device["index"], device["kind"], device["suitable"]), (0, "CPU", True))
+        self.assertEqual(device["uuid"], "00112233-4455-6677-8899-aabbccddeeff")
+        self.expect(4, "devices", FAKE_PT_FAIL=f"devices:{RESULT['NO_DEVICE']}", error="no Vulkan device")
+        self.assertEqual(self.run_pt("devices", FAKE_PT_FAIL="suitable:-1"), 4)
+        self.assertIn("no: it is not real", self.output)
+
+    def test_a_full_standard_output_is_noticed(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([self.program, "devices"], stdout=full, stderr=subprocess.PIPE, check=False)
+        self.assertEqual(done.returncode, 6)
+
+
+class Outputs(CommandLineTest):
+    def test_all_formats(self):
+        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "-o", "b.png", "--output", "c.jpg", "--size", "4x3",
+                    "--spp", "5", "--seed", "18446744073709551615", "--stats", "s.json")
+        self.assertEqual(self.files(), ["a.exr", "b.png", "c.jpg", "s.json"])
+        self.assertEqual(self.errors, "")
+        self.assertRegex(self.output, r"^wrote a.exr, b.png, c.jpg: 4x3, 5 spp in [\d.]+ s on fake device\n$")
+
+        attributes = read_exr_attributes(self.path("a.exr"))
+        self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 5)))
+        self.assertEqual(attributes["renderTimeSeconds"][0], "float")
+        for name, text in (("pt.seed", "18446744073709551615"), ("pt.firstSample", "0"), ("pt.estimator", "best"),
+                           ("pt.rejectedSamples", "0"), ("pt.device", "fake device"), ("pt.driver", "fake driver 1.0")):
+            self.assertEqual(attributes[name], ("string", text.encode()), name)
+        self.assertEqual(attributes["pt.maxPathLength"], ("int", struct.pack("<i", 2)))
+        self.assertTrue(attributes["software"][1].startswith(b"pt "))
+        self.assertRegex(attributes["capDate"][1].decode(), r"^\d{4}:\d\d:\d\d \d\d:\d\d:\d\d$")
+        # Channels are stored in the order of their names; type 2 is 32-bit float.
+        channels = attributes["channels"][1]
+        self.assertEqual([channels.index(name + b"\0\2\0\0\0") for name in (b"B", b"G", b"R")], [0, 18, 36])
+
+        stats = json.loads(self.read("s.json"))
+        self.assertEqual((stats["width"], stats["height"], stats["spp"], stats["seed"]), (4, 3, 5, 2**64 - 1))
+        self.assertEqual(stats["features"], ["lamps", "motion"])
+        self.assertEqual(sorted(stats["seconds"]), ["accumulate", "create", "device", "total"])
+
+    def test_tone_mapping_reaches_the_pixels(self):
+        # The stand-in's picture: red 0, 0.5, 1 from left to right, green 0 to 1 downwards, blue 2.
+        def pixels(*options):
+            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", *options)
+            return read_png(self.path("a.png"))
+
+        self.assertEqual(pixels(), (3, 2, [[0, 0, 255, 188, 0, 255, 255, 0, 255],
+                                           [0, 255, 255, 188, 255, 255, 255, 255, 255]]))
+        self.assertEqual(pixels("--gamma", "1")[2][0], [0, 0, 255, 128, 0, 255, 255, 0, 255])
+        self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
+        # Luminance of (0, 0, 2) is 0.1444: blue becomes 2 / 1.1444, clipped; of (0.5, 0, 2) 0.2507: 0.5 / 1.2507.
+        self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
+
+    def test_files_that_cannot_be_written_are_found_before_rendering(self):
+        os.mkdir(self.path("folder.png"))
+        os.mkfifo(self.path("pipe.png"))
+        for name in ("folder.png", "pipe.png", "none/a.png", "/proc/a.png"):
+            with self.subTest(name=name):
+                for arguments in (["-o", name], ["-o", "good.exr", "-o", name], ["-o", "good.exr", "--stats", name]):
+                    # A thousand samples of a second: the test would run out of time.
+                    self.expect(6, "render", COURSEWORK, *arguments, "--spp", "1000", error="cannot write " + name,
+                                FAKE_PT_SAMPLE_MS=1000)
+        self.assertEqual(self.files(), ["folder.png", "pipe.png"])
+
+    def test_a_failed_write_leaves_the_old_file_and_the_others_are_written(self):
+        self.write("big.exr", "old")
+
+        def full_disk():
+            default_signals()
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+
+        done = subprocess.run([self.program, "render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1"],
+                              cwd=self.folder, preexec_fn=full_disk, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertIn("pt: cannot write big.exr: File too large", done.stderr)
+        self.assertEqual(self.read("big.exr"), "old")
+        self.assertEqual(read_png(self.path("small.png"))[:2], (256, 128))
+        self.assertEqual(self.files(), ["big.exr", "small.png"])
+
+    def test_rejected_samples_are_told(self):
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "1", FAKE_PT_FAIL="rejected:-1",
+                    error="pt: warning: 3 samples were left out")
+
+
+class Interruption(CommandLineTest):
+    def interrupt(self, number, after, *options, sample_ms=100, **environment):
+        """Sends the signal once `after` samples are reported; the picture needs 20 s at least. Returns the exit code.
+
+        The stand-in looks for it four times in a sample."""
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--progress", "json", "--size",
+                             "2x2", *options, FAKE_PT_SAMPLE_MS=sample_ms, **environment)
+        start, first_lines = time.monotonic(), []
+        while not first_lines or json.loads(first_lines[-1])["samples_per_pixel"] < after:
+            first_lines.append(process.stderr.readline())
+        process.send_signal(number)
+        self.output, self.errors = process.communicate(timeout=120)
+        self.assertLess(time.monotonic() - start, 15)
+        return process.returncode
+
+    def test_the_samples_done_are_written(self):
+        for number, code, name in ((signal.SIGINT, 130, "SIGINT"), (signal.SIGTERM, 143, "SIGTERM")):
+            self.assertEqual(self.interrupt(number, 2, "--stats", "s.json"), code)
+            self.assertRegex(self.errors, f"pt: stopped by {name} after \\d+ of 200 samples per pixel\n")
+            samples = json.loads(self.read("s.json"))["spp"]
+            self.assertTrue(2 <= samples < 100, samples)
+            self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
+            self.assertEqual(self.files(), ["a.png", "s.json"])
+
+    def test_nothing_is_touched_before_the_first_sample(self):
+        self.write("a.png", "old")
+        self.assertEqual(self.interrupt(signal.SIGINT, 0, sample_ms=4000), 130)
+        self.assertIn("after 0 of 200 samples per pixel; nothing was written", self.errors)
+        self.assertEqual(self.read("a.png"), "old")
+        self.assertEqual(self.files(), ["a.png"])
+
+    def test_validation_messages_weigh_more(self):
+        self.assertEqual(self.interrupt(signal.SIGINT, 1, "--validation", FAKE_PT_LOG="destroy"), 1)
+
+
+class ProgressOutput(CommandLineTest):
+    def test_styles(self):
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--spp", "3"]
+        self.expect(0, *arguments)
+        self.assertEqual(self.errors, "")  # stderr is no terminal
+        self.expect(0, *arguments, "--progress", "json")
+        lines = [json.loads(line) for line in self.errors.splitlines()]
+        self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, 3))
+        self.expect(0, *arguments, "--progress", "json", "-q")
+        self.assertEqual((self.errors, self.output), ("", ""))
+
+    def test_terminal(self):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([self.program, "render", COURSEWORK, "-o", self.path("a.png"), "--spp", "3"],
+                                   stdout=subprocess.DEVNULL, stderr=theirs)
+        os.close(theirs)
+        output = b""
+        try:
+            while block := os.read(ours, 4096):
+                output += block
+        except OSError:
+            pass  # Linux reports the closed terminal so
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=120), 0)
+        self.assertIn(b"100.0 %  3/3 spp", output)
+        self.assertTrue(output.endswith(b"\r\x1b[K"), output)
+
+
+class RealDevice(CommandLineTest):
+    program = PT
+
+    def test_render(self):
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "-o", "a.exr", "--size", "32x16", "--spp", "2",
+                    "--stats", "s.json")
+        width, height, image = read_png(self.path("a.png"))
+        self.assertEqual((width, height), (32, 16))
+        self.assertGreater(max(max(line) for line in image), 100)  # the warm lamp is in view
+        stats = json.loads(self.read("s.json"))
+        self.assertEqual((stats["spp"], stats["max_path_length"]), (2, 2))
+        self.assertIn("lamps", stats["features"])
+
+    def test_devices(self):
+        self.expect(0, "devices", "--json")
+        self.assertTrue(any(device["suitable"] for device in json.loads(self.output)))
+
+    def test_an_unknown_device(self):
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "no such device")
+        self.assertEqual(self.files(), [])
+
+    def test_the_librarys_rules(self):
+        self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "0x0", error="width")
+        self.expect(2, "render", COURSEWORK, "-o", "a.png", "--max-path-length", "1025", error="max_path_length")
+        self.expect(2, "render", COURSEWORK, "-o", "a.png", "--submit-ms", "1001")
+        self.write("s.json", '{"film": {"width": 0}}')
+        self.expect(3, "render", "s.json", "-o", "a.png", error="width")
+        self.write("s.json", '{"materials": {"gold": {"glossiness": -1}},'
+                             ' "spheres": [{"center": [0, 0, 0], "radius": -1, "material": "gold"}]}')
+        self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[0].radius")
+        self.assertIn('(material "gold")', self.errors)
+        self.write("s.json", '{"camera": {"position": [1, 1, 1], "look_at": [1, 1, 1]}}')
+        self.expect(3, "render", "s.json", "-o", "a.png", error="s.json: camera.look_at")
+        self.assertEqual(self.files(), ["s.json"])
+
+    def test_an_empty_scene_is_black(self):
+        self.write("s.json", "{}")
+        self.expect(0, "render", "s.json", "-o", "a.png", "--size", "3x2", "--spp", "1")
+        self.assertEqual(read_png(self.path("a.png"))[2], [[0] * 9] * 2)
+
+    def test_the_shutter_may_stay_at_the_instant_0(self):
+        scene = {"camera": {"position": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 10},
+                 "materials": {"lamp": {"emission": 1}},
+                 "spheres": [{"center": [0, 0, 0], "radius": 1, "material": "lamp", "motion": [0, 100, 0]}]}
+        for shutter, light in (([0, 0], 255), ([1, 1], 0)):
+            scene["camera"]["shutter"] = shutter
+            self.write("s.json", json.dumps(scene))
+            self.expect(0, "render", "s.json", "-o", "a.png", "--size", "1x1", "--spp", "8")
+            self.assertEqual(read_png(self.path("a.png"))[2], [[light] * 3], shutter)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

@@ -1,0 +1,117 @@
+// Tests of cli/image_file and the module behind it: what is written is read back by OpenImageIO itself.
+#include "image_file.h"
+
+#include "exit_code.h"
+#include "temporary_folder.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace {
+
+using cli::ImageFormat;
+using cli::ImageWriter;
+
+constexpr std::array<pt_image_attribute, 3> attributes{{{"samplesPerPixel", nullptr, 64.0, 0, 0},
+                                                        {"renderTimeSeconds", nullptr, 1.5, 1, 0},
+                                                        {"pt.seed", "18446744073709551615", 0.0, 0, 0}}};
+
+template <typename Value>
+std::vector<Value> read_pixels(const std::string &path, OIIO::TypeDesc type) {
+    const auto input = OIIO::ImageInput::open(path);
+    if (!input) {
+        ADD_FAILURE() << OIIO::geterror();
+        return {};
+    }
+    const OIIO::ImageSpec &spec = input->spec();
+    std::vector<Value> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    EXPECT_TRUE(input->read_image(0, 0, 0, spec.nchannels, type, values.data()));
+    return values;
+}
+
+TEST(ImageFile, FormatFollowsTheExtension) {
+    EXPECT_EQ(cli::image_format("a/b.exr"), ImageFormat::exr);
+    EXPECT_EQ(cli::image_format("a.b.PNG"), ImageFormat::png);
+    EXPECT_EQ(cli::image_format("x.jpg"), ImageFormat::jpeg);
+    EXPECT_EQ(cli::image_format("x.JPEG"), ImageFormat::jpeg);
+    for (const char *path : {"", "exr", ".exr", "a.tiff", "a.exr/", "a.exr.bak", "dir.png/a"}) {
+        EXPECT_EQ(cli::image_format(path), std::nullopt) << path;
+    }
+}
+
+TEST(ImageFile, ExrKeepsEveryBit) {
+    const TemporaryFolder folder;
+    const std::vector<float> radiance{
+        0.0F,     0.1F,   1.0F / 3.0F, std::numeric_limits<float>::max(), std::numeric_limits<float>::denorm_min(),
+        135.0F,   1e-30F, 2.0F,
+        65504.5F, // beyond half precision
+        5.0F,     6.0F,   7.0F};
+    ImageWriter writer;
+    writer.write_radiance(folder.file("a.exr"), 2, 2, radiance, attributes);
+    EXPECT_EQ(read_pixels<float>(folder.file("a.exr"), OIIO::TypeDesc::FLOAT), radiance);
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(ImageFile, ExrHasChannelsAndMetadata) {
+    const TemporaryFolder folder;
+    ImageWriter().write_radiance(folder.file("a.exr"), 1, 1, std::array{1.0F, 2.0F, 3.0F}, attributes);
+    const auto input = OIIO::ImageInput::open(folder.file("a.exr"));
+    ASSERT_TRUE(input);
+    const OIIO::ImageSpec &spec = input->spec();
+    EXPECT_EQ(spec.channelnames, (std::vector<std::string>{"R", "G", "B"}));
+    EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
+    EXPECT_EQ(spec.get_int_attribute("samplesPerPixel"), 64);
+    EXPECT_EQ(spec.get_float_attribute("renderTimeSeconds"), 1.5F);
+    EXPECT_EQ(spec.get_string_attribute("pt.seed"), "18446744073709551615");
+}
+
+TEST(ImageFile, PngKeepsEveryByte) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> bytes{0, 1, 2, 127, 128, 129, 253, 254, 255};
+    ImageWriter().write_bytes(folder.file("a.png"), 3, 1, bytes, attributes);
+    EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
+}
+
+TEST(ImageFile, JpegIsClose) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint8_t> bytes(std::size_t{16} * 16 * 3, 100);
+    ImageWriter().write_bytes(folder.file("a.jpeg"), 16, 16, bytes, attributes);
+    const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
+    ASSERT_EQ(read.size(), bytes.size());
+    for (const std::uint8_t value : read) {
+        EXPECT_NEAR(value, 100, 1); // one colour: only the rounding of its coefficient is lost
+    }
+}
+
+TEST(ImageFile, AFailureLeavesTheOldFile) {
+    const TemporaryFolder folder;
+    folder.write("a.png", "old");
+    // More than libpng takes, which it finds out itself. (libjpeg would end the process.)
+    const std::uint32_t side = cli::longest_side(ImageFormat::png) + 1;
+    const std::vector<std::uint8_t> bytes(std::size_t{side} * 3);
+    try {
+        ImageWriter().write_bytes(folder.file("a.png"), side, 1, bytes, attributes);
+        FAIL() << "was written";
+    } catch (const cli::Failure &failure) {
+        EXPECT_EQ(failure.code(), cli::ExitCode::file);
+        EXPECT_NE(std::string(failure.what()).find("a.png: "), std::string::npos) << failure.what();
+    }
+    EXPECT_EQ(folder.read("a.png"), "old");
+    EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(ImageFile, LongestSidesHold) {
+    const TemporaryFolder folder;
+    ImageWriter writer;
+    for (const char *name : {"a.png", "a.jpg"}) {
+        const std::uint32_t side = cli::longest_side(cli::image_format(name).value());
+        const std::vector<std::uint8_t> bytes(std::size_t{side} * 3, 200);
+        EXPECT_NO_THROW(writer.write_bytes(folder.file(name), side, 1, bytes, attributes));
+        EXPECT_EQ(read_pixels<std::uint8_t>(folder.file(name), OIIO::TypeDesc::UINT8).size(), bytes.size());
+    }
+}
+
+} // namespace

@@ -1,0 +1,35 @@
+// Tests of cli/number.
+#include "number.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+TEST(Number, ReadsTheWholeText) {
+    EXPECT_EQ(cli::parse_number<std::uint32_t>("4294967295"), 4294967295U);
+    EXPECT_EQ(cli::parse_number<std::uint64_t>("18446744073709551615"), 18446744073709551615U);
+    EXPECT_EQ(cli::parse_number<std::uint32_t>("010"), 10U); // not octal
+    EXPECT_EQ(cli::parse_number<double>("-1.5e1"), -15.0);
+}
+
+TEST(Number, RefusesAllElse) {
+    for (const char *text : {"", " 1", "1 ", "-1", "+1", "4294967296", "1.0", "0x10", "one", "1e3"}) {
+        EXPECT_EQ(cli::parse_number<std::uint32_t>(text), std::nullopt) << text;
+    }
+    EXPECT_EQ(cli::parse_number<std::uint64_t>("18446744073709551616"), std::nullopt);
+    for (const char *text : {"", "nan", "inf", "-inf", "1e400", "1,5", "1.5x"}) {
+        EXPECT_EQ(cli::parse_number<double>(text), std::nullopt) << text;
+    }
+}
+
+TEST(Number, Size) {
+    const auto size = cli::parse_size("1920x1080");
+    ASSERT_TRUE(size);
+    EXPECT_EQ(size->width, 1920U);
+    EXPECT_EQ(size->height, 1080U);
+    for (const char *text : {"", "x", "12", "12x", "x12", "1e9x1", "-1x5", "1x-5", "1x2x3", "1X2", "4294967296x1"}) {
+        EXPECT_FALSE(cli::parse_size(text)) << text;
+    }
+}
+
+} // namespace

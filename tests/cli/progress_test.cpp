@@ -1,0 +1,67 @@
+// Tests of cli/progress.
+#include "progress.h"
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace {
+
+using cli::Progress;
+using cli::ProgressStyle;
+using std::chrono::milliseconds;
+
+const Progress::Clock::time_point start{};
+
+// What is printed when the callback comes every 10 ms for 2 s.
+std::string output_of(ProgressStyle style) {
+    std::ostringstream output;
+    {
+        Progress progress(output, style, 1'000'000, 100, start);
+        for (int i = 1; i <= 200; ++i) {
+            progress.update(i / 200.0, start + milliseconds(10 * i));
+        }
+    }
+    return output.str();
+}
+
+TEST(Progress, JsonLines) {
+    std::istringstream lines(output_of(ProgressStyle::json));
+    int count = 0;
+    nlohmann::json last;
+    for (std::string line; std::getline(lines, line); ++count) {
+        last = nlohmann::json::parse(line);
+    }
+    EXPECT_GE(count, 19);
+    EXPECT_LE(count, 21); // ten a second
+    EXPECT_EQ(last.at("fraction"), 1.0);
+    EXPECT_EQ(last.at("samples_per_pixel"), 100);
+    EXPECT_EQ(last.at("samples_per_pixel_total"), 100);
+    EXPECT_EQ(last.at("eta_seconds"), 0.0);
+    EXPECT_NEAR(last.at("paths_per_second").get<double>(), 50e6, 1.0); // 1e8 paths in 2 s
+}
+
+TEST(Progress, TerminalLine) {
+    const std::string output = output_of(ProgressStyle::line);
+    EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten a second and the last erasure
+    EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, written over
+    EXPECT_NE(output.find(" 50.5 %  50/100 spp  50.0 Mpaths/s  ETA 0:00:01"), std::string::npos) << output;
+    EXPECT_TRUE(output.ends_with("\r\x1b[K")); // and left empty
+}
+
+TEST(Progress, NoneIsSilent) {
+    EXPECT_EQ(output_of(ProgressStyle::none), "");
+}
+
+TEST(Progress, StyleFollowsTheTerminal) {
+    EXPECT_EQ(cli::progress_style("auto", false, true), ProgressStyle::line);
+    EXPECT_EQ(cli::progress_style("auto", false, false), ProgressStyle::none);
+    EXPECT_EQ(cli::progress_style("json", false, true), ProgressStyle::json);
+    EXPECT_EQ(cli::progress_style("none", false, true), ProgressStyle::none);
+    EXPECT_EQ(cli::progress_style("json", true, true), ProgressStyle::none); // -q
+}
+
+} // namespace

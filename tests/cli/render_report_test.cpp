@@ -1,0 +1,71 @@
+// Tests of cli/render_report.
+#include "render_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+
+namespace {
+
+cli::RenderReport example() {
+    cli::RenderReport report{};
+    report.scene = "scene.json";
+    report.render.width = 256;
+    report.render.height = 128;
+    report.render.seed = 18446744073709551615U;
+    report.render.first_sample = 4294967295U;
+    report.render.max_path_length = 6;
+    report.render.estimator = PT_ESTIMATOR_MIS;
+    report.requested_sample_count = 64;
+    report.stats.sample_count = 32;
+    report.stats.rejected_samples = 3;
+    report.stats.features = PT_FEATURE_LAMPS | PT_FEATURE_LARGE;
+    report.accumulate_seconds = 2.0;
+    report.total_seconds = 2.5;
+    std::strcpy(report.device.name, "a device");
+    return report;
+}
+
+TEST(RenderReport, StatsJson) {
+    const auto json = cli::stats_json(example());
+    EXPECT_EQ(json.at("scene"), "scene.json");
+    EXPECT_EQ(json.at("spp"), 32);
+    EXPECT_EQ(json.at("spp_requested"), 64);
+    EXPECT_EQ(json.at("seed"), 18446744073709551615U);
+    EXPECT_EQ(json.at("first_sample"), 4294967295U);
+    EXPECT_EQ(json.at("estimator"), "mis");
+    EXPECT_EQ(json.at("device").at("name"), "a device");
+    EXPECT_EQ(json.at("features"), (std::vector<std::string>{"lamps", "large"}));
+    EXPECT_EQ(json.at("paths_per_second"), 256.0 * 128.0 * 32.0 / 2.0);
+    EXPECT_GT(json.at("peak_host_bytes"), 1'000'000); // no C++ program is smaller
+}
+
+TEST(RenderReport, MetadataKeepsAllDigits) {
+    const cli::ImageMetadata metadata(example());
+    std::map<std::string, std::string> texts;
+    std::map<std::string, double> numbers;
+    for (const pt_image_attribute &attribute : metadata.attributes()) {
+        if (attribute.text != nullptr) {
+            texts[attribute.name] = attribute.text;
+        } else {
+            numbers[attribute.name] = attribute.number;
+        }
+    }
+    EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
+    EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
+    EXPECT_EQ(texts.at("pt.rejectedSamples"), "3");
+    EXPECT_EQ(texts.at("pt.estimator"), "mis");
+    EXPECT_EQ(texts.at("software"), "pt " + cli::version_text());
+    EXPECT_EQ(numbers.at("samplesPerPixel"), 32.0);
+    EXPECT_EQ(numbers.at("renderTimeSeconds"), 2.0);
+}
+
+TEST(RenderReport, Texts) {
+    EXPECT_EQ(cli::summary_text(example()), "256x128, 32 spp in 2.50 s on a device");
+    const std::uint8_t uuid[16] = {0x00, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77,
+                                   0x88, 0x99, 0xaa, 0xbb, 0xcc, 0xdd, 0xee, 0xff};
+    EXPECT_EQ(cli::uuid_text(uuid), "00112233-4455-6677-8899-aabbccddeeff");
+}
+
+} // namespace

@@ -1,0 +1,73 @@
+// Tests of cli/render_settings: the rank of command line, scene file and defaults, and who is to blame.
+#include "render_settings.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using cli::ExitCode;
+using cli::merge_settings;
+using cli::RenderOptions;
+using cli::RenderSettings;
+using cli::SceneFile;
+
+SceneFile full_scene() {
+    SceneFile scene{};
+    scene.width = 10;
+    scene.height = 20;
+    scene.max_path_length = 3;
+    scene.sample_count = 5;
+    scene.seed = 7;
+    scene.estimator = PT_ESTIMATOR_UNIFORM;
+    return scene;
+}
+
+RenderOptions full_options() {
+    RenderOptions options;
+    options.size = cli::ImageSize{30, 40};
+    options.max_path_length = 4;
+    options.sample_count = 6;
+    options.seed = 8;
+    options.estimator = PT_ESTIMATOR_MIS;
+    options.first_sample = 9;
+    return options;
+}
+
+void expect_render(const RenderSettings &settings, std::uint32_t width, std::uint32_t height, std::uint32_t length,
+                   std::uint32_t samples, std::uint64_t seed, std::uint32_t estimator) {
+    EXPECT_EQ(settings.render.struct_size, sizeof(pt_render));
+    EXPECT_EQ(settings.render.width, width);
+    EXPECT_EQ(settings.render.height, height);
+    EXPECT_EQ(settings.render.max_path_length, length);
+    EXPECT_EQ(settings.sample_count, samples);
+    EXPECT_EQ(settings.render.seed, seed);
+    EXPECT_EQ(settings.render.estimator, estimator);
+}
+
+TEST(RenderSettings, CommandLineBeatsSceneBeatsDefaults) {
+    expect_render(merge_settings({}, {}), 512, 512, 6, 64, 0, PT_ESTIMATOR_BEST);
+    expect_render(merge_settings({}, full_scene()), 10, 20, 3, 5, 7, PT_ESTIMATOR_UNIFORM);
+    expect_render(merge_settings(full_options(), full_scene()), 30, 40, 4, 6, 8, PT_ESTIMATOR_MIS);
+    EXPECT_EQ(merge_settings(full_options(), {}).render.first_sample, 9U);
+}
+
+TEST(RenderSettings, AZeroSeedOnTheCommandLineCounts) {
+    RenderOptions options;
+    options.seed = 0;
+    EXPECT_EQ(merge_settings(options, full_scene()).render.seed, 0U);
+}
+
+TEST(RenderSettings, BlameFollowsTheValue) {
+    constexpr const char *size = "render.width = 0: must be >= 1";
+    constexpr const char *length = "render.max_path_length = 2000: must be <= 1024";
+    EXPECT_EQ(merge_settings({}, full_scene()).blame(size), ExitCode::scene);
+    EXPECT_EQ(merge_settings({}, full_scene()).blame(length), ExitCode::scene);
+    EXPECT_EQ(merge_settings(full_options(), full_scene()).blame(size), ExitCode::usage);
+    EXPECT_EQ(merge_settings(full_options(), full_scene()).blame(length), ExitCode::usage);
+    RenderOptions size_only;
+    size_only.size = cli::ImageSize{1, 1};
+    EXPECT_EQ(merge_settings(size_only, full_scene()).blame(size), ExitCode::usage);
+    EXPECT_EQ(merge_settings(size_only, full_scene()).blame(length), ExitCode::scene);
+}
+
+} // namespace

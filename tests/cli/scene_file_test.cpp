@@ -1,0 +1,262 @@
+// Tests of cli/scene_file, with json_sections and json_value behind it.
+#include "scene_file.h"
+
+#include "exit_code.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using cli::parse_scene;
+using cli::SceneFile;
+
+// The message without the file's name, or "" if the text is accepted.
+std::string refusal(const std::string &text) {
+    try {
+        parse_scene(text, "s.json");
+    } catch (const cli::Failure &failure) {
+        EXPECT_EQ(failure.code(), cli::ExitCode::scene);
+        const std::string message = failure.what();
+        EXPECT_TRUE(message.starts_with("s.json:")) << message;
+        return message.substr(7);
+    }
+    return "";
+}
+
+template <typename Number, std::size_t Count>
+std::vector<Number> list(const Number (&values)[Count]) {
+    return {values, values + Count};
+}
+
+constexpr const char *small = R"({
+  // Two materials, the second not used.
+  "spheres": [ { "center": [1, 2, 3], "radius": 0.5, "material": "b", "motion": [0, 1, 0] },
+               { "center": [4, 5, 6], "radius": 1, "material": "a" } ],
+  "planes":  [ { "normal": [0, 1, 0], "offset": 4.5, "material": "b" } ],
+  "materials": { "unused": {}, "b": { "diffuse": 0.25, "glossiness": 40 },
+                 "a": { "specular": [0.1, 0.2, 0.3], "emission": 7 } },
+  "camera": { "position": [0, 0, 1], "look_at": [0, 0, -1], "up": [1, 0, 0], "vertical_fov": 90, "shutter": [0.25, 0.5] },
+  "film": { "width": 320, "height": 2e2 },
+  "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "estimator": "uniform" }
+})";
+
+TEST(SceneFile, ReadsEverything) {
+    const SceneFile scene = parse_scene(small, "s.json");
+    EXPECT_EQ(scene.material_names, (std::vector<std::string>{"unused", "b", "a"})); // the file's order
+    ASSERT_EQ(scene.materials.size(), 3U);
+    EXPECT_EQ(list(scene.materials[0].diffuse), (std::vector<float>{0, 0, 0}));
+    EXPECT_EQ(list(scene.materials[1].diffuse), (std::vector<float>{0.25F, 0.25F, 0.25F}));
+    EXPECT_EQ(scene.materials[1].glossiness, 40.0F);
+    EXPECT_EQ(list(scene.materials[2].specular), (std::vector<float>{0.1F, 0.2F, 0.3F}));
+    EXPECT_EQ(list(scene.materials[2].emission), (std::vector<float>{7, 7, 7}));
+    ASSERT_EQ(scene.spheres.size(), 2U);
+    EXPECT_EQ(list(scene.spheres[0].center), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(scene.spheres[0].radius, 0.5);
+    EXPECT_EQ(list(scene.spheres[0].motion), (std::vector<double>{0, 1, 0}));
+    EXPECT_EQ(scene.spheres[0].material, 1U);
+    EXPECT_EQ(list(scene.spheres[1].motion), (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(scene.spheres[1].material, 2U);
+    ASSERT_EQ(scene.planes.size(), 1U);
+    EXPECT_EQ(list(scene.planes[0].normal), (std::vector<double>{0, 1, 0}));
+    EXPECT_EQ(scene.planes[0].offset, 4.5);
+    EXPECT_EQ(scene.planes[0].material, 1U);
+}
+
+TEST(SceneFile, ReadsCameraAndSettings) {
+    const SceneFile scene = parse_scene(small, "s.json");
+    EXPECT_EQ(scene.camera.struct_size, sizeof(pt_camera));
+    EXPECT_EQ(list(scene.camera.position), (std::vector<double>{0, 0, 1}));
+    EXPECT_EQ(list(scene.camera.target), (std::vector<double>{0, 0, -1}));
+    EXPECT_EQ(list(scene.camera.up), (std::vector<double>{1, 0, 0}));
+    EXPECT_DOUBLE_EQ(scene.camera.vertical_fov, std::numbers::pi / 2.0);
+    EXPECT_EQ(scene.camera.shutter_open, 0.25);
+    EXPECT_EQ(scene.camera.shutter_close, 0.5);
+    EXPECT_EQ(scene.width, 320U);
+    EXPECT_EQ(scene.height, 200U); // 2e2 is a whole number
+    EXPECT_EQ(scene.max_path_length, 3U);
+    EXPECT_EQ(scene.sample_count, 16U);
+    EXPECT_EQ(scene.seed, 18446744073709551615U);
+    EXPECT_EQ(scene.estimator, static_cast<std::uint32_t>(PT_ESTIMATOR_UNIFORM));
+}
+
+TEST(SceneFile, EmptySceneHasDefaults) {
+    const SceneFile scene = parse_scene("{}", "s.json");
+    EXPECT_EQ(list(scene.camera.position), (std::vector<double>{0, 0, 1}));
+    EXPECT_EQ(list(scene.camera.target), (std::vector<double>{0, 0, 0}));
+    EXPECT_EQ(scene.camera.vertical_fov, 0.0); // pt.h's default
+    EXPECT_EQ(scene.camera.shutter_close, 0.0);
+    EXPECT_FALSE(scene.width || scene.height || scene.max_path_length || scene.sample_count || scene.seed);
+    const pt_scene view = scene.scene();
+    EXPECT_EQ(view.struct_size, sizeof(pt_scene));
+    EXPECT_EQ(view.sphere_count, 0U);
+}
+
+TEST(SceneFile, ShippedScenesAreRead) {
+    for (const char *name : {"/coursework.json", "/coursework-diffuse.json"}) {
+        const SceneFile scene = cli::read_scene_file(std::string(PT_SCENES_DIRECTORY) + name);
+        EXPECT_EQ(scene.materials.size(), 7U);
+        EXPECT_EQ(scene.scene().sphere_count, 4U);
+        EXPECT_EQ(scene.scene().plane_count, 4U);
+    }
+}
+
+TEST(SceneFile, ShutterAtTheInstantZero) {
+    const auto camera = [](const std::string &shutter) {
+        return parse_scene(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],"shutter":)" + shutter + "}}", "").camera;
+    };
+    // [0, 0] in pt.h is its default, [0, 1].
+    EXPECT_EQ(camera("[0, 0]").shutter_open, 0.0);
+    EXPECT_EQ(camera("[0, 0]").shutter_close, std::numeric_limits<double>::denorm_min());
+    EXPECT_EQ(camera("[-0.0, 0.0]").shutter_close, std::numeric_limits<double>::denorm_min());
+    EXPECT_EQ(camera("[1, 1]").shutter_close, 1.0);
+}
+
+TEST(SceneFile, UnreadableFilesAreFileErrors) {
+    for (const char *path : {"/nonexistent.json", "/"}) {
+        try {
+            cli::read_scene_file(path);
+            FAIL() << path;
+        } catch (const cli::Failure &failure) {
+            EXPECT_EQ(failure.code(), cli::ExitCode::file);
+            EXPECT_TRUE(std::string(failure.what()).starts_with(std::string("cannot read ") + path + ": "));
+        }
+    }
+}
+
+TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
+    EXPECT_TRUE(refusal("").starts_with("1:1: syntax error"));
+    EXPECT_TRUE(refusal("{\n  \"film\": NaN\n}").starts_with("2:11: syntax error"));
+    EXPECT_TRUE(refusal("{\n\n\"film\" {}}").starts_with("3:8: syntax error"));
+    EXPECT_TRUE(refusal("{} {}").starts_with("1:4: syntax error"));
+    EXPECT_TRUE(refusal("{\"film\": {\"width\": 1,}}").starts_with("1:22: syntax error"));
+    EXPECT_TRUE(refusal("{\"film\": \"\xff\"}").starts_with("1:11: syntax error"));
+    EXPECT_TRUE(refusal("{\"film\": {").starts_with("1:11: syntax error")); // the end, one past the last letter
+    EXPECT_TRUE(refusal("{\n").starts_with("2:1: syntax error"));
+}
+
+TEST(SceneFile, DeepNestingIsNotDangerous) {
+    const std::string open(1'000'000, '[');
+    const std::string close(1'000'000, ']');
+    EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), " /spheres/0: must be an object, is an array");
+    EXPECT_TRUE(refusal("{\"spheres\":[" + open).starts_with("1:1000013: syntax error"));
+}
+
+TEST(SceneFile, WrongTypesAreNamed) {
+    const auto sphere = [](const std::string &members) { return refusal("{\"spheres\":[{" + members + "}]}"); };
+    EXPECT_EQ(refusal("[]"), " must contain an object, is an array");
+    EXPECT_EQ(refusal("1"), " must contain an object, is a number");
+    EXPECT_EQ(refusal(R"({"spheres":{}})"), " /spheres: must be an array, is an object");
+    EXPECT_EQ(refusal(R"({"camera":null})"), " /camera: must be an object, is null");
+    EXPECT_EQ(refusal(R"({"planes":[{},true]})"), " /planes/0: \"normal\" is missing");
+    EXPECT_EQ(refusal(R"({"planes":[true]})"), " /planes/0: must be an object, is true");
+    EXPECT_EQ(sphere(R"("center":[0,0,0],"radius":"two","material":"a")"),
+              " /spheres/0/radius: must be a number, is \"two\"");
+    EXPECT_EQ(sphere(R"("center":[0,0],"radius":1,"material":"a")"),
+              " /spheres/0/center: must be an array of 3 numbers, has 2");
+    EXPECT_EQ(sphere(R"("center":3,"radius":1,"material":"a")"),
+              " /spheres/0/center: must be an array of 3 numbers, is 3");
+    EXPECT_EQ(sphere(R"("center":[0,null,0],"radius":1,"material":"a")"),
+              " /spheres/0/center/1: must be a number, is null");
+    EXPECT_EQ(sphere(R"("center":[0,0,0],"radius":1,"material":3)"), " /spheres/0/material: must be a string, is 3");
+    EXPECT_EQ(refusal(R"({"materials":{"a/b":{"diffuse":[1,2]}}})"),
+              " /materials/a~1b/diffuse: must be a number or an array of 3 numbers, has 2");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"glossiness":"0123456789012345678901234567890123456789"}}})"),
+              " /materials/a/glossiness: must be a number, is a string"); // too long to be shown
+}
+
+TEST(SceneFile, MissingMembersAreNamed) {
+    EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"material":"a"}]})"), " /spheres/0: \"radius\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{"look_at":[0,0,0]}})"), " /camera: \"position\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{"position":[0,0,0]}})"), " /camera: \"look_at\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{}})"), " /camera: \"position\" is missing");
+}
+
+TEST(SceneFile, UnknownNamesGetASuggestion) {
+    EXPECT_EQ(refusal(R"({"speres":[]})"), " unknown key \"speres\", did you mean \"spheres\"?");
+    EXPECT_EQ(refusal(R"({"camera":{"lookat":[0,0,0]}})"),
+              " /camera: unknown key \"lookat\", did you mean \"look_at\"?");
+    EXPECT_EQ(refusal(R"({"film":{"size":1}})"), " /film: unknown key \"size\", known: width, height");
+    EXPECT_EQ(refusal(R"({"render":{"samples":1}})").substr(0, 33), " /render: unknown key \"samples\", ");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"colour":1}}})").substr(0, 34), " /materials/a: unknown key \"colour");
+    EXPECT_EQ(refusal(R"({"spheres":[{"raduis":1}]})"),
+              " /spheres/0: unknown key \"raduis\", did you mean \"radius\"?");
+    EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"radius":1,"material":"glod"}],"materials":{"gold":{}}})"),
+              " /spheres/0/material: unknown material \"glod\", did you mean \"gold\"?");
+    EXPECT_EQ(refusal(R"({"render":{"estimator":"mss"}})"),
+              " /render/estimator: unknown estimator \"mss\", did you mean \"mis\"?");
+}
+
+TEST(SceneFile, DuplicatesAreRefused) {
+    EXPECT_EQ(refusal(R"({"film":{},"film":{}})"), " /film: is given twice");
+    EXPECT_EQ(refusal(R"({"film":{"width":1,"width":1}})"), " /film/width: is given twice");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{},"b":{},"a":{}}})"), " /materials/a: is given twice");
+    EXPECT_EQ(refusal(R"({"spheres":[{"radius":1,"radius":2}]})"), " /spheres/0/radius: is given twice");
+    EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), ""); // in different places
+}
+
+TEST(SceneFile, NumbersHaveLimits) {
+    EXPECT_EQ(refusal(R"({"spheres":[{},{"center":[0,0,1e400]}]})"), " /spheres/0: \"center\" is missing");
+    EXPECT_EQ(refusal(R"({"planes":[{"normal":[0,0,-1e400]}]})"),
+              " /planes/0/normal/2: the number -1e400 is too large");
+    EXPECT_EQ(refusal(R"({"film":{"width":1e400}})"), " /film/width: the number 1e400 is too large");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"emission":1e39}}})"),
+              " /materials/a/emission: must lie in the range of 32-bit floating point numbers, is 1e+39");
+    for (const char *width : {"-1", "1.5", "4294967296", "1e20", "\"1\""}) {
+        EXPECT_TRUE(refusal(std::string(R"({"film":{"width":)") + width + "}}")
+                        .starts_with(" /film/width: must be a whole number from 0 to 4294967295, is "))
+            << width;
+    }
+    EXPECT_NE(refusal(R"({"render":{"seed":18446744073709551616}})"), "");
+    EXPECT_NE(refusal(R"({"render":{"seed":-1}})"), "");
+}
+
+// Zeros that pt.h would take as "default" do not mean that in a file.
+TEST(SceneFile, ZerosAreNotDefaults) {
+    const auto camera = [](const std::string &member) {
+        return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
+    };
+    EXPECT_EQ(camera(R"("vertical_fov":0)"),
+              " /camera/vertical_fov: must be more than 0 and less than 180 degrees, is 0");
+    EXPECT_NE(camera(R"("vertical_fov":180)"), "");
+    EXPECT_EQ(camera(R"("vertical_fov":179.9)"), "");
+    EXPECT_EQ(camera(R"("up":[0,0,0])"), " /camera/up: must not be [0, 0, 0]");
+    EXPECT_NE(refusal(R"({"render":{"max_path_length":0}})"), "");
+    EXPECT_NE(refusal(R"({"render":{"spp":0}})"), "");
+}
+
+TEST(SceneFile, ExplainsTheLibrarysMessages) {
+    const SceneFile scene = parse_scene(small, "s.json");
+    EXPECT_EQ(scene.explain("spheres[3].radius = -1: must be > 0"), "s.json: spheres[3].radius = -1: must be > 0");
+    EXPECT_EQ(scene.explain("materials[1].glossiness = -1: must be >= 0\nmaterials[2].diffuse[0] = -1: must be >= 0"),
+              "s.json: materials[1].glossiness = -1: must be >= 0 (material \"b\")\n"
+              "s.json: materials[2].diffuse[0] = -1: must be >= 0 (material \"a\")");
+    EXPECT_EQ(scene.explain("camera.target = (0, 0, 0): must differ from position"),
+              "s.json: camera.look_at = (0, 0, 0): must differ from position");
+    EXPECT_EQ(scene.explain("materials[99].x = 0: y"), "s.json: materials[99].x = 0: y");
+    EXPECT_EQ(scene.explain("materials[x"), "s.json: materials[x");
+}
+
+// Time and memory must grow with the file and not with its square: a square would be 10^10 steps here, minutes.
+TEST(SceneFile, ManyItemsAreReadInLinearTime) {
+    std::string text = "{\"materials\":{";
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) {
+        text += (i == 0 ? "\"m" : ",\"m") + std::to_string(i) + "\":{}";
+    }
+    text += "},\"spheres\":[";
+    for (int i = 0; i < count; ++i) {
+        text += (i == 0 ? "" : ",");
+        text += R"({"center":[0,0,0],"radius":1,"material":"m)" + std::to_string(count - 1 - i) + "\"}";
+    }
+    const SceneFile scene = parse_scene(text + "]}", "s.json");
+    ASSERT_EQ(scene.spheres.size(), std::size_t{count});
+    EXPECT_EQ(scene.spheres.front().material, std::uint32_t{count - 1});
+    EXPECT_EQ(scene.spheres.back().material, 0U);
+}
+
+} // namespace

@@ -1,0 +1,147 @@
+// Tests of cli/tone_map: anchors worked out from the published formulas with another program, and properties.
+#include "tone_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+namespace {
+
+using cli::apply_curve;
+using cli::Colour;
+using cli::ToneCurve;
+using cli::ToneMap;
+
+constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCurve::aces, ToneCurve::agx,
+                                    ToneCurve::neutral};
+
+// A handful of operations in double on numbers near 1, one of them a power: 1e-12 is thousands of roundings.
+constexpr double rounding = 1e-12;
+
+void expect_colour(const Colour &colour, const Colour &expected, double tolerance) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        EXPECT_NEAR(colour[channel], expected[channel], tolerance) << "channel " << channel;
+    }
+}
+
+// Over 20 stops around middle grey, and 0.
+bool is_nondecreasing(const std::function<double(double)> &curve) {
+    double last = curve(0.0);
+    for (int i = 0; i <= 20'000; ++i) {
+        const double value = curve(std::exp2(-14.0 + i / 1000.0));
+        if (!(value >= last)) {
+            return false;
+        }
+        last = value;
+    }
+    return true;
+}
+
+double encode(double light) {
+    return cli::encode_srgb(std::min(light, 1.0));
+}
+
+TEST(ToneMap, SrgbAnchors) {
+    EXPECT_EQ(cli::encode_srgb(0.0), 0.0);
+    EXPECT_NEAR(cli::encode_srgb(1.0), 1.0, rounding);
+    EXPECT_NEAR(cli::encode_srgb(0.5), 0.7353569830524495, rounding);
+    EXPECT_NEAR(cli::encode_srgb(0.18), 0.46135612950044164, rounding);
+    EXPECT_NEAR(cli::encode_srgb(0.001), 0.01292, rounding);
+}
+
+// The standard rounds the break point to 7 decimals, so the pieces may miss each other by the slope times half of one.
+TEST(ToneMap, SrgbPiecesMeet) {
+    constexpr double break_point = 0.0031308;
+    const double above = cli::encode_srgb(std::nextafter(break_point, 1.0));
+    EXPECT_NEAR(above, cli::encode_srgb(break_point), 12.92 * 0.5e-7);
+    EXPECT_NE(above, cli::encode_srgb(break_point)); // it is piecewise: a plain power would have no gap
+}
+
+TEST(ToneMap, CurvesNeverFall) {
+    EXPECT_TRUE(is_nondecreasing(&encode));
+    for (const ToneCurve curve : all_curves) {
+        EXPECT_TRUE(is_nondecreasing([curve](double x) {
+            return apply_curve(curve, {x, x, x})[1];
+        })) << cli::tone_curve_names[static_cast<std::size_t>(curve)];
+    }
+    EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // the check can fail
+}
+
+TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
+    constexpr double brightest = std::numeric_limits<float>::max();
+    for (const ToneCurve curve : all_curves) {
+        expect_colour(apply_curve(curve, {0.0, 0.0, 0.0}), {0.0, 0.0, 0.0}, 0.0);
+        for (const Colour &colour : {Colour{brightest, 0.0, 0.0}, Colour{brightest, brightest, brightest}}) {
+            for (const double component : apply_curve(curve, colour)) {
+                EXPECT_TRUE(component >= 0.0 && component <= 1.0) << component;
+            }
+        }
+    }
+}
+
+TEST(ToneMap, NoneClamps) {
+    expect_colour(apply_curve(ToneCurve::none, {0.25, 1.0, 1.5}), {0.25, 1.0, 1.0}, 0.0);
+}
+
+TEST(ToneMap, ReinhardIsOnTheLuminance) {
+    expect_colour(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
+    const Colour colour = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
+    EXPECT_NEAR(colour[0] / colour[1], 2.0, rounding); // per channel it would be 0.5 / 0.333
+    EXPECT_NEAR(colour[1] / colour[2], 2.0, rounding);
+}
+
+TEST(ToneMap, AcesAnchors) {
+    expect_colour(apply_curve(ToneCurve::aces, {1.0, 0.18, 0.0}), {2.54 / 3.16, 0.2668989203894968, 0.0}, rounding);
+}
+
+TEST(ToneMap, AgxAnchors) {
+    expect_colour(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18}),
+                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
+    expect_colour(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
+                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
+    // Sobotka's sigmoid has its pivot at middle grey, with half the signal; the polynomial's root mean square error
+    // against it is published: sqrt(3.67e-6) = 0.0019.
+    EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
+}
+
+TEST(ToneMap, NeutralAnchors) {
+    // Below the compression only the 4 % of the Fresnel reflection are taken off, and near black a share of them.
+    expect_colour(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
+    expect_colour(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
+    expect_colour(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
+                  {0.8690909090909091, 0.8690909090909091, 0.8690909090909091}, rounding);
+    expect_colour(apply_curve(ToneCurve::neutral, {2.0, 0.5, 0.1}), {0.96, 0.3211357586512865, 0.15077196095829626},
+                  rounding);
+}
+
+TEST(ToneMap, NamesMatchCurves) {
+    for (const ToneCurve curve : all_curves) {
+        EXPECT_EQ(cli::find_tone_curve(cli::tone_curve_names[static_cast<std::size_t>(curve)]), curve);
+    }
+    EXPECT_EQ(cli::find_tone_curve("filmic"), std::nullopt);
+}
+
+TEST(ToneMap, EightBits) {
+    ToneMap map;
+    const float colour[] = {0.0F, 0.5F, 2.0F};
+    // 0.7353569830524495 * 255 = 187.5
+    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 188, 255}));
+    map.gamma = 1.0;
+    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 128, 255})); // 127.5 rounds up
+    map.gamma = 2.2; // 255 * 0.5^(1 / 2.2) = 186.08
+    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 186, 255}));
+}
+
+TEST(ToneMap, ExposureIsInStops) {
+    ToneMap map;
+    map.gamma = 1.0;
+    map.exposure = 2.0;
+    const float colour[] = {0.125F, 0.25F, 0.0F};
+    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{128, 255, 0}));
+    map.exposure = -1.0;
+    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
+}
+
+} // namespace

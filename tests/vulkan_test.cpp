@@ -1,0 +1,409 @@
+// Tests of lib/vulkan/ on a real device: transfers, kernels, messages, errors, loss. The validation layer watches, and
+// what it says fails the test; not with PT_TEST_NO_VALIDATION set. PT_TEST_DEVICE names another device than the best.
+#include "vulkan/buffer.h"
+#include "vulkan/compute_pipeline.h"
+#include "vulkan/device.h"
+#include "vulkan/device_choice.h"
+#include "vulkan/instance.h"
+
+#include "error.h"
+#include "expected_error.h"
+#include "log.h"
+#include "recurrence.spv.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace {
+
+using pt::vulkan::Buffer;
+using pt::vulkan::BufferUse;
+using pt::vulkan::ComputePipeline;
+using pt::vulkan::DescriptorSet;
+using pt::vulkan::Device;
+using pt::vulkan::DevicePolicy;
+using pt::vulkan::Instance;
+
+void collect(void *user, int32_t /*level*/, const char *line) {
+    static_cast<std::vector<std::string> *>(user)->push_back(line);
+}
+
+// Sets an environment variable while it lives.
+class EnvironmentVariable {
+public:
+    EnvironmentVariable(const char *name, const char *value) : name_(name) {
+        if (const char *before = std::getenv(name))
+            before_ = before;
+        setenv(name, value, 1);
+    }
+    ~EnvironmentVariable() {
+        if (before_)
+            setenv(name_, before_->c_str(), 1);
+        else
+            unsetenv(name_);
+    }
+    EnvironmentVariable(const EnvironmentVariable &) = delete;
+    EnvironmentVariable &operator=(const EnvironmentVariable &) = delete;
+
+private:
+    const char *name_;
+    std::optional<std::string> before_;
+};
+
+bool validation() {
+    return std::getenv("PT_TEST_NO_VALIDATION") == nullptr;
+}
+
+class VulkanTest : public testing::Test {
+protected:
+    void SetUp() override {
+        log_ = {&collect, &messages_};
+        instance_.emplace(log_, validation());
+    }
+
+    // The layer reports leaks when the device and the instance are destroyed.
+    void TearDown() override {
+        device_.reset();
+        instance_.reset();
+        for (const std::string &line : messages_)
+            ADD_FAILURE() << line;
+    }
+
+    vk::raii::PhysicalDevice physical_device() const {
+        const std::vector<vk::raii::PhysicalDevice> devices = instance_->physical_devices();
+        std::vector<pt_device_info> infos;
+        for (const vk::raii::PhysicalDevice &device : devices)
+            infos.push_back(pt::vulkan::describe(device));
+        const char *wanted = std::getenv("PT_TEST_DEVICE");
+        return devices[pt::vulkan::choose_device(infos, wanted ? wanted : "")];
+    }
+
+    Device &device() {
+        if (!device_)
+            device_.emplace(*instance_, physical_device());
+        return *device_;
+    }
+
+    Device &device_with(const DevicePolicy &policy) {
+        device_.emplace(*instance_, physical_device(), policy);
+        return *device_;
+    }
+
+    std::vector<std::string> messages_;
+
+private:
+    pt::Log log_;
+    std::optional<Instance> instance_;
+    std::optional<Device> device_;
+};
+
+// The kernel recurrence.comp: values[i] becomes what step makes of values[i] + offset, step by step.
+class Recurrence {
+public:
+    static constexpr std::uint32_t multiplier = 1664525;
+    static constexpr std::uint32_t increment = 1013904223;
+    static constexpr std::uint32_t offset = 41;
+
+    Recurrence(Device &device, std::uint32_t group_count) :
+        device_(device),
+        group_count_(group_count),
+        pipeline_(device, recurrence_spirv,
+                  std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
+                  std::array{multiplier, increment}),
+        offset_(device, BufferUse::UniformOrStorage, 1U << 17, "offset"),
+        values_(device, BufferUse::Storage, value_count() * 4, "values"),
+        set_(pipeline_.bind(std::array{&offset_, &values_})) {}
+
+    std::size_t value_count() const { return std::size_t{group_count_} * 64; }
+    Buffer &values() { return values_; }
+
+    // Fills the kernel's buffers.
+    void start_with(std::span<const std::uint32_t> values) {
+        const std::array words = {offset, 0U, 0U, 0U};
+        offset_.upload(std::as_bytes(std::span(words)), 0);
+        values_.upload(std::as_bytes(values), 0);
+    }
+
+    static std::uint32_t expected(std::uint32_t value, std::uint32_t steps) {
+        value += offset;
+        for (std::uint32_t i = 0; i < steps; ++i)
+            value = value * multiplier + increment;
+        return value;
+    }
+
+    void record(const vk::raii::CommandBuffer &commands, std::uint32_t steps) const {
+        pipeline_.dispatch(commands, set_, std::as_bytes(std::span(&steps, 1)), group_count_);
+    }
+
+    double run(std::uint32_t steps) {
+        return device_.submit([&](const vk::raii::CommandBuffer &commands) { record(commands, steps); });
+    }
+
+private:
+    Device &device_;
+    std::uint32_t group_count_;
+    ComputePipeline pipeline_;
+    Buffer offset_;
+    Buffer values_;
+    DescriptorSet set_;
+};
+
+std::vector<std::uint32_t> counting(std::size_t count) {
+    std::vector<std::uint32_t> values(count);
+    std::iota(values.begin(), values.end(), 1000U);
+    return values;
+}
+
+std::vector<std::uint32_t> zeros(std::size_t count) {
+    return std::vector<std::uint32_t>(count, 0U);
+}
+
+void upload(Buffer &buffer, std::span<const std::uint32_t> values, std::size_t first = 0) {
+    buffer.upload(std::as_bytes(values), first * 4);
+}
+
+std::vector<std::uint32_t> download(Buffer &buffer, std::size_t first, std::size_t count) {
+    std::vector<std::uint32_t> values(count);
+    buffer.download(std::as_writable_bytes(std::span(values)), first * 4);
+    return values;
+}
+
+// Both ways of a buffer to the host, on the one device there is.
+class VulkanTransferTest : public VulkanTest, public testing::WithParamInterface<bool> {
+protected:
+    Device &device_under_test() { return device_with({.patience = std::chrono::hours{1}, .share_memory = GetParam()}); }
+};
+
+INSTANTIATE_TEST_SUITE_P(, VulkanTransferTest, testing::Values(true, false),
+                         [](const auto &test) { return test.param ? "InPlace" : "Staged"; });
+
+TEST_P(VulkanTransferTest, DownloadReturnsWhatWasUploaded) {
+    Device &device = device_under_test();
+    // More than two staging buffers hold, and not a multiple of one.
+    const std::vector<std::uint32_t> values = counting((33U << 20) / 4 + 3);
+    Buffer buffer(device, BufferUse::Storage, values.size() * 4, "test");
+    upload(buffer, values);
+    EXPECT_TRUE(download(buffer, 0, values.size()) == values);
+    const std::size_t first = (15U << 20) / 4 + 1;
+    const std::size_t count = (17U << 20) / 4;
+    EXPECT_TRUE(std::ranges::equal(download(buffer, first, count), std::span(values).subspan(first, count)));
+}
+
+TEST_P(VulkanTransferTest, UploadChangesItsRangeOnly) {
+    Buffer buffer(device_under_test(), BufferUse::UniformOrStorage, 1024 * 4, "test");
+    std::vector<std::uint32_t> expected = counting(1024);
+    upload(buffer, expected);
+    const std::array patch = {7U, 8U, 9U};
+    upload(buffer, patch, 500);
+    std::ranges::copy(patch, expected.begin() + 500);
+    EXPECT_EQ(download(buffer, 0, 1024), expected);
+    upload(buffer, {}, 0);
+    EXPECT_EQ(download(buffer, 0, 1024), expected);
+}
+
+TEST_P(VulkanTransferTest, ClearZeroesAll) {
+    Buffer buffer(device_under_test(), BufferUse::Storage, 1024 * 4, "test");
+    upload(buffer, counting(1024));
+    buffer.clear();
+    EXPECT_EQ(download(buffer, 0, 1024), zeros(1024));
+}
+
+TEST_P(VulkanTransferTest, KernelsSeeUploadsAndDownloadsSeeKernels) {
+    Recurrence recurrence(device_under_test(), 5);
+    const std::vector<std::uint32_t> start = counting(recurrence.value_count());
+    recurrence.start_with(start);
+    recurrence.run(3);
+    std::vector<std::uint32_t> expected(start.size());
+    std::ranges::transform(start, expected.begin(), [](auto x) { return Recurrence::expected(x, 3); });
+    EXPECT_EQ(download(recurrence.values(), 0, start.size()), expected);
+    upload(recurrence.values(), start);
+    EXPECT_EQ(download(recurrence.values(), 0, start.size()), start);
+}
+
+TEST_P(VulkanTransferTest, DispatchesSeeEachOther) {
+    Device &device = device_under_test();
+    Recurrence recurrence(device, 5);
+    recurrence.start_with(zeros(recurrence.value_count()));
+    recurrence.run(2); // in another submission
+    device.submit([&](const vk::raii::CommandBuffer &commands) {
+        recurrence.record(commands, 3);
+        pt::vulkan::barrier_between_dispatches(commands);
+        recurrence.record(commands, 4);
+    });
+    const std::uint32_t expected = Recurrence::expected(Recurrence::expected(Recurrence::expected(0, 2), 3), 4);
+    EXPECT_EQ(download(recurrence.values(), 0, recurrence.value_count()),
+              std::vector<std::uint32_t>(recurrence.value_count(), expected));
+}
+
+TEST_F(VulkanTest, DescribesTheDevice) {
+    const pt_device_info &info = device().info();
+    EXPECT_EQ(info.suitable, 1U);
+    EXPECT_STREQ(info.reason, "");
+    EXPECT_STRNE(info.name, "");
+    EXPECT_STRNE(info.driver, "");
+    EXPECT_GT(info.memory_bytes, 0U);
+    EXPECT_TRUE(std::ranges::any_of(info.uuid, [](std::uint8_t byte) { return byte != 0; }));
+    // What Vulkan guarantees.
+    EXPECT_GE(device().limits().max_storage_buffer_range, 1U << 27);
+    EXPECT_GE(device().limits().max_allocation_bytes, 1U << 30);
+    EXPECT_GE(device().limits().max_workgroup_count, 65535U);
+}
+
+TEST_F(VulkanTest, CountsAllocatedBytes) {
+    const std::uint64_t before = device().allocated_bytes();
+    {
+        Buffer first(device(), BufferUse::Storage, 4096, "first");
+        EXPECT_EQ(device().allocated_bytes(), before + 4096);
+        Buffer second(device(), BufferUse::UniformOrStorage, 1024, "second");
+        EXPECT_EQ(device().allocated_bytes(), before + 5120);
+        first = std::move(second);
+        EXPECT_EQ(device().allocated_bytes(), before + 1024);
+        EXPECT_EQ(first.size(), 1024U);
+    }
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
+    const ComputePipeline pipeline(device(), recurrence_spirv,
+                                   std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer},
+                                   4, {});
+    Buffer buffer(device(), BufferUse::UniformOrStorage, 1024, "test");
+    const std::array buffers = {&buffer, &buffer};
+    DescriptorSet set = pipeline.bind(buffers);
+    set = pipeline.bind(buffers);
+    const std::uint32_t steps = 1;
+    device().submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1);
+    });
+}
+
+TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
+    const std::uint64_t before = device().allocated_bytes();
+    const std::uint64_t bytes = device().limits().max_allocation_bytes + 4;
+    const pt::Error error = error_of([&] { Buffer(device(), BufferUse::Storage, bytes, "film"); });
+    EXPECT_EQ(error.code(), PT_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_TRUE(names(error, std::to_string(bytes)) && names(error, "film")) << error.what();
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+#ifndef __SANITIZE_ADDRESS__ // its own memory is beyond any limit
+TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
+    if (device().info().kind != PT_DEVICE_CPU)
+        GTEST_SKIP() << "a limit on the process's memory limits CPU devices only";
+    const std::uint64_t before = device().allocated_bytes();
+    rlimit unlimited{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &unlimited), 0);
+    const rlimit none_left{1, unlimited.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &none_left), 0);
+    std::optional<pt::Error> error;
+    try {
+        Buffer(device(), BufferUse::Storage, 1U << 30, "film");
+    } catch (const pt::Error &thrown) {
+        error = thrown;
+    }
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &unlimited), 0);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code(), PT_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_TRUE(names(*error, "1073741824 bytes for the film")) << error->what();
+    EXPECT_EQ(device().allocated_bytes(), before);
+    messages_.clear(); // the driver reports it too
+    Buffer(device(), BufferUse::Storage, 1U << 20, "film").clear();
+}
+#endif
+
+TEST_F(VulkanTest, AFailureWhileRecordingLeavesTheDeviceUsable) {
+    Recurrence recurrence(device(), 1);
+    recurrence.start_with(zeros(recurrence.value_count()));
+    EXPECT_THROW(device().submit([&](const vk::raii::CommandBuffer &commands) {
+        recurrence.record(commands, 1);
+        throw std::bad_alloc();
+    }),
+                 std::bad_alloc);
+    EXPECT_FALSE(device().lost());
+    EXPECT_EQ(download(recurrence.values(), 0, 1)[0], 0U);
+    recurrence.run(1);
+    EXPECT_EQ(download(recurrence.values(), 0, 1)[0], Recurrence::expected(0, 1));
+}
+
+TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
+    Device &device = device_with({.patience = std::chrono::nanoseconds{0}, .share_memory = true});
+    Recurrence recurrence(device, 256); // fills no buffer: with no patience at all the first submission is the last
+    const pt::Error loss = error_of([&] { recurrence.run(60'000); });
+    EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
+    EXPECT_TRUE(device.lost());
+    std::array<std::byte, 4> word{};
+    const std::array<pt::Error, 6> later = {
+        error_of([&] { device.require_alive(); }),
+        error_of([&] { recurrence.run(1); }),
+        error_of([&] { recurrence.values().clear(); }),
+        error_of([&] { recurrence.values().upload(word, 0); }),
+        error_of([&] { recurrence.values().download(word, 0); }),
+        error_of([&] { Buffer(device, BufferUse::Storage, 1024, "test"); }),
+    };
+    for (const pt::Error &error : later) {
+        EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);
+        EXPECT_STREQ(error.what(), loss.what());
+    }
+    device.handle().waitIdle(); // this device does end it, and then its buffers may go
+}
+
+TEST_F(VulkanTest, APatientDeviceEndsTheSameSubmission) {
+    Recurrence recurrence(device(), 256);
+    recurrence.start_with(zeros(recurrence.value_count()));
+    EXPECT_GT(recurrence.run(60'000), 0.0);
+    EXPECT_EQ(download(recurrence.values(), 16383, 1)[0], Recurrence::expected(0, 60'000));
+}
+
+TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
+    pt_device_info info{};
+    for (const std::uint32_t gpu :
+         {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU, PT_DEVICE_OTHER}) {
+        info.kind = gpu;
+        EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::seconds{10});
+    }
+    info.kind = PT_DEVICE_CPU;
+    EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::nanoseconds::max());
+}
+
+// The negative control of every test here.
+TEST_F(VulkanTest, TheLayersMessagesReachTheLog) {
+    if (!validation())
+        GTEST_SKIP() << "the layer is off";
+    EXPECT_TRUE(messages_.empty());
+    const vk::BufferCreateInfo empty{.size = 0, .usage = vk::BufferUsageFlagBits::eStorageBuffer};
+    { const vk::raii::Buffer mistake(device().handle(), empty); }
+    const auto reported = [](const std::string &line) {
+        return line.find("VUID-VkBufferCreateInfo-size-00912") != std::string::npos;
+    };
+    EXPECT_TRUE(std::ranges::any_of(messages_, reported));
+    messages_.clear();
+}
+
+TEST(VulkanInstanceTest, WithoutADriverThereIsNoDevice) {
+    const EnvironmentVariable no_driver("VK_DRIVER_FILES", "/nonexistent/driver.json");
+    const pt::Error error = error_of([] { (void)Instance(pt::Log{}, false).physical_devices(); });
+    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
+    EXPECT_TRUE(names(error, "VK_DRIVER_FILES=/nonexistent/driver.json")) << error.what();
+    EXPECT_TRUE(names(error, "ErrorIncompatibleDriver")) << error.what();
+    EXPECT_TRUE(names(error, "mesa-vulkan-drivers")) << error.what();
+}
+
+TEST(VulkanInstanceTest, WithoutTheLayerValidationIsUnsupported) {
+    const EnvironmentVariable no_layers("VK_LAYER_PATH", "/nonexistent");
+    const pt::Error error = error_of([] { Instance(pt::Log{}, true); });
+    EXPECT_EQ(error.code(), PT_ERROR_UNSUPPORTED);
+    EXPECT_TRUE(names(error, "VK_LAYER_KHRONOS_validation")) << error.what();
+}
+
+} // namespace
