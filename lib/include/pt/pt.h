@@ -129,12 +129,23 @@ typedef struct pt_camera {
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/* How light is found. All converge to the same image; they differ in noise and in time. */
-/* pt_render.estimator */
+/* pt_render.estimator: how light is found. All converge to the same image; they differ in noise and in time. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /* what this version considers best: mis */
     PT_ESTIMATOR_UNIFORM = 1, /* directions uniform on the hemisphere; lamps are found by chance */
-    PT_ESTIMATOR_MIS = 5      /* lamps sampled by solid angle and directions by the material, combined */
+    PT_ESTIMATOR_COSINE = 2,  /* directions by the cosine to the normal, the geometric term */
+    PT_ESTIMATOR_BSDF = 3,    /* directions by the material: cosine and specular lobe */
+    PT_ESTIMATOR_LIGHT = 4,   /* lamps sampled by solid angle; directions as bsdf, but blind to lamps that can be sampled */
+    PT_ESTIMATOR_MIS = 5      /* lamps sampled by solid angle and directions as bsdf, combined */
+};
+
+/* pt_render.sampler: where the numbers of a sample come from. All converge to the same image, at different rates. */
+enum {
+    PT_SAMPLER_BEST = 0,      /* what this version considers best: sobol */
+    PT_SAMPLER_RANDOM = 1,    /* independent random numbers */
+    PT_SAMPLER_HALTON = 2,    /* radical inverses in prime bases, the same points in every pixel */
+    PT_SAMPLER_HALTON_CP = 3, /* the same, rotated by a random offset per pixel and dimension (Cranley and Patterson) */
+    PT_SAMPLER_SOBOL = 4      /* Sobol points, Owen-scrambled per pixel and dimension */
 };
 
 typedef struct pt_render {
@@ -145,6 +156,8 @@ typedef struct pt_render {
     uint64_t seed;            /* equal inputs, device and driver and equal seed: equal bits */
     uint32_t first_sample;    /* index of the first sample: samples a..b of one sequence may be taken anywhere */
     uint32_t estimator;       /* PT_ESTIMATOR_* */
+    uint32_t sampler;         /* PT_SAMPLER_* */
+    uint32_t reserved;
 } pt_render;
 
 /* Called after every submission to the device with the share of this call that is done, in [0, 1], never falling.
