@@ -12,10 +12,6 @@ constexpr std::uint32_t default_max_path_length = 6;
 // Indices of pixels are 32-bit numbers, and so is their count.
 constexpr std::uint64_t max_pixel_count = UINT32_MAX;
 
-bool known_estimator(std::uint32_t estimator) {
-    return estimator == PT_ESTIMATOR_BEST || estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_MIS;
-}
-
 } // namespace
 
 RenderSettings validated_render(const pt_render &source) {
@@ -26,15 +22,18 @@ RenderSettings validated_render(const pt_render &source) {
     render.require(source.height >= 1, "height", source.height, "must be >= 1");
     render.require(pixel_count <= max_pixel_count, "width * height", pixel_count, "must be <= 4294967295");
     render.require(source.max_path_length <= 1024, "max_path_length", source.max_path_length, "must be <= 1024");
-    render.require(known_estimator(source.estimator), "estimator", source.estimator,
+    render.require(source.estimator <= PT_ESTIMATOR_MIS, "estimator", source.estimator,
                    "must be a PT_ESTIMATOR_* of pt.h");
+    render.require(source.sampler <= PT_SAMPLER_SOBOL, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
+    render.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {source.width,
             source.height,
             source.max_path_length == 0 ? default_max_path_length : source.max_path_length,
             source.seed,
             source.first_sample,
-            source.estimator == PT_ESTIMATOR_BEST ? std::uint32_t{PT_ESTIMATOR_MIS} : source.estimator};
+            source.estimator == PT_ESTIMATOR_BEST ? std::uint32_t{PT_ESTIMATOR_MIS} : source.estimator,
+            source.sampler == PT_SAMPLER_BEST ? std::uint32_t{PT_SAMPLER_SOBOL} : source.sampler};
 }
 
 } // namespace pt

@@ -14,6 +14,7 @@ struct RenderSettings {
     std::uint64_t seed;
     std::uint32_t first_sample;
     std::uint32_t estimator; // never PT_ESTIMATOR_BEST: the one that it stands for
+    std::uint32_t sampler;   // never PT_SAMPLER_BEST
 };
 
 // Takes over settings whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

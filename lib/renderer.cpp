@@ -5,6 +5,7 @@
 #include "error.h"
 #include "gpu_scene.h"
 #include "pathtrace.spv.h"
+#include "point_sequence.h"
 #include "vulkan/device_choice.h"
 
 #include <algorithm>
@@ -16,7 +17,13 @@ namespace pt {
 namespace {
 
 constexpr std::array kernel_bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+                                        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
+                                        vk::DescriptorType::eStorageBuffer};
+
+// Rows of the point table, which bounds the samples of a slice: 1 MiB at the most, in a few hundredths of a second.
+constexpr std::uint32_t max_table_rows = 4096;
+// The kernel reads blocks of four coordinates, of which a row's last may be beyond it.
+constexpr std::uint32_t table_padding = 3;
 
 // Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
 // measured slices size the rest.
@@ -128,6 +135,9 @@ void Renderer::prepare_kernel() {
                                               std::to_string(limits.loop_trip_budget) +
                                               ": fewer surfaces or a smaller max_path_length would do");
 
+    const std::uint64_t table_bytes =
+        (std::uint64_t{max_table_rows} * table_dimensions(features) + table_padding + 1) * sizeof(std::uint32_t);
+
     prepare_pipelines(features);
     const double unit = film_unit(*scene_);
     ScheduleLimits schedule_limits{};
@@ -135,19 +145,20 @@ void Renderer::prepare_kernel() {
     schedule_limits.first_slice_paths =
         target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(features));
     schedule_limits.max_samples =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.loop_trip_budget / trips, UINT32_MAX));
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.loop_trip_budget / trips, max_table_rows));
     schedule_limits.pixel_granularity = gpu::WORKGROUP_SIZE;
 
     Kernel kernel{features,
                   unit,
                   frame_constants(*camera_, *settings_, unit),
                   vulkan::Buffer(device_, vulkan::BufferUse::UniformOrStorage, scene_bytes, "scene"),
+                  vulkan::Buffer(device_, vulkan::BufferUse::Storage, table_bytes, "points of a slice"),
                   {},
                   {},
                   Schedule(film_->pixel_count(), schedule_limits)};
     kernel.scene.upload(std::as_bytes(std::span(words)), 0);
     for (Film::Strip &strip : film_->strips()) {
-        const std::array buffers = {&kernel.scene, &kernel.scene, &strip.words, &strip.pass};
+        const std::array buffers = {&kernel.scene, &kernel.scene, &strip.words, &strip.pass, &kernel.points};
         kernel.trace_sets.push_back(trace_pipeline_->bind(buffers));
         kernel.commit_sets.push_back(commit_pipeline_->bind(buffers));
     }
@@ -162,6 +173,12 @@ double Renderer::run(const Slice &slice) {
     frame.first_sample = settings_->first_sample + samples_done_;
     frame.sample_count = slice.sample_count;
     frame.split_pass = slice.whole ? 0 : 1;
+
+    if (const std::uint32_t dimensions = table_dimensions(kernel_->features); dimensions > 0) {
+        const std::vector<std::uint32_t> points =
+            point_table(settings_->sampler, frame.first_sample, slice.sample_count, dimensions);
+        kernel_->points.upload(std::as_bytes(std::span(points)), 0);
+    }
 
     // Dispatches a kernel over the part of [first, end) in each strip.
     const auto dispatch = [&](const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,

@@ -59,6 +59,7 @@ private:
         double film_unit;
         gpu::FrameConstants frame;
         vulkan::Buffer scene;
+        vulkan::Buffer points;                         // the point table of a slice
         std::vector<vulkan::DescriptorSet> trace_sets; // one per strip of the film
         std::vector<vulkan::DescriptorSet> commit_sets;
         Schedule schedule;

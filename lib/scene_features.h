@@ -17,6 +17,7 @@ struct Features {
     std::uint32_t lamp_count; // emitting spheres
     std::uint32_t max_path_length;
     std::uint32_t estimator;
+    std::uint32_t sampler;
     bool gloss;            // some material in use has a specular lobe
     bool motion;           // some sphere moves while the shutter is open
     bool scene_in_uniform; // the scene fits into a uniform buffer
@@ -30,6 +31,9 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
 
 // Length of the scene buffer in words of four floats (gpu_layout.h has its layout).
 std::uint32_t scene_word_count(const Features &features);
+
+// Coordinates of a row of the point table: as many as a path consumes, up to those that the sequences have; 0 without one.
+std::uint32_t table_dimensions(const Features &features);
 
 // Values of the specialization constants, by constant_id.
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);

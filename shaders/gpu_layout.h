@@ -13,8 +13,10 @@ using uvec2 = glm::uvec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 #define PT_CONSTANT constexpr uint
+#define PT_FUNCTION constexpr
 #else
 #define PT_CONSTANT const uint
+#define PT_FUNCTION
 #endif
 
 // ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
@@ -26,17 +28,42 @@ PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
 PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
 PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
 PT_CONSTANT ID_SCENE_IN_UNIFORM = 7; // 1: the scene is read from the uniform buffer, 0: from the storage buffer
-PT_CONSTANT CONSTANT_COUNT = 8;
+PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
+PT_CONSTANT ID_TABLE_DIMENSIONS = 9; // words of a row of the point table
+PT_CONSTANT CONSTANT_COUNT = 10;
 
-// The numbers of pt.h's PT_ESTIMATOR_*.
+// The numbers of pt.h's PT_ESTIMATOR_* and PT_SAMPLER_*.
 PT_CONSTANT ESTIMATOR_UNIFORM = 1;
+PT_CONSTANT ESTIMATOR_COSINE = 2;
+PT_CONSTANT ESTIMATOR_BSDF = 3;
+PT_CONSTANT ESTIMATOR_LIGHT = 4;
 PT_CONSTANT ESTIMATOR_MIS = 5;
+PT_CONSTANT SAMPLER_RANDOM = 1;
+PT_CONSTANT SAMPLER_HALTON = 2;
+PT_CONSTANT SAMPLER_HALTON_CP = 3;
+PT_CONSTANT SAMPLER_SOBOL = 4;
+
+// ---- Dimensions of a sample: each number that a path consumes has one of its own -------------------------------------
+// First the place in the pixel (2) and the time (1, with MOTION). Then for each vertex that a path leaves: the place on each
+// lamp (2 for each of a few, EVERY_LAMP_LIMIT), or on a lamp (2) and which (1); the direction (2), the specular or diffuse
+// lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The low dimensions of a sequence are its best:
+// they go to the lamps, whose light makes most of the picture.
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at each vertex
+PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
+
+PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
+PT_FUNCTION uint lamp_dimensions(uint lamp_count) { return lamp_count > EVERY_LAMP_LIMIT ? 3 : 2 * lamp_count; }
+PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
+{
+    return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
+}
 
 // ---- Bindings of set 0 ---------------------------------------------------------------------------------------------
 PT_CONSTANT BINDING_SCENE_UNIFORM = 0;
 PT_CONSTANT BINDING_SCENE_STORAGE = 1;
 PT_CONSTANT BINDING_FILM = 2;
 PT_CONSTANT BINDING_PASS = 3;
+PT_CONSTANT BINDING_POINTS = 4;
 
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
@@ -89,5 +116,6 @@ static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(Fram
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT
+#undef PT_FUNCTION
 
 #endif

@@ -73,6 +73,31 @@ struct ShadowRay {
     uint lamp;      // never blocks itself
 };
 
+// Whether a shadow ray is blocked.
+bool is_blocked(vec3 origin, uint leaving, float time, ShadowRay shadow)
+{
+    bool blocked = false;
+    if (SPHERE_COUNT > 0u) {
+        uint i = 0u;
+        [[unroll]] do {
+            vec4 sphere = sphere_at(i, time);
+            float distance = sphere_distance(sphere.xyz - origin, sphere.w, shadow.direction, i == leaving);
+            blocked = blocked || (distance < shadow.distance && i != shadow.lamp);
+            ++i;
+        } while (i < SPHERE_COUNT);
+    }
+    if (PLANE_COUNT > 0u) {
+        uint i = SPHERE_COUNT;
+        [[unroll]] do {
+            vec4 plane = geometry_of(i);
+            float height = dot(plane.xyz, origin) + plane.w;
+            blocked = blocked || plane_distance(height, plane.xyz, shadow.direction, i == leaving) < shadow.distance;
+            ++i;
+        } while (i < SURFACE_COUNT);
+    }
+    return blocked;
+}
+
 // One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the shadow
 // ray is blocked. Each surface is fetched once for both.
 Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction, ShadowRay shadow, out bool blocked)

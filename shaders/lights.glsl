@@ -67,17 +67,29 @@ float lamp_probability(LampChoice choice, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
-// Density over solid angle with which a vertex samples directions towards a lamp. Lamp sampling and the weight of directions
-// that happen to hit the lamp both use this function, so that their weights add up to 1.
-float lamp_density(LampChoice choice, LampView view)
+// Density over solid angle of the directions towards a lamp that has been chosen; 0 where it cannot be sampled.
+float cone_density(LampView view)
 {
-    return view.weight > 0.0 ? lamp_probability(choice, view.weight) / (2.0 * PI * view.one_minus_cos) : 0.0;
+    return view.weight > 0.0 ? 1.0 / (2.0 * PI * view.one_minus_cos) : 0.0;
 }
 
 struct LampSample {
     ShadowRay shadow;
-    float density; // over solid angle; 0: no lamp can be sampled from this vertex
+    float density; // over solid angle, given the lamp; 0: it cannot be sampled from this vertex
 };
+
+// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. That is not found by
+// intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the near root
+// is d cos - sqrt(r^2 - d^2 sin^2).
+LampSample sample_lamp(LampView view, uint lamp, vec2 u)
+{
+    float h = u.x * view.one_minus_cos;
+    vec3 direction = direction_about(view.axis, h, u.y);
+    float half_chord = sqrt(max(view.radius * view.radius - view.distance * view.distance * h * (2.0 - h), 0.0));
+    float distance = view.distance * (1.0 - h) - half_chord;
+    float density = cone_density(view);
+    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, lamp), density);
+}
 
 // Index of the lamp that a random number chooses: the first at which the cumulated probability exceeds it. Where rounding
 // leaves the sum below u, the last lamp of weight above 0 stands.
@@ -95,21 +107,6 @@ uint choose_lamp(Vertex vertex, LampChoice choice, float time, float u)
         } while (lamp < LAMP_COUNT);
     }
     return chosen;
-}
-
-// Direction uniform in the cone that a chosen lamp subtends, and the distance at which it meets the lamp. That is not found
-// by intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the near
-// root is d cos - sqrt(r^2 - d^2 sin^2).
-LampSample sample_lamp(Vertex vertex, LampChoice choice, float time, vec3 u)
-{
-    uint lamp = choose_lamp(vertex, choice, time, u.x);
-    LampView view = view_lamp(vertex, lamp, time);
-    float h = u.y * view.one_minus_cos;
-    vec3 direction = direction_about(view.axis, h, u.z);
-    float half_chord = sqrt(max(view.radius * view.radius - view.distance * view.distance * h * (2.0 - h), 0.0));
-    float distance = view.distance * (1.0 - h) - half_chord;
-    float density = lamp_density(choice, view);
-    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, lamp), density);
 }
 
 #endif

@@ -27,7 +27,7 @@ void main()
     vec3 value;
     uint done = 0u;
     do {
-        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done);
+        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;

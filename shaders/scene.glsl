@@ -13,6 +13,8 @@ layout(constant_id = ID_ESTIMATOR) const uint ESTIMATOR = ESTIMATOR_MIS;
 layout(constant_id = ID_GLOSS) const uint GLOSS = 1;
 layout(constant_id = ID_MOTION) const uint MOTION = 1;
 layout(constant_id = ID_SCENE_IN_UNIFORM) const uint SCENE_IN_UNIFORM = 1;
+layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
+layout(constant_id = ID_TABLE_DIMENSIONS) const uint TABLE_DIMENSIONS = 0;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform { vec4 words[UNIFORM_SCENE_WORDS]; } scene_uniform;
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { vec4 words[]; } scene_storage;

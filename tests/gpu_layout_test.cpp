@@ -46,7 +46,7 @@ pt::Scene small_scene() {
 TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
     const pt::Camera camera = camera_at({0, 0, 1});
     const pt::Scene scene = small_scene();
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS});
+    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
     EXPECT_EQ(features.sphere_count, 2U);
     EXPECT_EQ(features.plane_count, 1U);
     EXPECT_EQ(features.lamp_count, 1U);
@@ -62,7 +62,7 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
         {0, 0, 0, 0},     //
         {0, 0, 0, 0},     //
         {0, 0, 0, 0},     // diffuse albedos and lobe probabilities
-        {0.25F, 0.25F, 0.25F, 0.75F},
+        {0.25F, 0.25F, 0.25F, 0.6F},
         {0.5F, 0.25F, 0, 0},
         {0, 0, 0, 0}, // specular factors and glossinesses
         {0.75F, 0.75F, 0.75F, 40},
@@ -78,7 +78,8 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     pt::Scene scene = small_scene();
     scene.materials[1].specular = {0, 0, 0};
     scene.spheres[0].motion = {0, 0, 0};
-    const pt::Features features = pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS});
+    const pt::Features features =
+        pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
     EXPECT_FALSE(features.gloss);
     EXPECT_FALSE(features.motion);
     EXPECT_EQ(pt::scene_word_count(features), 9U);
@@ -90,7 +91,7 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
     const glm::dvec3 shift{0x1p30, -0x1p30, 0x1p29};
     pt::Scene scene = small_scene();
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS});
+    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
     const auto expected = pt::gpu_scene(scene, camera, features);
     for (pt::Sphere &sphere : scene.spheres)
         sphere.center += shift;

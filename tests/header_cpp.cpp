@@ -62,7 +62,7 @@ PT_EXPECT_MEMBER(pt_camera, vertical_fov, 80, 8);
 PT_EXPECT_MEMBER(pt_camera, shutter_open, 88, 8);
 PT_EXPECT_MEMBER(pt_camera, shutter_close, 96, 8);
 
-PT_EXPECT_STRUCT(pt_render, 32);
+PT_EXPECT_STRUCT(pt_render, 40);
 PT_EXPECT_MEMBER(pt_render, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_render, width, 4, 4);
 PT_EXPECT_MEMBER(pt_render, height, 8, 4);
@@ -70,6 +70,8 @@ PT_EXPECT_MEMBER(pt_render, max_path_length, 12, 4);
 PT_EXPECT_MEMBER(pt_render, seed, 16, 8);
 PT_EXPECT_MEMBER(pt_render, first_sample, 24, 4);
 PT_EXPECT_MEMBER(pt_render, estimator, 28, 4);
+PT_EXPECT_MEMBER(pt_render, sampler, 32, 4);
+PT_EXPECT_MEMBER(pt_render, reserved, 36, 4);
 
 PT_EXPECT_STRUCT(pt_accumulate_info, 24);
 PT_EXPECT_MEMBER(pt_accumulate_info, struct_size, 0, 4);

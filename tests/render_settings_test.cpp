@@ -58,10 +58,11 @@ INSTANTIATE_TEST_SUITE_P(
                          "render.width * height = 18446744065119617025: must be <= 4294967295"},
                     Case{"PathsTooLong", [](pt_render &r) { r.max_path_length = 1025; },
                          "render.max_path_length = 1025: must be <= 1024"},
-                    Case{"EstimatorUnknown", [](pt_render &r) { r.estimator = 2; },
-                         "render.estimator = 2: must be a PT_ESTIMATOR_* of pt.h"},
-                    Case{"EstimatorBeyond", [](pt_render &r) { r.estimator = 6; },
-                         "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"}),
+                    Case{"EstimatorUnknown", [](pt_render &r) { r.estimator = 6; },
+                         "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"},
+                    Case{"SamplerUnknown", [](pt_render &r) { r.sampler = 5; },
+                         "render.sampler = 5: must be a PT_SAMPLER_* of pt.h"},
+                    Case{"ReservedUsed", [](pt_render &r) { r.reserved = 1; }, "render.reserved = 1: must be 0"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
@@ -72,6 +73,7 @@ TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
     EXPECT_EQ(settings.seed, 0U);
     EXPECT_EQ(settings.first_sample, 0U);
     EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_MIS});
+    EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_SOBOL});
 }
 
 TEST(RenderSettings, TakeWhatIsSet) {

@@ -6,6 +6,7 @@ Most cases run the program on a stand-in for the library (fake_library.cpp), whi
 takes as long as it is told to. RealDevice runs the program itself.
 """
 
+import glob
 import json
 import os
 import pty
@@ -159,6 +160,18 @@ class Usage(CommandLineTest):
 
     def test_a_negative_exposure_is_a_value(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--exposure", "-2.5", "--spp", "1")
+
+
+class Start(CommandLineTest):
+    def test_image_libraries_are_not_loaded_with_the_program(self):
+        def needs_openimageio(path):
+            done = subprocess.run(["ldd", path], capture_output=True, text=True, check=True)
+            return "libOpenImageIO" in done.stdout
+
+        tree = os.path.dirname(os.path.dirname(PT))
+        module, = glob.glob(os.path.join(tree, "lib*", "**", "libpt-image-file.so"), recursive=True)
+        self.assertTrue(needs_openimageio(module))
+        self.assertFalse(needs_openimageio(PT))
 
 
 class SceneErrors(CommandLineTest):

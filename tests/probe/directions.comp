@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 #include "phong.glsl"
-#include "random.glsl"
+#include "sampler.glsl"
 
 layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { vec4 axis; uint kind; float glossiness; uint seed; uint count; };
@@ -19,7 +19,7 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    vec2 u = random_4d(SampleKey(uvec2(seed, 7u), index, 0u), BLOCK_CAMERA).xy;
+    vec2 u = sample_block(SampleKey(uvec2(seed, 7u), index, 0u, 0u), 0u, 2u).xy;
     vec3 direction;
     if (kind == UNIFORM_SPHERE)
         direction = spherical_direction(uniform_spherical_angles(u));

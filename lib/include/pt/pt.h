@@ -16,7 +16,7 @@
  *              Every failure has a message, see pt_last_error.
  *   Threads    different contexts are independent and may be used at the same time; one context is used by one thread
  *              at a time. The library starts no threads, prints nothing, reads no files and has no globals.
- *   Callbacks  run inside the call, on the calling thread, and must not call back into the same context.
+ *   Callbacks  run inside the call, on the calling thread, must not call back into the same context and must not throw.
  */
 #ifndef PT_H
 #define PT_H
@@ -80,12 +80,12 @@ typedef struct pt_device_info {
 /* Reflection is the physically-normalised Phong model
  *     f(wi, wo) = diffuse / pi + specular * (n + 2) / (2 pi) * max(0, dot(wo, reflect(wi)))^n,   n = glossiness,
  * where n = 0 stands for the limit n -> 0: a lobe that is constant on the half space about the mirror direction.
- * Components are R, G, B, each >= 0; diffuse + specular may exceed 1 (such a surface gains energy). */
+ * Components are R, G, B, each in [0, 1e18]; diffuse + specular may exceed 1 (such a surface gains energy). */
 typedef struct pt_material {
     float diffuse[3];
     float specular[3];
     float emission[3]; /* radiance, the same in every direction and on both sides */
-    float glossiness;  /* n >= 0 */
+    float glossiness;  /* n in [0, 1e9] */
 } pt_material;
 
 /* Visible, lit and emitting on both sides. The centre at time t is center + t * motion. */
@@ -109,7 +109,7 @@ typedef struct pt_scene {
     uint32_t struct_size;
     uint32_t material_count;
     uint32_t sphere_count;
-    uint32_t plane_count;
+    uint32_t plane_count;         /* spheres and planes together: fewer than 2^30 */
     const pt_material *materials; /* the arrays are copied; NULL where the count is 0 */
     const pt_sphere *spheres;
     const pt_plane *planes;
@@ -122,19 +122,31 @@ typedef struct pt_camera {
     double position[3];
     double target[3];    /* the point in the middle of the image; must differ from position */
     double up[3];        /* not parallel to the viewing direction; default (0, 1, 0) */
-    double vertical_fov; /* full vertical angle in (0, pi); default pi / 4 */
+    double vertical_fov; /* full vertical angle in [1e-8, pi); default pi / 4 */
     double shutter_open; /* 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
     double shutter_close;
 } pt_camera;
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/* How light is found. All converge to the same image; they differ in noise and in time. */
-/* pt_render.estimator */
+/* pt_render.estimator: how light is found. All converge to the same image; they differ in noise and in time. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /* what this version considers best: mis */
     PT_ESTIMATOR_UNIFORM = 1, /* directions uniform on the hemisphere; lamps are found by chance */
-    PT_ESTIMATOR_MIS = 5      /* lamps sampled by solid angle and directions by the material, combined */
+    PT_ESTIMATOR_COSINE = 2,  /* directions by the cosine to the normal, the geometric term */
+    PT_ESTIMATOR_BSDF = 3,    /* directions by the material: cosine and specular lobe */
+    PT_ESTIMATOR_LIGHT =
+        4,               /* lamps sampled by solid angle; directions as bsdf, but blind to lamps that can be sampled */
+    PT_ESTIMATOR_MIS = 5 /* lamps sampled by solid angle and directions as bsdf, combined */
+};
+
+/* pt_render.sampler: where the numbers of a sample come from. All converge to the same image, at different rates. */
+enum {
+    PT_SAMPLER_BEST = 0,      /* what this version considers best: sobol */
+    PT_SAMPLER_RANDOM = 1,    /* independent random numbers */
+    PT_SAMPLER_HALTON = 2,    /* radical inverses in prime bases, the same points in every pixel */
+    PT_SAMPLER_HALTON_CP = 3, /* the same, rotated by a random offset per pixel and dimension (Cranley and Patterson) */
+    PT_SAMPLER_SOBOL = 4      /* Sobol points, Owen-scrambled per pixel and dimension */
 };
 
 typedef struct pt_render {
@@ -145,6 +157,8 @@ typedef struct pt_render {
     uint64_t seed;            /* equal inputs, device and driver and equal seed: equal bits */
     uint32_t first_sample;    /* index of the first sample: samples a..b of one sequence may be taken anywhere */
     uint32_t estimator;       /* PT_ESTIMATOR_* */
+    uint32_t sampler;         /* PT_SAMPLER_* */
+    uint32_t reserved;
 } pt_render;
 
 /* Called after every submission to the device with the share of this call that is done, in [0, 1], never falling.
@@ -251,7 +265,7 @@ PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *in
 /* Writes the mean radiance of the samples so far. PT_ERROR_INVALID_STATE if there is none. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
-/* stats->struct_size must be set; as many bytes are written. */
+/* stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
 #ifdef __cplusplus
