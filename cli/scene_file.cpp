@@ -1,5 +1,5 @@
-// Owns the scene file: JSON text -> the structs of pt.h. Checks names, types and units; whether values make a scene is
-// the library's to say, and explain() leads its messages back to the file. Called by render_command and render_settings.
+// Owns the scene file: JSON -> the structs of pt.h. Checks names, types and units; whether values make a scene is
+// the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
 #include "scene_file.h"
 
 #include "estimator.h"

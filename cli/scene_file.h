@@ -1,5 +1,6 @@
 // Owns the scene file: JSON -> the structs of pt.h. Checks names, types and units; whether values make a scene is
 // the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
+#pragma once
 
 #include <pt/pt.h>
 

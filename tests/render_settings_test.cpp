@@ -77,7 +77,8 @@ TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
 }
 
 TEST(RenderSettings, TakeWhatIsSet) {
-    const pt_render render{sizeof(pt_render), 3, 7, 1, 0x123456789abcdef0U, 4294967295U, PT_ESTIMATOR_UNIFORM};
+    const pt_render render{sizeof(pt_render), 3, 7, 1, 0x123456789abcdef0U, 4294967295U, PT_ESTIMATOR_UNIFORM,
+                           PT_SAMPLER_HALTON, 0};
     const pt::RenderSettings settings = pt::validated_render(render);
     EXPECT_EQ(settings.width, 3U);
     EXPECT_EQ(settings.height, 7U);
@@ -85,6 +86,7 @@ TEST(RenderSettings, TakeWhatIsSet) {
     EXPECT_EQ(settings.seed, 0x123456789abcdef0U);
     EXPECT_EQ(settings.first_sample, 4294967295U);
     EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_UNIFORM});
+    EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_HALTON});
 }
 
 TEST(RenderSettings, AcceptExtremes) {
