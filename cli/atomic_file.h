@@ -1,5 +1,5 @@
 // Owns a file that appears whole or not at all: written under a temporary name beside its place, then renamed.
-// Called by the image writer and the statistics; also before rendering, to see that a file can be written.
+// Called by the image writer and the reports; also before rendering, to see that a file can be written.
 #pragma once
 
 #include "file_descriptor.h"
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace cli {
 
@@ -21,6 +22,12 @@ public:
 
     void write(std::span<const std::byte> bytes);
     void commit();
+
+    static void write_text(const std::string &path, std::string_view text) {
+        AtomicFile file(path);
+        file.write(std::as_bytes(std::span(text)));
+        file.commit();
+    }
 
     // All that the constructor checks, and leaves nothing behind.
     static void check_writable(const std::string &path) { const AtomicFile probe(path); }

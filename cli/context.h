@@ -1,12 +1,14 @@
 // Owns one pt_context and turns its failures into Failure.
-// Called by render_command.
+// Called by render_command and bench_command.
 #pragma once
 
 #include "exit_code.h"
 
 #include <pt/pt.h>
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 namespace cli {
 
@@ -30,6 +32,17 @@ public:
         if (result < 0) {
             throw Failure(exit_code_of(result), last_error());
         }
+    }
+
+    // Three components to a pixel.
+    std::vector<float> read_image(const pt_render &render) const {
+        std::vector<float> radiance(std::size_t{3} * render.width * render.height);
+        pt_image image{};
+        image.struct_size = sizeof(pt_image);
+        image.data = radiance.data();
+        image.size_bytes = radiance.size() * sizeof(float);
+        require(pt_readback(context_, &image));
+        return radiance;
     }
 
 private:

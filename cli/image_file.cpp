@@ -1,5 +1,5 @@
-// Owns the writing of images: which formats there are, and the module that encodes them.
-// Called by render_command.
+// Owns the writing and reading of images: which formats there are, and the module that encodes and decodes them.
+// Called by render_command and bench_command.
 #include "image_file.h"
 
 #include "atomic_file.h"
@@ -23,13 +23,14 @@ std::filesystem::path module_path() {
 }
 
 // Never unloaded: OpenImageIO keeps threads and static objects.
-pt_encode_image_fn load_module(const std::filesystem::path &path) {
+template <typename Function>
+Function load_function(const std::filesystem::path &path, const char *name) {
     void *module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void *symbol = module == nullptr ? nullptr : dlsym(module, PT_ENCODE_IMAGE_SYMBOL);
+    void *symbol = module == nullptr ? nullptr : dlsym(module, name);
     if (symbol == nullptr) {
         throw Failure(ExitCode::internal, std::string("cannot load the image module: ") + dlerror());
     }
-    return reinterpret_cast<pt_encode_image_fn>(symbol);
+    return reinterpret_cast<Function>(symbol);
 }
 
 const char *module_extension(ImageFormat format) {
@@ -53,6 +54,21 @@ struct Sink {
         auto *sink = static_cast<Sink *>(user);
         try {
             sink->file.write({static_cast<const std::byte *>(bytes), size});
+        } catch (...) {
+            sink->error = std::current_exception();
+        }
+    }
+};
+
+// Like Sink, for what the module reads.
+struct RadianceSink {
+    RadianceImage image;
+    std::exception_ptr error;
+
+    static void receive(void *user, std::uint32_t width, std::uint32_t height, const float *radiance) {
+        auto *sink = static_cast<RadianceSink *>(user);
+        try {
+            sink->image = {width, height, {radiance, radiance + std::size_t{3} * width * height}};
         } catch (...) {
             sink->error = std::current_exception();
         }
@@ -89,6 +105,19 @@ std::uint32_t longest_side(ImageFormat format) {
     return 2'147'483'647; // sizes are 32-bit signed numbers
 }
 
+RadianceImage read_radiance(const std::string &path) {
+    const auto decode = load_function<pt_decode_image_fn>(module_path(), PT_DECODE_IMAGE_SYMBOL);
+    RadianceSink sink{};
+    std::array<char, 512> message{};
+    if (decode(path.c_str(), &RadianceSink::receive, &sink, message.data(), message.size()) != 0) {
+        throw Failure(ExitCode::file, "cannot read " + path + ": " + message.data());
+    }
+    if (sink.error) {
+        std::rethrow_exception(sink.error);
+    }
+    return std::move(sink.image);
+}
+
 ImageWriter::ImageWriter() {
     const std::filesystem::path path = module_path();
     if (access(path.c_str(), R_OK) != 0) {
@@ -96,7 +125,7 @@ ImageWriter::ImageWriter() {
     }
     encode_ = std::async(std::launch::async, [this, path] {
         try {
-            return load_module(path);
+            return load_function<pt_encode_image_fn>(path, PT_ENCODE_IMAGE_SYMBOL);
         } catch (...) {
             failed_ = true;
             throw;

@@ -1,5 +1,5 @@
-// Owns the writing of images: which formats there are, and the module that encodes them.
-// Called by render_command.
+// Owns the writing and reading of images: which formats there are, and the module that encodes and decodes them.
+// Called by render_command and bench_command.
 #pragma once
 
 #include "image_module.h"
@@ -26,6 +26,15 @@ std::optional<ImageFormat> image_format(const std::string &path);
 // The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
 // ends the whole process if it is asked for more.
 std::uint32_t longest_side(ImageFormat format);
+
+struct RadianceImage {
+    std::uint32_t width;
+    std::uint32_t height;
+    std::vector<float> radiance; // R, G, B of each pixel, row by row from the top
+};
+
+// Throws Failure: ExitCode::file if it cannot be read or has other channels, ExitCode::internal without the module.
+RadianceImage read_radiance(const std::string &path);
 
 // Encodes and writes images. The module is loaded in the background from construction on.
 class ImageWriter {

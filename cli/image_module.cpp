@@ -1,4 +1,4 @@
-// Owns the encoding of images by OpenImageIO, as a module of its own; see image_module.h for why.
+// Owns the encoding and decoding of images by OpenImageIO, as a module of its own; see image_module.h for why.
 // Called by image_file.cpp through dlsym.
 #include "image_module.h"
 
@@ -48,13 +48,28 @@ std::vector<unsigned char> encode(const pt_image_data &image) {
     return std::move(memory.buffer());
 }
 
-} // namespace
+void decode(const char *path, pt_radiance_sink sink, void *user) {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
+    if (!input) {
+        throw std::runtime_error(OIIO::geterror());
+    }
+    const OIIO::ImageSpec &spec = input->spec();
+    const int red = spec.channelindex("R");
+    if (red < 0 || spec.channelindex("G") != red + 1 || spec.channelindex("B") != red + 2) {
+        throw std::runtime_error("must have the channels R, G and B, one after the other");
+    }
+    std::vector<float> radiance(std::size_t{3} * spec.image_pixels());
+    if (!input->read_image(0, 0, red, red + 3, OIIO::TypeDesc::FLOAT, radiance.data())) {
+        throw std::runtime_error(input->geterror());
+    }
+    sink(user, static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), radiance.data());
+}
 
-extern "C" __attribute__((visibility("default"))) int32_t
-pt_encode_image(const pt_image_data *image, pt_image_sink sink, void *user, char *message, size_t message_size) {
+// No exception leaves the module: its caller sees plain C.
+template <typename Work>
+int32_t guard(Work work, char *message, size_t message_size) {
     try {
-        const std::vector<unsigned char> file = encode(*image);
-        sink(user, file.data(), file.size());
+        work();
         return 0;
     } catch (const std::exception &error) {
         const size_t length = std::min(std::strlen(error.what()), message_size - 1);
@@ -62,4 +77,20 @@ pt_encode_image(const pt_image_data *image, pt_image_sink sink, void *user, char
         message[length] = '\0';
         return -1;
     }
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) int32_t
+pt_encode_image(const pt_image_data *image, pt_image_sink sink, void *user, char *message, size_t message_size) {
+    const auto work = [&] {
+        const std::vector<unsigned char> file = encode(*image);
+        sink(user, file.data(), file.size());
+    };
+    return guard(work, message, message_size);
+}
+
+extern "C" __attribute__((visibility("default"))) int32_t
+pt_decode_image(const char *path, pt_radiance_sink sink, void *user, char *message, size_t message_size) {
+    return guard([&] { decode(path, sink, user); }, message, message_size);
 }

@@ -1,5 +1,5 @@
 // Owns the interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261
-// shared objects and 0.2 s are paid only when an image is written. Called by image_file.cpp, implemented by
+// shared objects and 0.2 s are paid only when an image is written or read. Called by image_file.cpp, implemented by
 // image_module.cpp. Plain C types, no exceptions across it.
 #pragma once
 
@@ -32,6 +32,14 @@ typedef void (*pt_image_sink)(void *user, const void *bytes, size_t size);
 // Encodes an image in memory. Returns 0, or -1 with a zero-terminated reason in message.
 typedef int32_t (*pt_encode_image_fn)(const pt_image_data *image, pt_image_sink sink, void *user, char *message,
                                       size_t message_size);
+
+// Receives a whole image, R, G, B triples row by row from the top. Must not throw.
+typedef void (*pt_radiance_sink)(void *user, uint32_t width, uint32_t height, const float *radiance);
+
+// Reads the channels R, G and B of a file in any format that OpenImageIO knows. Returns like pt_encode_image.
+typedef int32_t (*pt_decode_image_fn)(const char *path, pt_radiance_sink sink, void *user, char *message,
+                                      size_t message_size);
 }
 
 #define PT_ENCODE_IMAGE_SYMBOL "pt_encode_image"
+#define PT_DECODE_IMAGE_SYMBOL "pt_decode_image"

@@ -1,5 +1,5 @@
 // Owns SIGINT and SIGTERM: they set a flag that the rendering reads.
-// Called by render_command.
+// Called by render_command and bench_command.
 #pragma once
 
 namespace cli {

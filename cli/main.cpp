@@ -1,4 +1,6 @@
 // Owns the program `pt`: the choice of a subcommand, and the end of every exception in an exit code.
+#include "bench_command.h"
+#include "bench_options.h"
 #include "devices_command.h"
 #include "exit_code.h"
 #include "message.h"
@@ -30,6 +32,11 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_render_options(*render, options);
     render->footer("A file that cannot be written whole is left as it was.\n\n" + std::string(cli::exit_code_help));
 
+    cli::BenchOptions bench_options;
+    CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
+    cli::add_bench_options(*bench, bench_options);
+    bench->footer(std::string(cli::bench_help) + "\n" + cli::exit_code_help);
+
     bool as_json = false;
     CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
     devices->add_flag("--json", as_json, "Print JSON");
@@ -40,16 +47,22 @@ int parse_and_run(int argument_count, char **arguments) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(error); // --help and --version
         }
-        return fail(cli::ExitCode::usage,
-                    std::string(error.what()) + " (see pt " + (render->parsed() ? "render " : "") + "--help)");
+        return fail(cli::ExitCode::usage, std::string(error.what()) + " (see pt " +
+                                              (render->parsed()  ? "render "
+                                               : bench->parsed() ? "bench "
+                                                                 : "") +
+                                              "--help)");
     }
     if (render->parsed()) {
         return cli::run_render(options);
     }
+    if (bench->parsed()) {
+        return cli::run_bench(bench_options);
+    }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage, "a subcommand is missing: render or devices (see pt --help)");
+    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench or devices (see pt --help)");
 }
 
 } // namespace

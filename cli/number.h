@@ -1,5 +1,5 @@
 // Owns the reading of numbers and sizes from option text: the whole text or nothing, no octal, no wrap-around.
-// Called by the options of `pt render`.
+// Called by the options of `pt render` and `pt bench`.
 #pragma once
 
 #include <charconv>

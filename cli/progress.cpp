@@ -38,7 +38,7 @@ ProgressStyle progress_style(const std::string &name, bool quiet, bool is_termin
     return is_terminal ? ProgressStyle::line : ProgressStyle::none;
 }
 
-Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint32_t sample_count,
+Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
                    Clock::time_point start) :
     output_(output),
     style_(style),
@@ -68,18 +68,18 @@ void Progress::update(double fraction, Clock::time_point now) {
 }
 
 void Progress::print_line(double fraction, double seconds) {
-    const double samples = fraction * sample_count_;
+    const double samples = fraction * static_cast<double>(sample_count_);
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%u spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction,
-                  std::floor(samples), sample_count_, samples * pixel_count_ / seconds * 1e-6,
+    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%.0f spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction,
+                  std::floor(samples), static_cast<double>(sample_count_), samples * pixel_count_ / seconds * 1e-6,
                   duration_text(remaining_seconds(fraction, seconds)).c_str());
     output_ << erase_line << text.data() << std::flush;
 }
 
 void Progress::print_json(double fraction, double seconds) {
-    const double samples = fraction * sample_count_;
+    const double samples = fraction * static_cast<double>(sample_count_);
     const nlohmann::ordered_json line{{"fraction", fraction},
-                                      {"samples_per_pixel", static_cast<std::uint32_t>(samples)},
+                                      {"samples_per_pixel", static_cast<std::uint64_t>(samples)},
                                       {"samples_per_pixel_total", sample_count_},
                                       {"paths_per_second", samples * pixel_count_ / seconds},
                                       {"seconds", seconds},

@@ -1,5 +1,5 @@
 // Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by render_command from the library's progress callback.
+// Called by render_command and bench_command from the library's progress callback.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ public:
     using Clock = std::chrono::steady_clock;
 
     // pixel_count times sample_count paths are to be traced from now on.
-    Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint32_t sample_count,
+    Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
              Clock::time_point start);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
@@ -32,7 +32,7 @@ private:
     std::ostream &output_;
     ProgressStyle style_;
     double pixel_count_;
-    std::uint32_t sample_count_;
+    std::uint64_t sample_count_;
     Clock::time_point start_;
     Clock::time_point next_update_;
 };

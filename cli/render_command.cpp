@@ -12,6 +12,7 @@
 #include "render_report.h"
 #include "render_settings.h"
 #include "scene_file.h"
+#include "scene_setup.h"
 
 #include <chrono>
 #include <csignal>
@@ -52,30 +53,6 @@ pt_create_info create_info(const RenderOptions &options, ValidationLog &log) {
     return info;
 }
 
-// The scene file's author is the one who can mend what the library refuses here.
-void require_scene(const Context &context, const SceneFile &file, pt_result result) {
-    if (result < 0) {
-        const ExitCode code = result == PT_ERROR_INVALID_ARGUMENT ? ExitCode::scene : exit_code_of(result);
-        throw Failure(code, file.explain(context.last_error()));
-    }
-}
-
-void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
-    if (result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_UNSUPPORTED) {
-        const std::string message = context.last_error();
-        const ExitCode code = settings.blame(message);
-        throw Failure(code, code == ExitCode::scene ? file.explain(message) : message);
-    }
-    context.require(result);
-}
-
-void describe(const Context &context, const SceneFile &file, const RenderSettings &settings) {
-    const pt_scene scene = file.scene();
-    require_scene(context, file, pt_set_scene(context.get(), &scene));
-    require_scene(context, file, pt_set_camera(context.get(), &file.camera));
-    require_render(context, file, settings, pt_set_render(context.get(), &settings.render));
-}
-
 // What the library's progress callback needs.
 struct Watch {
     Progress &progress;
@@ -103,16 +80,6 @@ void accumulate(const Context &context, const RenderOptions &options, const Rend
     info.progress = &Watch::receive;
     info.progress_user = &watch;
     context.require(pt_accumulate(context.get(), &info));
-}
-
-std::vector<float> read_image(const Context &context, const pt_render &render) {
-    std::vector<float> radiance(std::size_t{3} * render.width * render.height);
-    pt_image image{};
-    image.struct_size = sizeof(pt_image);
-    image.data = radiance.data();
-    image.size_bytes = radiance.size() * sizeof(float);
-    context.require(pt_readback(context.get(), &image));
-    return radiance;
 }
 
 void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
@@ -176,7 +143,7 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
         }
     }
     writer.wait();
-    return write_outputs(writer, options, report, read_image(context, settings.render), start);
+    return write_outputs(writer, options, report, context.read_image(settings.render), start);
 }
 
 } // namespace

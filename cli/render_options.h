@@ -24,6 +24,7 @@ struct RenderOptions {
     std::optional<std::uint32_t> sample_count;
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;
+    std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
     std::uint32_t first_sample = 0;
 

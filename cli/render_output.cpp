@@ -62,10 +62,7 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 }
 
 void write_stats(const std::string &path, const RenderReport &report) {
-    const std::string text = stats_json(report).dump(2) + "\n";
-    AtomicFile file(path);
-    file.write(std::as_bytes(std::span(text)));
-    file.commit();
+    AtomicFile::write_text(path, stats_json(report).dump(2) + "\n");
 }
 
 } // namespace cli

@@ -2,7 +2,7 @@
 // Called by render_command.
 #include "render_report.h"
 
-#include "estimator.h"
+#include "method_names.h"
 
 #include <algorithm>
 #include <array>
@@ -82,7 +82,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"first_sample", render.first_sample},
             {"seed", render.seed},
             {"max_path_length", render.max_path_length},
-            {"estimator", estimator_name(render.estimator)},
+            {"sampler", samplers.name(render.sampler)},
+            {"estimator", estimators.name(render.estimator)},
             {"device",
              {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}},
             {"seconds",
@@ -115,7 +116,8 @@ ImageMetadata::ImageMetadata(const RenderReport &report) {
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add_whole("pt.maxPathLength", report.render.max_path_length);
-    add("pt.estimator", std::string(estimator_name(report.render.estimator)));
+    add("pt.sampler", std::string(samplers.name(report.render.sampler)));
+    add("pt.estimator", std::string(estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
     add("pt.device", report.device.name);
     add("pt.driver", report.device.driver);

@@ -32,6 +32,7 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     render.max_path_length = first_given(options.max_path_length, scene.max_path_length, default_max_path_length);
     render.seed = first_given(options.seed, scene.seed, std::uint64_t{0});
     render.first_sample = options.first_sample;
+    render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});
     render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
     settings.sample_count = first_given(options.sample_count, scene.sample_count, default_sample_count);
     settings.size_from_scene = !options.size && (scene.width || scene.height);

@@ -2,10 +2,10 @@
 // the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
 #include "scene_file.h"
 
-#include "estimator.h"
 #include "exit_code.h"
 #include "json_sections.h"
 #include "json_value.h"
+#include "method_names.h"
 #include "number.h"
 #include "suggestion.h"
 #include "text_file.h"
@@ -27,6 +27,17 @@ constexpr std::uint32_t largest_uint32 = std::numeric_limits<std::uint32_t>::max
 
 std::uint32_t read_uint32(const json &value, const JsonPlace &place, std::uint32_t smallest) {
     return static_cast<std::uint32_t>(read_whole_number(value, place, smallest, largest_uint32));
+}
+
+template <std::size_t Count>
+std::uint32_t read_method(const json &value, const JsonPlace &place, std::string_view kind,
+                          const MethodNames<Count> &methods) {
+    const std::string_view name = read_text(value, place);
+    const auto method = methods.find(name);
+    if (!method) {
+        refuse(place, unknown_name(kind, name, methods.names()));
+    }
+    return *method;
 }
 
 template <typename Number, std::size_t Count>
@@ -150,19 +161,17 @@ void SceneReader::film_item(const JsonPlace &place, const json &value) {
 }
 
 void SceneReader::render_item(const JsonPlace &place, const json &value) {
-    static constexpr std::array<std::string_view, 4> known{"max_path_length", "spp", "seed", "estimator"};
+    static constexpr std::array<std::string_view, 5> known{"max_path_length", "spp", "seed", "sampler", "estimator"};
     if (place.key == "max_path_length") {
         scene_.max_path_length = read_uint32(value, place, 1); // 0 would be pt.h's default
     } else if (place.key == "spp") {
         scene_.sample_count = read_uint32(value, place, 1);
     } else if (place.key == "seed") {
         scene_.seed = read_whole_number(value, place, 0, std::numeric_limits<std::uint64_t>::max());
+    } else if (place.key == "sampler") {
+        scene_.sampler = read_method(value, place, "sampler", samplers);
     } else if (place.key == "estimator") {
-        const std::string_view name = read_text(value, place);
-        scene_.estimator = find_estimator(name);
-        if (!scene_.estimator) {
-            refuse(place, unknown_name("estimator", name, estimator_names));
-        }
+        scene_.estimator = read_method(value, place, "estimator", estimators);
     } else {
         refuse_unknown_key(*place.parent, place.key, known);
     }

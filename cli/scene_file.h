@@ -25,6 +25,7 @@ struct SceneFile {
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sample_count;
     std::optional<std::uint64_t> seed;
+    std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
 
     pt_scene scene() const; // points into this object

@@ -4,8 +4,8 @@
 
 #include "gpu_layout.h"
 
-// Unit direction through a point of the image: pixel (column, row) from the top left, place in it in [0, 1)^2.
-// The pixel's distance from the image's centre is exact (a multiple of 1/2), so wide images lose nothing at their middle.
+// Unit direction through a point of the image: pixel (column, row) from the top left, place in it in [0, 1)^2. The
+// pixel's distance from the image's centre is exact (a multiple of 1/2), so wide images lose nothing at their middle.
 vec3 camera_direction(FrameConstants frame, uvec2 pixel, vec2 place)
 {
     vec2 from_centre = 0.5 * vec2(ivec2(2u * pixel) - ivec2(frame.width, frame.height)) + place;

@@ -1,4 +1,5 @@
-// Where each number that a path consumes lies among the sample's dimensions; gpu_layout.h has the order. Used by path.glsl.
+// Where each number that a path consumes lies among the sample's dimensions; gpu_layout.h has the order. Used by
+// path.glsl.
 #ifndef DIMENSIONS_GLSL
 #define DIMENSIONS_GLSL
 

@@ -32,9 +32,9 @@ uvec4 add_with_carry(uvec4 a, uvec4 b)
     return sum;
 }
 
-// A float in [0, 2^FILM_MAX_EXPONENT) as fixed point: its 24-bit mantissa m, shifted into place.
-// value = m 2^(e - 150) for the biased exponent e, so m moves left by e - 150 + FILM_FRACTION_BITS. Bits below the fraction
-// are cut off: those of values below 2^-40.
+// A float in [0, 2^FILM_MAX_EXPONENT) as fixed point: its 24-bit mantissa m, shifted into place. value = m 2^(e -
+// 150) for the biased exponent e, so m moves left by e - 150 + FILM_FRACTION_BITS. Bits below the fraction are cut
+// off: values below 2^-41 lose some.
 uvec4 fixed_point(float value)
 {
     uint bits = floatBitsToUint(value) & 0x7fffffffu;
@@ -54,9 +54,13 @@ uvec4 fixed_point(float value)
 // Adds a sample in film units, or counts it as left out if a component is NaN, infinite, negative or too bright.
 void film_add(inout FilmPixel pixel, vec3 value)
 {
-    const float limit = float(1u << FILM_MAX_EXPONENT);
-    // Written so that NaN fails.
-    bool accepted = all(greaterThanEqual(value, vec3(0.0))) && all(lessThan(value, vec3(limit)));
+    // As integers, since Vulkan does not promise how comparisons treat NaN: floats >= 0 are ordered as their bits
+    // are, and negative ones, infinity and NaN lie above. Minus zero is a zero.
+    const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
+    uvec3 bits = floatBitsToUint(value);
+    bvec3 zero = equal(bits, uvec3(0x80000000u));
+    bvec3 in_range = lessThan(bits, uvec3(limit));
+    bool accepted = (in_range.r || zero.r) && (in_range.g || zero.g) && (in_range.b || zero.b);
     vec3 kept = accepted ? value : vec3(0.0);
     pixel.sums[0] = add_with_carry(pixel.sums[0], fixed_point(kept.r));
     pixel.sums[1] = add_with_carry(pixel.sums[1], fixed_point(kept.g));

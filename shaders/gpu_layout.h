@@ -43,11 +43,11 @@ PT_CONSTANT SAMPLER_HALTON = 2;
 PT_CONSTANT SAMPLER_HALTON_CP = 3;
 PT_CONSTANT SAMPLER_SOBOL = 4;
 
-// ---- Dimensions of a sample: each number that a path consumes has one of its own -------------------------------------
-// First the place in the pixel (2) and the time (1, with MOTION). Then for each vertex that a path leaves: the place on each
-// lamp (2 for each of a few, EVERY_LAMP_LIMIT), or on a lamp (2) and which (1); the direction (2), the specular or diffuse
-// lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The low dimensions of a sequence are its best:
-// they go to the lamps, whose light makes most of the picture.
+// ---- Dimensions of a sample: each number that a path consumes has one of its own ------------------------------------
+// First the place in the pixel (2) and the time (1, with MOTION). Then for each vertex that a path leaves: the place
+// on each lamp (2 for each of a few, EVERY_LAMP_LIMIT), or on a lamp (2) and which (1); the direction (2), the
+// specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The low dimensions
+// of a sequence are its best: they go to the lamps, whose light makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at each vertex
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
@@ -68,7 +68,7 @@ PT_CONSTANT BINDING_POINTS = 4;
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
-// ---- Scene buffer: an array of vec4, positions relative to the camera ------------------------------------------------
+// ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
 // With S = spheres + planes and each block following the one before:
 //   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset
 //   emission[S]       radiance R, G, B; mean of the three
@@ -78,9 +78,9 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
-// ---- Film: planes of one uint per pixel of the strip -----------------------------------------------------------------
-// Words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least significant word
-// first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units (FrameConstants.film_scale).
+// ---- Film: planes of one uint per pixel of the strip ----------------------------------------------------------------
+// Words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least significant
+// word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units (FrameConstants.film_scale).
 PT_CONSTANT FILM_SUM_WORDS = 4;
 PT_CONSTANT FILM_FRACTION_BITS = 64;
 PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums

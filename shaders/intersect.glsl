@@ -4,14 +4,23 @@
 
 #include "scene.glsl"
 
-const float NO_HIT = 1.0 / 0.0;
+// Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
+const float NO_HIT = 3.0e38;
 
-// Distance along the unit vector direction to a sphere, or NO_HIT. to_centre = centre - origin; leaving: the origin is on it.
-// With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+ sqrt(r^2 - l^2). Taking l by
-// subtraction of vectors, not of squares, keeps small far spheres in place (Haines et al., "Precision Improvements for
-// Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the sphere itself the roots are 0 and 2 b:
-// a ray that goes outwards (b < 0) never meets it again.
-float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving)
+// How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
+struct Start {
+    vec3 origin;
+    uint surface; // NO_SURFACE for rays from the camera
+    bool inside;
+};
+
+// Distance along the unit vector direction to a sphere, or NO_HIT. to_centre = centre - origin; leaving: the ray
+// starts on it. With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+
+// sqrt(r^2 - l^2). Taking l by subtraction of vectors, not of squares, keeps small far spheres in place (Haines et
+// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the
+// sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The side is
+// known: for small far spheres and grazing directions the sign of b would tell it wrongly.
+float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
@@ -19,12 +28,13 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     float half_chord = sqrt(max(squared_half_chord, 0.0));
     bool outside = dot(to_centre, to_centre) > radius * radius;
     float distance = outside ? b - half_chord : b + half_chord;
-    bool met = squared_half_chord >= 0.0;
-    distance = leaving ? 2.0 * b : distance;
-    return (met || leaving) && distance > 0.0 ? distance : NO_HIT;
+    bool met = squared_half_chord >= 0.0 || !outside; // no direction leads out of a sphere but through its surface
+    distance = leaving ? abs(2.0 * b) : distance;
+    met = leaving ? inside : met;
+    return met && distance > 0.0 ? distance : NO_HIT;
 }
 
-// Distance along direction to a plane, or NO_HIT. height = normal . origin + offset; leaving: the origin is on it.
+// Distance along direction to a plane, or NO_HIT. height = normal . origin + offset; leaving: the ray starts on it.
 float plane_distance(float height, vec3 normal, vec3 direction, bool leaving)
 {
     float distance = -height / dot(normal, direction);
@@ -43,15 +53,15 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// First surface that a ray from the camera meets.
-Hit closest_hit(vec3 origin, vec3 direction, float time)
+// First surface that a ray from the camera, at the origin, meets.
+Hit closest_hit(vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     if (SPHERE_COUNT > 0u) {
         uint i = 0u;
         [[unroll]] do {
             vec4 sphere = sphere_at(i, time);
-            keep_closer(hit, sphere_distance(sphere.xyz - origin, sphere.w, direction, false), i);
+            keep_closer(hit, sphere_distance(sphere.xyz, sphere.w, direction, false, false), i);
             ++i;
         } while (i < SPHERE_COUNT);
     }
@@ -59,7 +69,7 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
         uint i = SPHERE_COUNT;
         [[unroll]] do {
             vec4 plane = geometry_of(i);
-            keep_closer(hit, plane_distance(dot(plane.xyz, origin) + plane.w, plane.xyz, direction, false), i);
+            keep_closer(hit, plane_distance(plane.w, plane.xyz, direction, false), i);
             ++i;
         } while (i < SURFACE_COUNT);
     }
@@ -74,14 +84,16 @@ struct ShadowRay {
 };
 
 // Whether a shadow ray is blocked.
-bool is_blocked(vec3 origin, uint leaving, float time, ShadowRay shadow)
+bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
     if (SPHERE_COUNT > 0u) {
         uint i = 0u;
         [[unroll]] do {
             vec4 sphere = sphere_at(i, time);
-            float distance = sphere_distance(sphere.xyz - origin, sphere.w, shadow.direction, i == leaving);
+            vec3 to_centre = sphere.xyz - start.origin;
+            bool leaving = i == start.surface;
+            float distance = sphere_distance(to_centre, sphere.w, shadow.direction, leaving, start.inside);
             blocked = blocked || (distance < shadow.distance && i != shadow.lamp);
             ++i;
         } while (i < SPHERE_COUNT);
@@ -90,17 +102,18 @@ bool is_blocked(vec3 origin, uint leaving, float time, ShadowRay shadow)
         uint i = SPHERE_COUNT;
         [[unroll]] do {
             vec4 plane = geometry_of(i);
-            float height = dot(plane.xyz, origin) + plane.w;
-            blocked = blocked || plane_distance(height, plane.xyz, shadow.direction, i == leaving) < shadow.distance;
+            float height = dot(plane.xyz, start.origin) + plane.w;
+            float distance = plane_distance(height, plane.xyz, shadow.direction, i == start.surface);
+            blocked = blocked || distance < shadow.distance;
             ++i;
         } while (i < SURFACE_COUNT);
     }
     return blocked;
 }
 
-// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the shadow
-// ray is blocked. Each surface is fetched once for both.
-Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction, ShadowRay shadow, out bool blocked)
+// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
+// shadow ray is blocked. Each surface is fetched once for both.
+Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
@@ -108,9 +121,10 @@ Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction
         uint i = 0u;
         [[unroll]] do {
             vec4 sphere = sphere_at(i, time);
-            vec3 to_centre = sphere.xyz - origin;
-            keep_closer(hit, sphere_distance(to_centre, sphere.w, direction, i == leaving), i);
-            float distance = sphere_distance(to_centre, sphere.w, shadow.direction, i == leaving);
+            vec3 to_centre = sphere.xyz - start.origin;
+            bool leaving = i == start.surface;
+            keep_closer(hit, sphere_distance(to_centre, sphere.w, direction, leaving, start.inside), i);
+            float distance = sphere_distance(to_centre, sphere.w, shadow.direction, leaving, start.inside);
             blocked = blocked || (distance < shadow.distance && i != shadow.lamp);
             ++i;
         } while (i < SPHERE_COUNT);
@@ -119,9 +133,10 @@ Hit closest_hit_and_shadow(vec3 origin, uint leaving, float time, vec3 direction
         uint i = SPHERE_COUNT;
         [[unroll]] do {
             vec4 plane = geometry_of(i);
-            float height = dot(plane.xyz, origin) + plane.w;
-            keep_closer(hit, plane_distance(height, plane.xyz, direction, i == leaving), i);
-            float distance = plane_distance(height, plane.xyz, shadow.direction, i == leaving);
+            float height = dot(plane.xyz, start.origin) + plane.w;
+            bool leaving = i == start.surface;
+            keep_closer(hit, plane_distance(height, plane.xyz, direction, leaving), i);
+            float distance = plane_distance(height, plane.xyz, shadow.direction, leaving);
             blocked = blocked || distance < shadow.distance;
             ++i;
         } while (i < SURFACE_COUNT);

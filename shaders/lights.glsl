@@ -1,4 +1,5 @@
-// Lamps: emitting spheres, chosen by what they can contribute and sampled by the solid angle they subtend. Used by path.glsl.
+// Lamps: emitting spheres, chosen by what they can contribute and sampled by the solid angle they subtend. Used by
+// path.glsl.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 
@@ -15,9 +16,10 @@ struct LampView {
     float weight;        // in the choice among lamps; 0 where it cannot be sampled
 };
 
-// The lamp's weight is an upper bound of the irradiance that it can cause: radiance times (r / d)^2 times the largest cosine
-// of any of its points, min(1, (n . v + r) / d). A lamp that is partly above the horizon never has weight 0, even if its
-// centre is below. From inside or on the lamp it is not sampled; directions find it instead.
+// The lamp's weight, times pi, is an upper bound of the irradiance that it can cause: radiance times (r / d)^2 times
+// min(1, (n . v + r) / d), which is the cosine to its centre raised by the most that its extent can add. A lamp that
+// is partly above the horizon never has weight 0, even if its centre is below. From inside or on the lamp it is not
+// sampled; directions find it instead.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_at(lamp, time);
@@ -57,8 +59,9 @@ LampChoice lamp_choice(Vertex vertex, float time)
     return choice;
 }
 
-// Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is hidden,
-// the weights alone would leave the others to chance. It costs at most a ninth more variance where nothing is hidden.
+// Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is
+// hidden, the weights alone would leave the others to chance. It raises the second moment by a ninth at most where
+// nothing is.
 const float UNIFORM_SHARE = 0.1;
 
 float lamp_probability(LampChoice choice, float weight)
@@ -78,9 +81,9 @@ struct LampSample {
     float density; // over solid angle, given the lamp; 0: it cannot be sampled from this vertex
 };
 
-// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. That is not found by
-// intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the near root
-// is d cos - sqrt(r^2 - d^2 sin^2).
+// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. That is not found
+// by intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the
+// near root is d cos - sqrt(r^2 - d^2 sin^2).
 LampSample sample_lamp(LampView view, uint lamp, vec2 u)
 {
     float h = u.x * view.one_minus_cos;
@@ -91,21 +94,23 @@ LampSample sample_lamp(LampView view, uint lamp, vec2 u)
     return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, lamp), density);
 }
 
-// Index of the lamp that a random number chooses: the first at which the cumulated probability exceeds it. Where rounding
-// leaves the sum below u, the last lamp of weight above 0 stands.
+// Index of the lamp that a random number chooses with lamp_probability. Its low end chooses uniformly among the lamps
+// in sight, the rest by weight: each part walks over its own numbers in the order in which they were summed, so that
+// no small probability is lost to rounding. Where rounding leaves the walk short, the last lamp in sight stands.
 uint choose_lamp(Vertex vertex, LampChoice choice, float time, float u)
 {
+    bool uniformly = u < UNIFORM_SHARE;
+    float target = uniformly ? u / UNIFORM_SHARE * choice.lamp_count
+                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * choice.total_weight;
     uint chosen = 0u;
-    if (LAMP_COUNT > 1u) {
-        float cumulated = 0.0;
-        uint lamp = 0u;
-        [[unroll]] do {
-            float probability = lamp_probability(choice, view_lamp(vertex, lamp, time).weight);
-            chosen = cumulated <= u && probability > 0.0 ? lamp : chosen;
-            cumulated += probability;
-            ++lamp;
-        } while (lamp < LAMP_COUNT);
-    }
+    float cumulated = 0.0;
+    uint lamp = 0u;
+    [[unroll]] do {
+        float weight = view_lamp(vertex, lamp, time).weight;
+        chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
+        cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
+        ++lamp;
+    } while (lamp < LAMP_COUNT);
     return chosen;
 }
 

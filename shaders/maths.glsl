@@ -1,5 +1,5 @@
-// Elementary functions with stated errors, where Vulkan promises too little: sin and cos only 2^-11 absolute, log2 2^-21
-// absolute near 1, and so pow almost nothing for large exponents. Used by sampling.glsl and phong.glsl.
+// Elementary functions with stated errors, where Vulkan promises too little: sin and cos only 2^-11 absolute, log2
+// 2^-21 absolute near 1, and so pow almost nothing for large exponents. Used by sampling.glsl and phong.glsl.
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 
@@ -28,9 +28,9 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     cosine = quadrant == 1u || quadrant == 2u ? -cosine : cosine;
 }
 
-// log(1 - y) for y in [0, 1), relative error a few 2^-24.
-// 1 - y = 2^e m with m in [sqrt(1/2), sqrt(2)), log m = 2 atanh(s) with s = (m - 1) / (m + 1), |s| <= 0.172: the series is
-// cut at s^11 / 11, 2e-9 of its first term. For e = 0, m - 1 is -y itself, which keeps full precision as y goes to 0.
+// log(1 - y) for y in [0, 1), relative error a few 2^-24. 1 - y = 2^e m with m in [sqrt(1/2), sqrt(2)), log m = 2
+// atanh(s) with s = (m - 1) / (m + 1), |s| <= 0.172: the series is cut at s^11 / 11, 2e-9 of its first term. For e =
+// 0, m - 1 is -y itself, which keeps full precision as y goes to 0.
 float log_one_minus(float y)
 {
     float x = 1.0 - y;
@@ -49,7 +49,8 @@ void exp_parts(float x, out float power, out float e)
     precise float biased = x * 1.44269504 + ROUNDING_BIAS;
     precise float k = biased - ROUNDING_BIAS;
     precise float r = (x - k * 0.693359375) + k * 2.12194440e-4;
-    e = r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * (1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0)))))));
+    float high_powers = 1.0 / 24.0 + r * (1.0 / 120.0 + r * (1.0 / 720.0 + r * (1.0 / 5040.0)));
+    e = r * (1.0 + r * (0.5 + r * (1.0 / 6.0 + r * high_powers)));
     power = uintBitsToFloat((floatBitsToUint(biased) << 23) + 0x3f800000u);
 }
 

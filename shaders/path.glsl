@@ -21,8 +21,8 @@ struct Path {
     bool alive;  // whether it may go on from its vertex
 };
 
-// Weight of a sample of density a among two techniques that find the same light: by multiple importance sampling, or all to
-// the lamps.
+// Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
+// importance sampling, or all to the lamps.
 float lamp_weight_against(float lamp_density, float direction_density)
 {
     return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 : power_heuristic(lamp_density, direction_density);
@@ -35,12 +35,15 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// Light of a lamp that a sample of it would bring if nothing is in between, where the lamp is chosen with a probability.
+// Light of a lamp that a sample of it would bring if nothing is in between, where the lamp is chosen with a
+// probability.
 vec3 light_of_lamp(Path path, Material material, LampSample lamp, float probability)
 {
     Reflection towards = reflection(material, path.vertex, lamp.shadow.direction);
     float density = lamp.density * probability;
-    float weight = density > 0.0 ? lamp_weight_against(density, towards.density) / density : 0.0;
+    if (!(density > 0.0))
+        return vec3(0.0);
+    float weight = lamp_weight_against(density, towards.density) / density;
     return path.throughput * towards.value * emission_of(lamp.shadow.lamp).rgb * weight;
 }
 
@@ -49,11 +52,12 @@ void extend(inout Path path, SampleKey key, float time)
 {
     Vertex vertex = path.vertex;
     Material material = material_of(vertex.surface);
-    if (path.vertex_count + 1u == MAX_PATH_LENGTH)
+    if (SAMPLE_LAMPS && path.vertex_count + 1u == MAX_PATH_LENGTH)
         material = at_last_direction(material);
+    Start start = Start(vertex.position, vertex.surface, vertex.inside);
 
-    // A direction towards a lamp, and the light it would bring. Of every lamp, those after the first have their own walk
-    // over the scene; the first, and a chosen one, share that of the path's next ray.
+    // A direction towards a lamp, and the light it would bring. Of every lamp, those after the first have their own
+    // walk over the scene; the first, and a chosen one, share that of the path's next ray.
     LampChoice choice = LampChoice(0.0, 0.0);
     ShadowRay shadow = ShadowRay(vec3(0.0), 0.0, NO_SURFACE);
     vec3 lamp_light = vec3(0.0);
@@ -67,7 +71,7 @@ void extend(inout Path path, SampleKey key, float time)
                 vec2 place = every_lamp_numbers(key, path.vertex_count, i);
                 LampSample further = sample_lamp(view_lamp(vertex, i, time), i, place);
                 vec3 light = light_of_lamp(path, material, further, 1.0);
-                path.radiance += is_blocked(vertex.position, vertex.surface, time, further.shadow) ? vec3(0.0) : light;
+                path.radiance += is_blocked(start, time, further.shadow) ? vec3(0.0) : light;
                 ++i;
             } while (i < LAMP_COUNT);
         }
@@ -89,12 +93,12 @@ void extend(inout Path path, SampleKey key, float time)
 
     // Both rays at once; the lamp's light arrives if nothing is in between.
     bool blocked;
-    Hit hit = closest_hit_and_shadow(vertex.position, vertex.surface, time, direction, shadow, blocked);
+    Hit hit = closest_hit_and_shadow(start, time, direction, shadow, blocked);
     path.radiance += blocked ? vec3(0.0) : lamp_light;
 
     // The next vertex and what it emits, weighted against lamp sampling if that could have found it too.
     float strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
-    path.alive = hit.surface != NO_SURFACE && strongest > 0.0;
+    path.alive = hit.surface != NO_SURFACE && !(strongest <= 0.0); // what is not a number goes on, to be rejected
     if (path.alive) {
         float weight = 1.0;
         if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT) {
@@ -107,24 +111,25 @@ void extend(inout Path path, SampleKey key, float time)
     }
     ++path.vertex_count;
 
-    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of its
-    // throughput, and if it does, is weighted up by it.
+    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
+    // its throughput, and if it does, is weighted up by it. The floor bounds the weight: random numbers are multiples
+    // of 2^-24, which would be too coarse for tiny probabilities.
     if (ROULETTE && path.vertex_count >= 4u) {
-        float survival = min(strongest, 1.0);
+        float survival = clamp(strongest, 0.05, 1.0);
         path.alive = path.alive && numbers.w < survival;
-        path.throughput /= max(survival, 1e-30);
+        path.throughput /= survival;
     }
 }
 
-// Radiance of the path of one sample, an estimate of what the pixel sees: emission plus throughput-weighted light at each
-// of up to MAX_PATH_LENGTH vertices.
+// Radiance of the path of one sample, an estimate of what the pixel sees: emission plus throughput-weighted light at
+// each of up to MAX_PATH_LENGTH vertices.
 vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
 {
     // The camera ray, spread over the pixel's square (box filter), and what it meets.
     vec3 numbers = camera_numbers(key);
     float time = numbers.z;
     vec3 direction = camera_direction(frame, pixel, numbers.xy);
-    Hit hit = closest_hit(vec3(0.0), direction, time);
+    Hit hit = closest_hit(direction, time);
     Path path;
     path.alive = hit.surface != NO_SURFACE;
     uint surface = path.alive ? hit.surface : 0u;

@@ -11,8 +11,8 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 #include "film.glsl"
 #include "path.glsl"
 
-// One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there, so that
-// the film always holds whole samples. The last component counts the sample.
+// One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there,
+// so that the film always holds whole samples. The last component counts the sample.
 layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pass;
 
 void main()

@@ -1,6 +1,6 @@
-// The physically-normalised Phong model: value, sampling, density. Used by path.glsl and lights.glsl.
-// f = diffuse / pi + specular (n + 2) / (2 pi) max(0, wo . r)^n with r the mirror direction (Lafortune and Willems, "Using
-// the Modified Phong Reflectance Model for Physically Based Rendering", 1994).
+// The physically-normalised Phong model: value, sampling, density. Used by path.glsl. f = diffuse / pi + specular (n
+// + 2) / (2 pi) max(0, wo . r)^n with r the mirror direction (Lafortune and Willems, "Using the Modified Phong
+// Reflectance Model for Physically Based Rendering", 1994).
 #ifndef PHONG_GLSL
 #define PHONG_GLSL
 
@@ -26,9 +26,9 @@ Material material_of(uint surface)
     return Material(diffuse.rgb, specular.rgb, specular.a, choose_lobe ? diffuse.a : 0.0);
 }
 
-// The share of the specular lobe in the last direction of a path: what that finds is emission alone, which on the diffuse
-// lobe lamp sampling finds better. (Measured on the coursework scene with two vertices: 1.6 times less error than with
-// the share of other vertices, and flat around 0.9.)
+// The share of the specular lobe in the last direction of a path, where lamps are sampled too: what that direction
+// finds is emission alone, which on the diffuse lobe lamp sampling finds better. (Measured on the coursework scene
+// with two vertices: 1.6 times less error than with the share of other vertices, and flat around 0.9.)
 const float LAST_SPECULAR_PROBABILITY = 0.9;
 
 Material at_last_direction(Material material)
@@ -38,9 +38,9 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r.
-// With y = |wo - r|^2 / 2 = 1 - wo . r this is exp(n log(1 - y)); y from the chord keeps its relative precision as wo nears
-// r, where all of a glossy lobe lies. pow(wo . r, n) is 35% off at n = 1e6.
+// max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r. With y = |wo -
+// r|^2 / 2 = 1 - wo . r this is exp(n log(1 - y)); y from the chord keeps its relative precision as wo nears r, where
+// all of a glossy lobe lies. pow(wo . r, n) is 35% off at n = 1e6.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
@@ -76,8 +76,8 @@ vec3 lobe_direction(vec3 r, float n, vec2 u)
     return direction_about(r, one_minus_exp(log_one_minus(u.x) / (n + 1.0)), u.y);
 }
 
-// The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither redrawn nor
-// renormalised there, so that its density stays the one that reflection() states.
+// The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither
+// redrawn nor renormalised there, so that its density stays the one that reflection() states.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -1,12 +1,12 @@
-// The numbers in [0, 1) that a sample is made of, as a pure function of (seed, pixel, sample, dimension), so that a sample's
-// value depends on nothing else. gpu_layout.h says who owns which dimension. Used by path.glsl.
+// The numbers in [0, 1) that a sample is made of, as a pure function of (seed, pixel, sample, dimension), so that a
+// sample's value depends on nothing else. gpu_layout.h says who owns which dimension. Used by dimensions.glsl.
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 
 #include "scene.glsl"
 
-// Row r holds the point of the slice's r-th sample: TABLE_DIMENSIONS coordinates as multiples of 2^-32, those of Sobol with
-// their bits reversed. The points are the same in every pixel; what differs is made from them below.
+// Row r holds the point of the slice's r-th sample: TABLE_DIMENSIONS coordinates as multiples of 2^-32, those of
+// Sobol with their bits reversed. The points are the same in every pixel; what differs is made from them below.
 layout(set = 0, binding = BINDING_POINTS) readonly buffer Points { uint words[]; } points;
 
 struct SampleKey {
@@ -16,8 +16,8 @@ struct SampleKey {
     uint table_row;
 };
 
-// The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020), listing 4: four random words
-// of four words of input, for seven integer operations each.
+// The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020): four random words of
+// four words of input.
 uvec4 pcg4d(uvec4 v)
 {
     v = v * 1664525u + 1013904223u;
@@ -33,10 +33,10 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// Owen scrambling in base 2 of a coordinate given with its bits reversed: each bit is flipped or not by a hash of the bits
-// above it (Owen 1995; as a hash, Laine and Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
-// In reversed order "above" means "less significant", which carries of sums and products respect. The constants are those
-// of N. Vegdahl's search for a hash with better avalanche (2021).
+// Owen scrambling in base 2 of a coordinate given with its bits reversed: each bit is flipped or not by a hash of the
+// bits above it (Owen 1995; as a hash, Laine and Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT
+// 9(4), 2020). In reversed order "above" means "less significant", which carries of sums and products respect. The
+// constants are those of N. Vegdahl's search for a hash with better avalanche (2021).
 uvec4 owen_scrambled(uvec4 reversed, uvec4 seed)
 {
     uvec4 v = reversed;

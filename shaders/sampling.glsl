@@ -1,11 +1,12 @@
-// Directions from random numbers, each with its density over solid angle. Used by phong.glsl and lights.glsl.
+// Directions from random numbers, each with its density over solid angle. Used by phong.glsl, lights.glsl and
+// path.glsl.
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
 
 #include "maths.glsl"
 
-// A direction as polar angle from the z axis and azimuth about it. The polar angle is held by its cosine and sine: Vulkan
-// allows acos an error of 4096 ulp, and nothing here needs the angle itself.
+// A direction as polar angle from the z axis and azimuth about it. The polar angle is held by its cosine and sine:
+// Vulkan allows acos an error of 4096 ulp, and nothing here needs the angle itself.
 struct SphericalAngles {
     float cos_polar;
     float sin_polar;
@@ -35,8 +36,8 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
     return dot(direction, axis) < 0.0 ? -direction : direction;
 }
 
-// Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building an
-// Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included.
+// Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building
+// an Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included.
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
@@ -63,7 +64,7 @@ vec3 direction_about(vec3 axis, float one_minus_cos, float azimuth)
 }
 
 // Weight of a sample of density a in the power heuristic with exponent 2 against a technique of density b (Veach 1997,
-// section 9.2.4), a > 0, b >= 0. Through the ratio, so that no square overflows unless the weight is 0.
+// chapter 9), a > 0, b >= 0. Through the ratio, so that no square overflows unless the weight is 0.
 float power_heuristic(float a, float b)
 {
     float ratio = b / a;

@@ -16,7 +16,9 @@ layout(constant_id = ID_SCENE_IN_UNIFORM) const uint SCENE_IN_UNIFORM = 1;
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 layout(constant_id = ID_TABLE_DIMENSIONS) const uint TABLE_DIMENSIONS = 0;
 
-layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform { vec4 words[UNIFORM_SCENE_WORDS]; } scene_uniform;
+layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
+    vec4 words[UNIFORM_SCENE_WORDS];
+} scene_uniform;
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { vec4 words[]; } scene_storage;
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
@@ -41,7 +43,8 @@ vec4 diffuse_of(uint surface) { return scene_word(2u * SURFACE_COUNT + surface);
 // Specular factor and glossiness.
 vec4 specular_of(uint surface) { return GLOSS == 1 ? scene_word(3u * SURFACE_COUNT + surface) : vec4(0.0); }
 
-// Centre and radius at a time, from 0 (shutter opens) to 1 (shutter closes): the one function that tracing, lamp sampling and densities share.
+// Centre and radius at a time, from 0 (shutter opens) to 1 (shutter closes): the one function that tracing, lamp
+// sampling and densities share.
 vec4 sphere_at(uint sphere, float time)
 {
     vec4 centre_radius = geometry_of(sphere);

@@ -10,10 +10,11 @@ struct Vertex {
     vec3 normal;   // unit, on the side that the path came from
     vec3 incoming; // unit direction in which the path arrived
     uint surface;
+    bool inside; // of the sphere that the surface is; for a plane, on the side away from its normal
 };
 
-// The vertex at a distance along a ray, where it meets a surface. The point is moved onto its surface: along the ray it is off by the rounding of
-// the distance, up to thousands of times more than by that of the point itself.
+// The vertex at a distance along a ray, where it meets a surface. The point is moved onto its surface: along the ray
+// it is off by the rounding of the distance, up to thousands of times more than by that of the point itself.
 Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, float time)
 {
     vec3 position = origin + distance * direction;
@@ -27,8 +28,8 @@ Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, floa
         normal = plane.xyz;
         position -= (dot(normal, position) + plane.w) * normal;
     }
-    normal = dot(normal, direction) > 0.0 ? -normal : normal;
-    return Vertex(position, normal, direction, surface);
+    bool inside = dot(normal, direction) > 0.0;
+    return Vertex(position, inside ? -normal : normal, direction, surface, inside);
 }
 
 #endif

@@ -32,11 +32,14 @@ struct SharedDevice {
 };
 
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer};
 
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
 constexpr std::uint32_t workgroup_size = 64;
+constexpr std::size_t scene_bytes = 16384; // what a uniform buffer surely holds
+constexpr std::size_t points_padding = 16; // the kernel reads up to three words past a row, and one if there is none
 
 } // namespace
 
@@ -45,23 +48,27 @@ pt::vulkan::Device &probe_device() {
     return shared.device;
 }
 
-Probe::Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes) :
-    pipeline_(probe_device(), spirv, bindings, push_bytes, {}) {}
+Probe::Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes, std::span<const std::uint32_t> constants) :
+    pipeline_(probe_device(), spirv, bindings, push_bytes, constants) {}
 
 void Probe::run_bytes(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
                       std::uint32_t invocations) {
     using pt::vulkan::Buffer;
     using pt::vulkan::BufferUse;
     pt::vulkan::Device &device = probe_device();
-    Buffer scene(device, BufferUse::UniformOrStorage, 16384, "scene of a probe");
+    Buffer scene(device, BufferUse::UniformOrStorage, scene_bytes, "scene of a probe");
+    Buffer points(device, BufferUse::Storage, points_.size() * sizeof(std::uint32_t) + points_padding,
+                  "points of a probe");
     Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
     Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
     out.clear();
     in.upload(input, 0);
+    scene.upload(std::as_bytes(std::span(scene_)), 0);
+    points.upload(std::as_bytes(std::span(points_)), 0);
     std::vector<std::byte> guard(guard_bytes, guard_value);
     out.upload(guard, output.size());
 
-    const std::array buffers = {&scene, &scene, &out, &in};
+    const std::array buffers = {&scene, &scene, &out, &in, &points};
     const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);

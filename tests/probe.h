@@ -17,7 +17,13 @@ pt::vulkan::Device &probe_device();
 
 class Probe {
 public:
-    Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes);
+    // constants[i] are the bits of the specialization constant with id i; without them the shaders' defaults hold.
+    Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
+          std::span<const std::uint32_t> constants = {});
+
+    // What the following runs find in the scene buffer (bindings 0 and 1) and in the table of points (binding 4).
+    void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
+    void set_points(std::span<const std::uint32_t> words) { points_.assign(words.begin(), words.end()); }
 
     // Gives the kernel input (binding 3) and push constants, runs one invocation per item of invocations, and returns
     // output_count values (binding 2, zero before). Guard words after the output must survive.
@@ -35,4 +41,6 @@ private:
                    std::uint32_t invocations);
 
     pt::vulkan::ComputePipeline pipeline_;
+    std::vector<glm::vec4> scene_;
+    std::vector<std::uint32_t> points_;
 };

@@ -6,6 +6,7 @@ Most cases run the program on a stand-in for the library (fake_library.cpp), whi
 takes as long as it is told to. RealDevice runs the program itself.
 """
 
+import csv
 import glob
 import json
 import os
@@ -141,7 +142,8 @@ class Usage(CommandLineTest):
         for option, value in (("--size", "12"), ("--size", "1e9x1"), ("--size", "-1x5"), ("--size", ""),
                               ("--spp", "0"), ("--spp", "-1"), ("--spp", "4294967296"), ("--spp", "many"),
                               ("--seed", "-1"), ("--seed", "18446744073709551616"), ("--first-sample", "-1"),
-                              ("--max-path-length", "0"), ("--submit-ms", "0"), ("--estimator", "mss"),
+                              ("--max-path-length", "0"), ("--submit-ms", "0"), ("--sampler", "sobl"),
+                              ("--estimator", "mss"),
                               ("--tonemap", "filmic"), ("--gamma", "0"), ("--exposure", "nan"),
                               ("--exposure", "1e9"), ("--progress", "loud")):
             with self.subTest(option=option, value=value):
@@ -256,8 +258,9 @@ class Outputs(CommandLineTest):
         attributes = read_exr_attributes(self.path("a.exr"))
         self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 5)))
         self.assertEqual(attributes["renderTimeSeconds"][0], "float")
-        for name, text in (("pt.seed", "18446744073709551615"), ("pt.firstSample", "0"), ("pt.estimator", "best"),
-                           ("pt.rejectedSamples", "0"), ("pt.device", "fake device"), ("pt.driver", "fake driver 1.0")):
+        for name, text in (("pt.seed", "18446744073709551615"), ("pt.firstSample", "0"), ("pt.sampler", "best"),
+                           ("pt.estimator", "best"), ("pt.rejectedSamples", "0"), ("pt.device", "fake device"),
+                           ("pt.driver", "fake driver 1.0")):
             self.assertEqual(attributes[name], ("string", text.encode()), name)
         self.assertEqual(attributes["pt.maxPathLength"], ("int", struct.pack("<i", 2)))
         self.assertTrue(attributes["software"][1].startswith(b"pt "))
@@ -379,8 +382,69 @@ class ProgressOutput(CommandLineTest):
         self.assertTrue(output.endswith(b"\r\x1b[K"), output)
 
 
+class Bench(CommandLineTest):
+    COLUMNS = ["sampler", "estimator", "spp", "rounds", "seconds", "processor_seconds", "mse", "rel_mse", "efficiency",
+               "slope", "near_reference_noise"]
+
+    def test_wrong_values(self):
+        for option, value, error in (("--samplers", "random,sobl", 'did you mean "sobol"?'),
+                                     ("--estimators", "mss", 'did you mean "mis"?'), ("--samplers", "random,", ""),
+                                     ("--spp", "16,0", "--spp"), ("--spp", "4294967295", "give --reference-spp"),
+                                     ("--rounds", "0", "--rounds"), ("--reference-spp", "1", "--reference-spp")):
+            with self.subTest(option=option, value=value):
+                self.expect(2, "bench", COURSEWORK, option, value, "--csv", "b.csv", error=error)
+        self.expect(6, "bench", COURSEWORK, "--json", "none/b.json", error="cannot write none/b.json")
+        self.expect(6, "bench", COURSEWORK, "--reference", "none.exr", error="cannot read none.exr")
+        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--size", "4x3", "--spp", "1")
+        self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--size", "4x2", error="is 4x3, the picture is 4x2")
+        self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--reference-spp", "9", error="excludes")
+        self.assertEqual(self.files(), ["a.exr"])
+
+    def test_a_given_reference_is_compared_with(self):
+        # The stand-in always shows the same picture.
+        arguments = ["bench", COURSEWORK, "--samplers", "random", "--spp", "1", "--rounds", "1", "--csv", "b.csv"]
+        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--size", "4x3", "--spp", "1")
+        self.expect(0, *arguments, "--reference", "a.exr", "--size", "4x3")
+        row, = csv.DictReader(self.read("b.csv").splitlines())
+        self.assertEqual((row["mse"], row["efficiency"], row["near_reference_noise"]), ("0", "", "0"))
+
+    def test_an_interrupted_bench_reports_what_is_done(self):
+        process = self.start("bench", COURSEWORK, "--samplers", "random", "--spp", "2,100", "--size", "2x2",
+                             "--reference-spp", "2", "--progress", "json", "--csv", "b.csv", FAKE_PT_SAMPLE_MS=50)
+        while json.loads(process.stderr.readline())["samples_per_pixel"] < 6:
+            pass
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("pt: stopped by a signal; the runs done so far are reported", errors)
+        rows = list(csv.DictReader(self.read("b.csv").splitlines()))
+        self.assertEqual([(row["spp"], row["rounds"]) for row in rows], [("2", "1")])
+        self.assertIn("random", output)
+        self.assertEqual(self.files(), ["b.csv"])
+
+
 class RealDevice(CommandLineTest):
     program = PT
+
+    def test_bench(self):
+        self.expect(0, "bench", COURSEWORK, "--size", "16x8", "--samplers", "random,sobol", "--estimators", "mis",
+                    "--spp", "16,4", "--rounds", "2", "--reference-spp", "512", "--csv", "b.csv", "--json", "b.json")
+        for text in ("reference: 512 spp", "efficiency", "random", "sobol"):
+            self.assertIn(text, self.output)
+        rows = list(csv.DictReader(self.read("b.csv").splitlines()))
+        self.assertEqual(list(rows[0]), Bench.COLUMNS)
+        self.assertEqual([(row["sampler"], row["spp"]) for row in rows],
+                         [("random", "4"), ("random", "16"), ("sobol", "4"), ("sobol", "16")])
+        cells = json.loads(self.read("b.json"))["cells"]
+        for row, cell in zip(rows, cells, strict=True):
+            self.assertEqual(list(cell), Bench.COLUMNS)
+            self.assertEqual((cell["sampler"], cell["rounds"]), (row["sampler"], 2))
+            self.assertGreater(cell["seconds"], 0)
+            self.assertGreater(cell["mse"], 0)
+        for few, many in (cells[0:2], cells[2:4]):
+            self.assertIsNone(few["slope"])
+            self.assertLess(many["slope"], 0)  # more samples, less error
+        self.assertEqual(self.files(), ["b.csv", "b.json"])
 
     def test_render(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "-o", "a.exr", "--size", "32x16", "--spp", "2",

@@ -68,6 +68,34 @@ TEST(ImageFile, ExrHasChannelsAndMetadata) {
     EXPECT_EQ(spec.get_string_attribute("pt.seed"), "18446744073709551615");
 }
 
+TEST(ImageFile, ExrIsReadBack) {
+    const TemporaryFolder folder;
+    const std::vector<float> radiance{0.1F, 2.0F, 3e30F, 4.0F, 5.0F, 6.0F};
+    ImageWriter().write_radiance(folder.file("a.exr"), 1, 2, radiance, attributes);
+    const cli::RadianceImage image = cli::read_radiance(folder.file("a.exr"));
+    EXPECT_EQ(image.width, 1U);
+    EXPECT_EQ(image.height, 2U);
+    EXPECT_EQ(image.radiance, radiance);
+}
+
+TEST(ImageFile, WhatCannotBeReadIsRefused) {
+    const TemporaryFolder folder;
+    folder.write("text.exr", "no image");
+    const auto grey = OIIO::ImageOutput::create("grey.exr");
+    ASSERT_TRUE(grey->open(folder.file("grey.exr"), OIIO::ImageSpec(1, 1, 1, OIIO::TypeDesc::FLOAT)));
+    const float value = 1.0F;
+    ASSERT_TRUE(grey->write_image(OIIO::TypeDesc::FLOAT, &value) && grey->close());
+    for (const char *name : {"none.exr", "text.exr", "grey.exr"}) {
+        try {
+            cli::read_radiance(folder.file(name));
+            FAIL() << name << " was read";
+        } catch (const cli::Failure &failure) {
+            EXPECT_EQ(failure.code(), cli::ExitCode::file);
+            EXPECT_NE(std::string(failure.what()).find(name), std::string::npos) << failure.what();
+        }
+    }
+}
+
 TEST(ImageFile, PngKeepsEveryByte) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes{0, 1, 2, 127, 128, 129, 253, 254, 255};

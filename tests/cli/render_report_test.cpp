@@ -16,6 +16,7 @@ cli::RenderReport example() {
     report.render.seed = 18446744073709551615U;
     report.render.first_sample = 4294967295U;
     report.render.max_path_length = 6;
+    report.render.sampler = PT_SAMPLER_HALTON_CP;
     report.render.estimator = PT_ESTIMATOR_MIS;
     report.requested_sample_count = 64;
     report.stats.sample_count = 32;
@@ -34,6 +35,7 @@ TEST(RenderReport, StatsJson) {
     EXPECT_EQ(json.at("spp_requested"), 64);
     EXPECT_EQ(json.at("seed"), 18446744073709551615U);
     EXPECT_EQ(json.at("first_sample"), 4294967295U);
+    EXPECT_EQ(json.at("sampler"), "halton-cp");
     EXPECT_EQ(json.at("estimator"), "mis");
     EXPECT_EQ(json.at("device").at("name"), "a device");
     EXPECT_EQ(json.at("features"), (std::vector<std::string>{"lamps", "large"}));
@@ -55,6 +57,7 @@ TEST(RenderReport, MetadataKeepsAllDigits) {
     EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
     EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
     EXPECT_EQ(texts.at("pt.rejectedSamples"), "3");
+    EXPECT_EQ(texts.at("pt.sampler"), "halton-cp");
     EXPECT_EQ(texts.at("pt.estimator"), "mis");
     EXPECT_EQ(texts.at("software"), "pt " + cli::version_text());
     EXPECT_EQ(numbers.at("samplesPerPixel"), 32.0);

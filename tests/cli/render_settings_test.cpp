@@ -18,6 +18,7 @@ SceneFile full_scene() {
     scene.max_path_length = 3;
     scene.sample_count = 5;
     scene.seed = 7;
+    scene.sampler = PT_SAMPLER_RANDOM;
     scene.estimator = PT_ESTIMATOR_UNIFORM;
     return scene;
 }
@@ -28,26 +29,28 @@ RenderOptions full_options() {
     options.max_path_length = 4;
     options.sample_count = 6;
     options.seed = 8;
+    options.sampler = PT_SAMPLER_HALTON;
     options.estimator = PT_ESTIMATOR_MIS;
     options.first_sample = 9;
     return options;
 }
 
 void expect_render(const RenderSettings &settings, std::uint32_t width, std::uint32_t height, std::uint32_t length,
-                   std::uint32_t samples, std::uint64_t seed, std::uint32_t estimator) {
+                   std::uint32_t samples, std::uint64_t seed, std::uint32_t sampler, std::uint32_t estimator) {
     EXPECT_EQ(settings.render.struct_size, sizeof(pt_render));
     EXPECT_EQ(settings.render.width, width);
     EXPECT_EQ(settings.render.height, height);
     EXPECT_EQ(settings.render.max_path_length, length);
     EXPECT_EQ(settings.sample_count, samples);
     EXPECT_EQ(settings.render.seed, seed);
+    EXPECT_EQ(settings.render.sampler, sampler);
     EXPECT_EQ(settings.render.estimator, estimator);
 }
 
 TEST(RenderSettings, CommandLineBeatsSceneBeatsDefaults) {
-    expect_render(merge_settings({}, {}), 512, 512, 6, 64, 0, PT_ESTIMATOR_BEST);
-    expect_render(merge_settings({}, full_scene()), 10, 20, 3, 5, 7, PT_ESTIMATOR_UNIFORM);
-    expect_render(merge_settings(full_options(), full_scene()), 30, 40, 4, 6, 8, PT_ESTIMATOR_MIS);
+    expect_render(merge_settings({}, {}), 512, 512, 6, 64, 0, PT_SAMPLER_BEST, PT_ESTIMATOR_BEST);
+    expect_render(merge_settings({}, full_scene()), 10, 20, 3, 5, 7, PT_SAMPLER_RANDOM, PT_ESTIMATOR_UNIFORM);
+    expect_render(merge_settings(full_options(), full_scene()), 30, 40, 4, 6, 8, PT_SAMPLER_HALTON, PT_ESTIMATOR_MIS);
     EXPECT_EQ(merge_settings(full_options(), {}).render.first_sample, 9U);
 }
 

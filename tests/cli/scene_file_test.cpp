@@ -42,7 +42,8 @@ constexpr const char *small = R"({
                  "a": { "specular": [0.1, 0.2, 0.3], "emission": 7 } },
   "camera": { "position": [0, 0, 1], "look_at": [0, 0, -1], "up": [1, 0, 0], "vertical_fov": 90, "shutter": [0.25, 0.5] },
   "film": { "width": 320, "height": 2e2 },
-  "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "estimator": "uniform" }
+  "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "sampler": "halton-cp",
+              "estimator": "uniform" }
 })";
 
 TEST(SceneFile, ReadsEverything) {
@@ -81,6 +82,7 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.max_path_length, 3U);
     EXPECT_EQ(scene.sample_count, 16U);
     EXPECT_EQ(scene.seed, 18446744073709551615U);
+    EXPECT_EQ(scene.sampler, static_cast<std::uint32_t>(PT_SAMPLER_HALTON_CP));
     EXPECT_EQ(scene.estimator, static_cast<std::uint32_t>(PT_ESTIMATOR_UNIFORM));
 }
 
@@ -187,6 +189,8 @@ TEST(SceneFile, UnknownNamesGetASuggestion) {
               " /spheres/0: unknown key \"raduis\", did you mean \"radius\"?");
     EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"radius":1,"material":"glod"}],"materials":{"gold":{}}})"),
               " /spheres/0/material: unknown material \"glod\", did you mean \"gold\"?");
+    EXPECT_EQ(refusal(R"({"render":{"sampler":"halton-pc"}})"),
+              " /render/sampler: unknown sampler \"halton-pc\", did you mean \"halton-cp\"?");
     EXPECT_EQ(refusal(R"({"render":{"estimator":"mss"}})"),
               " /render/estimator: unknown estimator \"mss\", did you mean \"mis\"?");
 }

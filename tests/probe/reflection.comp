@@ -16,7 +16,7 @@ void main()
     if (index >= count)
         return;
     Material material = Material(vec3(diffuse), vec3(specular), glossiness, probability);
-    Vertex vertex = Vertex(vec3(0.0), vec3(0.0, 0.0, 1.0), incoming.xyz, 0u);
+    Vertex vertex = Vertex(vec3(0.0), vec3(0.0, 0.0, 1.0), incoming.xyz, 0u, false);
     Reflection result = reflection(material, vertex, outgoing[index].xyz);
     results[index] = vec4(result.value.r, result.density, 0.0, 0.0);
 }

@@ -1,0 +1,76 @@
+// Owns the names of pt.h's samplers and estimators: whoever adds one adds one line here.
+// Called by the scene file reader, the options and the reports.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+struct Method {
+    std::string_view name;
+    std::uint32_t value;
+};
+
+template <std::size_t Count>
+class MethodNames {
+public:
+    constexpr explicit MethodNames(const Method (&methods)[Count]) {
+        std::transform(methods, methods + Count, names_.begin(), [](const Method &method) { return method.name; });
+        std::transform(methods, methods + Count, values_.begin(), [](const Method &method) { return method.value; });
+    }
+
+    constexpr std::span<const std::string_view> names() const { return names_; }
+
+    constexpr std::optional<std::uint32_t> find(std::string_view name) const {
+        const auto found = std::find(names_.begin(), names_.end(), name);
+        return found == names_.end() ? std::nullopt : std::optional(values_[index(found - names_.begin())]);
+    }
+
+    // Throws std::out_of_range for a value that the table lacks.
+    constexpr std::string_view name(std::uint32_t value) const {
+        return names_.at(index(std::find(values_.begin(), values_.end(), value) - values_.begin()));
+    }
+
+    // "best, random, halton", for help texts.
+    std::string list() const {
+        std::string text;
+        for (const std::string_view name : names_) {
+            text.append(text.empty() ? "" : ", ").append(name);
+        }
+        return text;
+    }
+
+private:
+    static constexpr std::size_t index(std::ptrdiff_t distance) { return static_cast<std::size_t>(distance); }
+
+    std::array<std::string_view, Count> names_{};
+    std::array<std::uint32_t, Count> values_{};
+};
+
+inline constexpr MethodNames samplers({
+    {"best", PT_SAMPLER_BEST},
+    {"random", PT_SAMPLER_RANDOM},
+    {"halton", PT_SAMPLER_HALTON},
+    {"halton-cp", PT_SAMPLER_HALTON_CP},
+    {"sobol", PT_SAMPLER_SOBOL},
+});
+
+inline constexpr MethodNames estimators({
+    {"best", PT_ESTIMATOR_BEST},
+    {"uniform", PT_ESTIMATOR_UNIFORM},
+    {"cosine", PT_ESTIMATOR_COSINE},
+    {"bsdf", PT_ESTIMATOR_BSDF},
+    {"light", PT_ESTIMATOR_LIGHT},
+    {"mis", PT_ESTIMATOR_MIS},
+});
+
+} // namespace cli

@@ -1,0 +1,14 @@
+// Owns the handing over of scene, camera and settings to the library, and who is to blame for what it refuses.
+// Called by render_command and bench_command.
+#pragma once
+
+#include "context.h"
+#include "render_settings.h"
+#include "scene_file.h"
+
+namespace cli {
+
+// Throws Failure: a rule that the scene file breaks is explained in the file's words.
+void describe(const Context &context, const SceneFile &file, const RenderSettings &settings);
+
+} // namespace cli

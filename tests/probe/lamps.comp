@@ -1,0 +1,36 @@
+// Chooses and samples lamps from one vertex with the shipped functions; the first invocations state how they see each lamp.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "lights.glsl"
+#include "sampler.glsl"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { vec4 position; vec4 normal; uint surface; uint seed; uint count; };
+
+struct Drawn {
+    vec4 direction_distance;
+    uint lamp;
+    float density;     // over solid angle, given the lamp: as the sample states it
+    float hit_density; // as it is stated for a direction that happens to hit the lamp
+    float probability;
+};
+
+// First one entry for each lamp, of which only density and probability count, then the samples.
+layout(set = 0, binding = 2) writeonly buffer Output { Drawn drawn[]; };
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= count)
+        return;
+    Vertex vertex = Vertex(position.xyz, normal.xyz, -normal.xyz, surface, false);
+    LampChoice choice = lamp_choice(vertex, 0.0);
+    vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u, 3u).xyz;
+    uint lamp = index < LAMP_COUNT ? index : choose_lamp(vertex, choice, 0.0, u.z);
+    LampView view = view_lamp(vertex, lamp, 0.0);
+    LampSample taken = sample_lamp(view, lamp, u.xy);
+    drawn[index] = Drawn(vec4(taken.shadow.direction, taken.shadow.distance), lamp, taken.density,
+                         cone_density(view_lamp(vertex, lamp, 0.0)), lamp_probability(choice, view.weight));
+}
