@@ -60,7 +60,7 @@ vec4 sample_block(SampleKey key, uint first, uint count)
         uint row = in_table ? key.table_row * TABLE_DIMENSIONS + first : 0u;
         uvec4 point = uvec4(points.words[row], points.words[row + 1u], points.words[row + 2u], points.words[row + 3u]);
         if (SAMPLER == SAMPLER_SOBOL)
-            point = owen_scrambled(point, hash);
+            point = owen_scrambled(point, hash ^ (hash >> 16u)); // whose low bits, the first digits, pcg4d mixes least
         else if (SAMPLER == SAMPLER_HALTON_CP)
             point += hash; // Cranley and Patterson 1976: a rotation, addition modulo 1
         words = in_table ? point : hash;
