@@ -259,9 +259,9 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
 /* Adds samples to every pixel and returns when they are done. However the samples are split over calls, the sum has the
- * same bits. Needs scene, camera and render settings. Samples more than 2^20 times as bright as the brightest emission in
- * the scene are left out and counted (pt_stats.rejected_samples): estimators that do not follow the material's lobe (uniform,
- * cosine, light) meet them on surfaces of glossiness beyond 1e5, which they should not be used for. */
+ * same bits. Needs scene, camera and render settings. Samples more than 2^20 times as bright as the brightest emission
+ * in the scene are left out and counted (pt_stats.rejected_samples): estimators that do not follow the material's lobe
+ * (uniform, cosine, light) meet them on surfaces of glossiness beyond 1e5, for which they should not be used. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
 /* Writes the mean radiance of the samples so far. PT_ERROR_INVALID_STATE if there is none. */
