@@ -164,14 +164,20 @@ std::uint32_t reversed_bits(std::uint32_t x) {
 
 } // namespace
 
-std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::uint32_t first_index, std::uint32_t count,
-                                       std::uint32_t dimensions) {
-    std::vector<std::uint32_t> table(std::size_t{count} * dimensions);
-    for (std::uint32_t i = 0; i < count; ++i)
-        for (std::uint32_t d = 0; d < dimensions; ++d)
-            table[std::size_t{i} * dimensions + d] = sampler == PT_SAMPLER_SOBOL
-                                                         ? reversed_bits(sobol(first_index + i, d))
-                                                         : radical_inverse(first_index + i, d);
+std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::span<const std::uint32_t> indices,
+                                       const PointLayout &layout) {
+    std::vector<std::uint32_t> table;
+    table.reserve(indices.size() * layout.row_words());
+    const auto add = [&](std::uint32_t index, std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t d = first; d < end; ++d)
+            table.push_back(sampler == PT_SAMPLER_SOBOL ? reversed_bits(sobol(index, d)) : radical_inverse(index, d));
+    };
+    for (const std::uint32_t index : indices) {
+        add(index, 0, layout.shared);
+        // Modulo 2^32, which the kernel makes up for (branch_key in sampler.glsl).
+        for (std::uint32_t branch = 0; branch < layout.branches; ++branch)
+            add(index * layout.branches + branch, layout.shared, layout.dimensions);
+    }
     return table;
 }
 

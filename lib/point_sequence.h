@@ -1,7 +1,10 @@
 // Points of quasi-random sequences, exact, for the sampler in shaders/sampler.glsl. Renderer makes the table of a slice.
 #pragma once
 
+#include "gpu_layout.h"
+
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pt {
@@ -16,9 +19,18 @@ std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 // Radical inverse of an index in the dimension-th prime base (Halton 1960), as the largest multiple of 2^-32 not above it.
 std::uint32_t radical_inverse(std::uint32_t index, std::uint32_t dimension);
 
-// The coordinates of consecutive points for a sampler of pt.h that uses a sequence, as the kernel reads them: count rows of
-// dimensions words, those of Sobol with their bits reversed.
-std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::uint32_t first_index, std::uint32_t count,
-                                       std::uint32_t dimensions);
+// What a row of the point table consists of (gpu_layout.h, row_words).
+struct PointLayout {
+    std::uint32_t dimensions; // in all
+    std::uint32_t shared;     // of them shared by the branches of a sample
+    std::uint32_t branches;
+
+    std::uint32_t row_words() const { return gpu::row_words(dimensions, shared, branches); }
+};
+
+// The points of samples for a sampler of pt.h that uses a sequence, as the kernel reads them: a row for each index,
+// coordinates of Sobol with their bits reversed.
+std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::span<const std::uint32_t> indices,
+                                       const PointLayout &layout);
 
 } // namespace pt

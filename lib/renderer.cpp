@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace pt {
@@ -20,7 +21,7 @@ constexpr std::array kernel_bindings = {vk::DescriptorType::eUniformBuffer, vk::
                                         vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
                                         vk::DescriptorType::eStorageBuffer};
 
-// Rows of the point table, which bounds the samples of a slice: 1 MiB at the most, in a few hundredths of a second.
+// Rows of the point table, which bounds the samples of a slice: 4 MiB at the most.
 constexpr std::uint32_t max_table_rows = 4096;
 // The kernel reads blocks of four coordinates, of which a row's last may be beyond it.
 constexpr std::uint32_t table_padding = 3;
@@ -136,7 +137,8 @@ void Renderer::prepare_kernel() {
                                               ": fewer surfaces or a smaller max_path_length would do");
 
     const std::uint64_t table_bytes =
-        (std::uint64_t{max_table_rows} * table_dimensions(features) + table_padding + 1) * sizeof(std::uint32_t);
+        (std::uint64_t{max_table_rows} * point_layout(features).row_words() + table_padding + 1) *
+        sizeof(std::uint32_t);
 
     prepare_pipelines(features);
     const double unit = film_unit(*scene_);
@@ -174,9 +176,10 @@ double Renderer::run(const Slice &slice) {
     frame.sample_count = slice.sample_count;
     frame.split_pass = slice.whole ? 0 : 1;
 
-    if (const std::uint32_t dimensions = table_dimensions(kernel_->features); dimensions > 0) {
-        const std::vector<std::uint32_t> points =
-            point_table(settings_->sampler, frame.first_sample, slice.sample_count, dimensions);
+    if (const PointLayout layout = point_layout(kernel_->features); layout.dimensions > 0) {
+        std::vector<std::uint32_t> indices(slice.sample_count);
+        std::iota(indices.begin(), indices.end(), frame.first_sample);
+        const std::vector<std::uint32_t> points = point_table(settings_->sampler, indices, layout);
         kernel_->points.upload(std::as_bytes(std::span(points)), 0);
     }
 

@@ -40,14 +40,23 @@ std::uint32_t scene_word_count(const Features &features) {
     return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0);
 }
 
-std::uint32_t table_dimensions(const Features &features) {
+std::uint32_t branch_count(const Features &features) {
+    constexpr std::uint32_t branches = 4;
+    constexpr std::uint32_t longest_branching_path = 64;
+    return features.max_path_length > 2 && features.max_path_length <= longest_branching_path ? branches : 1;
+}
+
+PointLayout point_layout(const Features &features) {
+    const std::uint32_t motion = features.motion ? 1 : 0;
+    const std::uint32_t shared = gpu::shared_dimensions(motion, features.lamp_count);
+    const std::uint32_t branches = branch_count(features);
     if (features.sampler == PT_SAMPLER_RANDOM)
-        return 0;
-    const std::uint32_t vertex = gpu::lamp_dimensions(features.lamp_count) +
-                                 gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
-    const std::uint32_t count =
-        gpu::camera_dimensions(features.motion ? 1 : 0) + (features.max_path_length - 1) * vertex;
-    return std::min(count, sequence_dimensions);
+        return {0, 0, branches};
+    std::uint32_t count = shared;
+    for (std::uint32_t vertex = 1; vertex < features.max_path_length && count < sequence_dimensions; ++vertex)
+        count += gpu::chosen_lamp_dimensions(vertex, features.lamp_count) +
+                 gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
+    return {std::min(count, sequence_dimensions), shared, branches};
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
@@ -60,25 +69,30 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_GLOSS] = features.gloss ? 1 : 0;
     constants[gpu::ID_MOTION] = features.motion ? 1 : 0;
     constants[gpu::ID_SAMPLER] = features.sampler;
-    constants[gpu::ID_TABLE_DIMENSIONS] = table_dimensions(features);
+    constants[gpu::ID_TABLE_DIMENSIONS] = point_layout(features).dimensions;
+    constants[gpu::ID_BRANCH_COUNT] = branch_count(features);
     constants[gpu::ID_SCENE_IN_UNIFORM] = features.scene_in_uniform ? 1 : 0;
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // One trip of the sample loop and a walk over the surfaces for the camera ray; at each further vertex one trip of the
-    // path loop, two walks over the lamps, and one over the surfaces for each lamp that is sampled.
+    // One trip of the sample loop and a walk over the surfaces for the camera ray; at the first vertex a walk for each
+    // lamp of a few and two walks over the lamps; at each vertex of a branch one trip of a loop, two walks over the lamps
+    // and one over the surfaces.
     const std::uint64_t surfaces = features.surface_count();
-    const std::uint64_t sampled = std::clamp(features.lamp_count, 1U, gpu::EVERY_LAMP_LIMIT);
-    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + sampled * surfaces;
-    return 1 + surfaces + (features.max_path_length - 1) * vertex;
+    const std::uint64_t lamps = features.lamp_count;
+    const std::uint64_t first_vertex =
+        std::min<std::uint64_t>(lamps, gpu::EVERY_LAMP_LIMIT) * (1 + surfaces) + 2 * lamps;
+    const std::uint64_t vertex = 1 + 2 * lamps + surfaces;
+    return 1 + surfaces + first_vertex + branch_count(features) * (features.max_path_length - 1) * vertex;
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
-    // The camera ray, then from each vertex but the last the next ray and one to each lamp that is sampled; an empty scene
-    // still costs something.
-    const std::uint64_t rays = 1 + std::min(features.lamp_count, gpu::EVERY_LAMP_LIMIT);
-    return std::max<std::uint64_t>(1, features.surface_count()) * (1 + rays * (features.max_path_length - 1));
+    // The camera ray, one to each lamp of a few, then from each vertex of a branch the next ray and one to a lamp; an
+    // empty scene still costs something.
+    const std::uint64_t vertices = branch_count(features) * (features.max_path_length - 1);
+    const std::uint64_t rays = 1 + std::min(features.lamp_count, gpu::EVERY_LAMP_LIMIT) + 2 * vertices;
+    return std::max<std::uint64_t>(1, features.surface_count()) * rays;
 }
 
 std::uint32_t feature_bits(const Features &features) {

@@ -29,8 +29,9 @@ PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
 PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
 PT_CONSTANT ID_SCENE_IN_UNIFORM = 7; // 1: the scene is read from the uniform buffer, 0: from the storage buffer
 PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
-PT_CONSTANT ID_TABLE_DIMENSIONS = 9; // words of a row of the point table
-PT_CONSTANT CONSTANT_COUNT = 10;
+PT_CONSTANT ID_TABLE_DIMENSIONS = 9; // dimensions in the point table
+PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
+PT_CONSTANT CONSTANT_COUNT = 11;
 
 // The numbers of pt.h's PT_ESTIMATOR_* and PT_SAMPLER_*.
 PT_CONSTANT ESTIMATOR_UNIFORM = 1;
@@ -44,18 +45,33 @@ PT_CONSTANT SAMPLER_HALTON_CP = 3;
 PT_CONSTANT SAMPLER_SOBOL = 4;
 
 // ---- Dimensions of a sample: each number that a path consumes has one of its own ------------------------------------
-// First the place in the pixel (2) and the time (1, with MOTION). Then for each vertex that a path leaves: the place
-// on each lamp (2 for each of a few, EVERY_LAMP_LIMIT), or on a lamp (2) and which (1); the direction (2), the
-// specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The low dimensions
-// of a sequence are its best: they go to the lamps, whose light makes most of the picture.
-PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at each vertex
+// First the numbers that all branches of a sample share: the place in the pixel (2), the time (1, with MOTION) and the
+// place on each lamp at the first vertex (2 for each of a few, EVERY_LAMP_LIMIT). Then those of a branch, for each
+// vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are several) unless every lamp has been
+// sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1,
+// for long paths). The low dimensions of a sequence are its best: they go to what makes most of the picture.
+PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-PT_FUNCTION uint lamp_dimensions(uint lamp_count) { return lamp_count > EVERY_LAMP_LIMIT ? 3 : 2 * lamp_count; }
+PT_FUNCTION uint shared_dimensions(uint motion, uint lamp_count)
+{
+    return camera_dimensions(motion) + (lamp_count <= EVERY_LAMP_LIMIT ? 2 * lamp_count : 0);
+}
+PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
+{
+    return lamp_count == 0 || (vertex == 1 && lamp_count <= EVERY_LAMP_LIMIT) ? 0 : lamp_count == 1 ? 2 : 3;
+}
 PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
 {
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
+}
+
+// Words of a row of the point table, one sample's: the shared dimensions, then for each branch its own. The points of
+// the branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
+PT_FUNCTION uint row_words(uint table_dimensions, uint shared_count, uint branches)
+{
+    return shared_count + branches * (table_dimensions - shared_count);
 }
 
 // ---- Bindings of set 0 ---------------------------------------------------------------------------------------------

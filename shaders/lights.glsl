@@ -46,9 +46,11 @@ struct LampChoice {
     float lamp_count; // with a weight above 0
 };
 
+LampChoice no_lamp_choice() { return LampChoice(0.0, 0.0); }
+
 LampChoice lamp_choice(Vertex vertex, float time)
 {
-    LampChoice choice = LampChoice(0.0, 0.0);
+    LampChoice choice = no_lamp_choice();
     uint lamp = 0u;
     [[unroll]] do {
         float weight = view_lamp(vertex, lamp, time).weight;

@@ -19,6 +19,7 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= frame.pixel_count)
         return;
+    uint row_length = row_words(TABLE_DIMENSIONS, shared_dimensions(MOTION, LAMP_COUNT), BRANCH_COUNT);
     uint pixel_in_strip = frame.first_pixel + gl_GlobalInvocationID.x;
     uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
     uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
@@ -27,7 +28,7 @@ void main()
     vec3 value;
     uint done = 0u;
     do {
-        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done);
+        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;

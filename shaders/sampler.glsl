@@ -5,16 +5,26 @@
 
 #include "scene.glsl"
 
-// Row r holds the point of the slice's r-th sample: TABLE_DIMENSIONS coordinates as multiples of 2^-32, those of
-// Sobol with their bits reversed. The points are the same in every pixel; what differs is made from them below.
+// Row r holds the points of the slice's r-th sample: coordinates as multiples of 2^-32, those of Sobol with their bits
+// reversed; gpu_layout.h has their order. The points are the same in every pixel; what differs is made from them below.
 layout(set = 0, binding = BINDING_POINTS) readonly buffer Points { uint words[]; } points;
 
 struct SampleKey {
     uvec2 seed;
-    uint pixel;        // index in the image, row by row
+    uint pixel; // index in the image, row by row
     uint sample_index;
-    uint table_row;
+    uint table_word; // where dimension 0 is, or would be, in the point table
 };
+
+// The key of a branch of a sample: in the dimensions beyond the shared ones it is a sample of its own, number B i + b.
+// Where that passes 2^32 the seed changes, so that no branch repeats another's numbers.
+SampleKey branch_key(SampleKey key, uint branch)
+{
+    uint high, low;
+    umulExtended(key.sample_index, BRANCH_COUNT, high, low);
+    uint branch_words = TABLE_DIMENSIONS - shared_dimensions(MOTION, LAMP_COUNT);
+    return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.table_word + branch * branch_words);
+}
 
 // The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020): four random words of
 // four words of input.
@@ -57,7 +67,7 @@ vec4 sample_block(SampleKey key, uint first, uint count)
     uvec4 hash = pcg4d(uvec4(key.pixel, in_table ? 0u : key.sample_index, first + key.seed.x, key.seed.y));
     uvec4 words = hash;
     if (SAMPLER != SAMPLER_RANDOM) {
-        uint row = in_table ? key.table_row * TABLE_DIMENSIONS + first : 0u;
+        uint row = in_table ? key.table_word + first : 0u;
         uvec4 point = uvec4(points.words[row], points.words[row + 1u], points.words[row + 2u], points.words[row + 3u]);
         if (SAMPLER == SAMPLER_SOBOL)
             point = owen_scrambled(point, hash ^ (hash >> 16u)); // whose low bits, the first digits, pcg4d mixes least

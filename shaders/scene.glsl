@@ -15,6 +15,7 @@ layout(constant_id = ID_MOTION) const uint MOTION = 1;
 layout(constant_id = ID_SCENE_IN_UNIFORM) const uint SCENE_IN_UNIFORM = 1;
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
 layout(constant_id = ID_TABLE_DIMENSIONS) const uint TABLE_DIMENSIONS = 0;
+layout(constant_id = ID_BRANCH_COUNT) const uint BRANCH_COUNT = 1;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];

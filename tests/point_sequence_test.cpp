@@ -156,19 +156,34 @@ std::uint32_t reversed(std::uint32_t word) {
 }
 
 TEST(PointTable, RowsAreThePoints) {
-    constexpr std::uint32_t rows = 9;
-    constexpr std::uint32_t columns = 17;
-    for (const std::uint32_t first : {0U, 12345U, 0xffffffffU - rows + 1}) {
-        const auto sobol = pt::point_table(PT_SAMPLER_SOBOL, first, rows, columns);
-        const auto halton = pt::point_table(PT_SAMPLER_HALTON, first, rows, columns);
-        EXPECT_EQ(pt::point_table(PT_SAMPLER_HALTON_CP, first, rows, columns), halton);
-        ASSERT_EQ(sobol.size(), rows * columns);
-        ASSERT_EQ(halton.size(), rows * columns);
-        for (std::uint32_t i = 0; i < rows; ++i)
-            for (std::uint32_t d = 0; d < columns; ++d) {
-                EXPECT_EQ(sobol[i * columns + d], reversed(pt::sobol(first + i, d)));
-                EXPECT_EQ(halton[i * columns + d], pt::radical_inverse(first + i, d));
-            }
+    constexpr std::uint32_t dimensions = 17;
+    const std::vector<std::uint32_t> indices = {0, 1, 2, 7, 12345, 0xfffffffeU, 0xffffffffU};
+    const pt::PointLayout layout{dimensions, dimensions, 1};
+    const auto sobol = pt::point_table(PT_SAMPLER_SOBOL, indices, layout);
+    const auto halton = pt::point_table(PT_SAMPLER_HALTON, indices, layout);
+    EXPECT_EQ(pt::point_table(PT_SAMPLER_HALTON_CP, indices, layout), halton);
+    ASSERT_EQ(sobol.size(), indices.size() * dimensions);
+    ASSERT_EQ(halton.size(), indices.size() * dimensions);
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        for (std::uint32_t d = 0; d < dimensions; ++d) {
+            EXPECT_EQ(sobol[i * dimensions + d], reversed(pt::sobol(indices[i], d)));
+            EXPECT_EQ(halton[i * dimensions + d], pt::radical_inverse(indices[i], d));
+        }
+}
+
+TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
+    constexpr pt::PointLayout layout{7, 3, 4};
+    const std::vector<std::uint32_t> indices = {0, 5, 6, 0x40000001U};
+    const auto table = pt::point_table(PT_SAMPLER_HALTON, indices, layout);
+    ASSERT_EQ(layout.row_words(), 3U + 4U * 4U);
+    ASSERT_EQ(table.size(), indices.size() * layout.row_words());
+    const std::uint32_t *word = table.data();
+    for (const std::uint32_t index : indices) {
+        for (std::uint32_t d = 0; d < 3; ++d)
+            EXPECT_EQ(*word++, pt::radical_inverse(index, d));
+        for (std::uint32_t branch = 0; branch < 4; ++branch)
+            for (std::uint32_t d = 3; d < 7; ++d)
+                EXPECT_EQ(*word++, pt::radical_inverse(4 * index + branch, d));
     }
 }
 

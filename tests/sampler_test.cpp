@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -64,8 +65,10 @@ Blocks take_from(const std::vector<std::uint32_t> &table, std::uint32_t sampler,
 Blocks take(std::uint32_t sampler, const Request &request) {
     if (sampler == PT_SAMPLER_RANDOM)
         return take_from({}, sampler, request);
-    return take_from(pt::point_table(sampler, request.first_sample, request.sample_count, table_dimensions), sampler,
-                     request);
+    std::vector<std::uint32_t> indices(request.sample_count);
+    std::iota(indices.begin(), indices.end(), request.first_sample);
+    const pt::PointLayout layout{table_dimensions, table_dimensions, 1};
+    return take_from(pt::point_table(sampler, indices, layout), sampler, request);
 }
 
 // One false alarm in a million, over the at most 40 chi-squares of this file together.

@@ -22,6 +22,6 @@ void main()
     if (index >= pixel_count * sample_count)
         return;
     uint row = index % sample_count;
-    SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row);
+    SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row * TABLE_DIMENSIONS);
     numbers[index] = sample_block(key, first_dimension, dimension_count);
 }
