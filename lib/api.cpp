@@ -1,5 +1,6 @@
 // The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in Renderer and in
 // the validated_* functions. Called by programs through pt.h.
+#include "accuracy.h"
 #include "guard.h"
 #include "image.h"
 #include "renderer.h"
@@ -147,4 +148,16 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
 
 pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
+}
+
+pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        pt::require_not_null(count, "count");
+        const auto available = static_cast<std::uint32_t>(pt::elementary_functions().size());
+        if (rows) {
+            const std::vector<pt_function_accuracy> all = renderer.accuracy();
+            std::copy_n(all.begin(), std::min(*count, available), rows);
+        }
+        *count = rows ? std::min(*count, available) : available;
+    });
 }

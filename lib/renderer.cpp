@@ -1,6 +1,7 @@
 // The renderer's loop; see renderer.h.
 #include "renderer.h"
 
+#include "accuracy.h"
 #include "commit.spv.h"
 #include "error.h"
 #include "gpu_scene.h"
@@ -266,6 +267,10 @@ pt_stats Renderer::stats() {
     stats.device_seconds = device_seconds_;
     stats.features = kernel_ ? feature_bits(kernel_->features) : 0;
     return stats;
+}
+
+std::vector<pt_function_accuracy> Renderer::accuracy() {
+    return measured_accuracy(device_);
 }
 
 } // namespace pt

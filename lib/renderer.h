@@ -52,6 +52,9 @@ public:
 
     pt_stats stats();
 
+    // Of the kernel's elementary functions; leaves the samples alone.
+    std::vector<pt_function_accuracy> accuracy();
+
 private:
     // What the kernel needs besides the film: made from scene, camera and render settings together.
     struct Kernel {

@@ -147,10 +147,11 @@ TEST(Api, EveryFunctionRefusesANullContext) {
     pt_device_info device{};
     pt_stats stats{};
     stats.struct_size = sizeof stats;
+    uint32_t count = 0;
     const pt_result results[] = {pt_set_scene(nullptr, &scene),   pt_set_camera(nullptr, &camera),
                                  pt_set_render(nullptr, &render), pt_accumulate(nullptr, &info),
                                  pt_readback(nullptr, &target),   pt_get_context_device(nullptr, &device),
-                                 pt_get_stats(nullptr, &stats)};
+                                 pt_get_stats(nullptr, &stats),   pt_get_accuracy(nullptr, nullptr, &count)};
     for (const pt_result result : results)
         EXPECT_EQ(result, PT_ERROR_INVALID_ARGUMENT);
     EXPECT_STREQ(pt_last_error(nullptr), "context = NULL: must not be NULL");
@@ -170,6 +171,7 @@ TEST_F(ApiTest, RefusesNullPointers) {
     refused(pt_readback(context(), nullptr), "image");
     refused(pt_get_context_device(context(), nullptr), "device");
     refused(pt_get_stats(context(), nullptr), "stats");
+    refused(pt_get_accuracy(context(), nullptr, nullptr), "count");
     accumulate(1);
     pt_image no_data{sizeof(pt_image), 0, nullptr, 1000000, 0};
     refused(pt_readback(context(), &no_data), "image.data");

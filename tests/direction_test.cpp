@@ -1,5 +1,5 @@
-// Random directions, drawn on the device by the shipped functions: unit length and the right distribution, by chi-square.
-// Run alone with --gtest_filter=Direction*.
+// Random directions, drawn on the device by the shipped functions: the right distribution, by chi-square. Each by
+// itself is compared in tests/accuracy/. Run alone with --gtest_filter=Direction*.
 #include "directions.spv.h"
 #include "probe.h"
 #include "statistics.h"
@@ -94,15 +94,6 @@ double deviate(const Case &test_case, const std::vector<glm::vec4> &directions) 
 const double bound = statistics::normal_quantile(1e-6 / 10);
 
 class Directions : public testing::TestWithParam<Case> {};
-
-TEST_P(Directions, HaveUnitLength) {
-    double worst = 0.0;
-    for (const glm::vec4 &direction : draw(GetParam(), 1))
-        worst = std::max(worst, std::abs(glm::length(glm::dvec3(direction)) - 1.0));
-    // Sine and cosine err by 1e-7 each, the basis by 2.3e-7, products and sums by a few 2^-24 = 6e-8.
-    EXPECT_LT(worst, 1e-6);
-    std::printf("largest error of the length: %.2e\n", worst);
-}
 
 TEST_P(Directions, FollowTheirDensity) {
     EXPECT_LT(deviate(GetParam(), draw(GetParam(), 2)), bound);

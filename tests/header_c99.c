@@ -62,6 +62,24 @@ static int render(pt_context *context, float *pixels, uint64_t size_bytes)
     return 0;
 }
 
+/* The device keeps the bounds that every device is to keep. */
+static int check_accuracy(pt_context *context)
+{
+    pt_function_accuracy rows[32];
+    uint32_t count = 32;
+    uint32_t i;
+
+    if (pt_get_accuracy(context, rows, &count) != PT_OK)
+        return failed("pt_get_accuracy", context);
+    for (i = 0; i < count; ++i) {
+        if (!(rows[i].worst_error <= rows[i].bound)) {
+            fprintf(stderr, "%s: %g ulp\n", rows[i].name, rows[i].worst_error);
+            return 1;
+        }
+    }
+    return count == 0;
+}
+
 int main(void)
 {
     static float pixels[WIDTH * HEIGHT * 3];
@@ -76,6 +94,8 @@ int main(void)
     if (pt_create(0, &context) != PT_OK)
         return failed("pt_create", 0);
     status = render(context, pixels, sizeof pixels);
+    if (status == 0)
+        status = check_accuracy(context);
     pt_destroy(context);
     for (i = 0; status == 0 && i < WIDTH * HEIGHT * 3; ++i) {
         if (pixels[i] != (i % 3 == 0 ? 2.0f : 0.0f)) {

@@ -96,6 +96,12 @@ PT_EXPECT_MEMBER(pt_stats, device_seconds, 32, 8);
 PT_EXPECT_MEMBER(pt_stats, features, 40, 4);
 PT_EXPECT_MEMBER(pt_stats, reserved, 44, 4);
 
+PT_EXPECT_STRUCT(pt_function_accuracy, 64);
+PT_EXPECT_MEMBER(pt_function_accuracy, name, 0, 40);
+PT_EXPECT_MEMBER(pt_function_accuracy, worst_error, 40, 8);
+PT_EXPECT_MEMBER(pt_function_accuracy, bound, 48, 8);
+PT_EXPECT_MEMBER(pt_function_accuracy, worst_input, 56, 8);
+
 PT_EXPECT_STRUCT(pt_create_info, 40);
 PT_EXPECT_MEMBER(pt_create_info, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_create_info, flags, 4, 4);
@@ -132,5 +138,7 @@ static_assert(std::is_same_v<decltype(&pt_set_render), pt_result (*)(pt_context 
 static_assert(std::is_same_v<decltype(&pt_accumulate), pt_result (*)(pt_context *, const pt_accumulate_info *)>);
 static_assert(std::is_same_v<decltype(&pt_readback), pt_result (*)(pt_context *, const pt_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
+static_assert(
+    std::is_same_v<decltype(&pt_get_accuracy), pt_result (*)(pt_context *, pt_function_accuracy *, uint32_t *)>);
 
 } // namespace

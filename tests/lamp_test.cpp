@@ -133,18 +133,6 @@ TEST(LampDirections, DoNotDependOnTheChoice) {
     EXPECT_LT(direction_deviate(nearest, uneven_lamps[0], {}, 1.0), bound);
 }
 
-TEST(LampDirections, EndOnTheLamp) {
-    for (const Drawn &sample : draw(uneven_lamps, {}, 5, 1U << 16)) {
-        const Lamp &lamp = uneven_lamps[sample.lamp];
-        if (sample.density == 0.0F)
-            continue;
-        const glm::dvec3 end = double{sample.distance} * glm::dvec3(sample.direction);
-        // The position errs by a few 2^-24 of the distance and of the radius.
-        const double tolerance = 2e-6 * (double{sample.distance} + double{lamp.radius});
-        EXPECT_NEAR(glm::length(end - glm::dvec3(lamp.centre)), lamp.radius, tolerance) << "lamp " << sample.lamp;
-    }
-}
-
 // The one density is stated twice, for a sample and for a direction that hits the lamp: the same bits, or the weights of
 // multiple importance sampling would not sum to 1. It is 1 / solid angle; float32 leaves a few 2^-24, and more where the
 // lamp is near: 1 - (r / d)^2 cancels, by a factor 1 / (1 - (r / d)^2) below 20 here.

@@ -51,8 +51,8 @@ pt::vulkan::Device &probe_device() {
 Probe::Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes, std::span<const std::uint32_t> constants) :
     pipeline_(probe_device(), spirv, bindings, push_bytes, constants) {}
 
-void Probe::run_bytes(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
-                      std::uint32_t invocations) {
+void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
+                     std::uint32_t invocations) {
     using pt::vulkan::Buffer;
     using pt::vulkan::BufferUse;
     pt::vulkan::Device &device = probe_device();
@@ -61,7 +61,7 @@ void Probe::run_bytes(std::span<const std::byte> input, std::span<std::byte> out
                   "points of a probe");
     Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
     Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
-    out.clear();
+    out.upload(output, 0);
     in.upload(input, 0);
     scene.upload(std::as_bytes(std::span(scene_)), 0);
     points.upload(std::as_bytes(std::span(points_)), 0);

@@ -31,15 +31,16 @@ public:
     std::vector<Output> run(std::span<const glm::vec4> input, std::size_t output_count, const Push &push,
                             std::uint32_t invocations) {
         std::vector<Output> output(output_count);
-        run_bytes(std::as_bytes(input), std::as_writable_bytes(std::span(output)), std::as_bytes(std::span(&push, 1)),
-                  invocations);
+        run_over(std::as_bytes(input), std::as_writable_bytes(std::span(output)), std::as_bytes(std::span(&push, 1)),
+                 invocations);
         return output;
     }
 
-private:
-    void run_bytes(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
-                   std::uint32_t invocations);
+    // The same over an output that is not empty: what the kernel does not write, stays.
+    void run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
+                  std::uint32_t invocations);
 
+private:
     pt::vulkan::ComputePipeline pipeline_;
     std::vector<glm::vec4> scene_;
     std::vector<std::uint32_t> points_;

@@ -6,6 +6,7 @@
 #include "vulkan/device_choice.h"
 #include "vulkan/instance.h"
 
+#include "accuracy.h"
 #include "error.h"
 #include "expected_error.h"
 #include "log.h"
@@ -343,13 +344,14 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
     EXPECT_TRUE(device.lost());
     std::array<std::byte, 4> word{};
-    const std::array<pt::Error, 6> later = {
+    const std::array<pt::Error, 7> later = {
         error_of([&] { device.require_alive(); }),
         error_of([&] { recurrence.run(1); }),
         error_of([&] { recurrence.values().clear(); }),
         error_of([&] { recurrence.values().upload(word, 0); }),
         error_of([&] { recurrence.values().download(word, 0); }),
         error_of([&] { Buffer(device, BufferUse::Storage, 1024, "test"); }),
+        error_of([&] { pt::measured_accuracy(device); }),
     };
     for (const pt::Error &error : later) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);

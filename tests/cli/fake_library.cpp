@@ -164,3 +164,17 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->features = PT_FEATURE_LAMPS | PT_FEATURE_MOTION;
     return call(context, "stats");
 }
+
+// One function, far better than its bound; worse than it with FAKE_PT_FAIL=accuracy_bound:1.
+pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, std::uint32_t *count) {
+    if (rows != nullptr && *count > 0) {
+        pt_function_accuracy row{};
+        std::strcpy(row.name, "fake function");
+        row.worst_error = failure("accuracy_bound") == PT_OK ? 0.5 : 5.0;
+        row.bound = 2.5;
+        row.worst_input = 0.125;
+        *rows = row;
+    }
+    *count = rows == nullptr || *count > 0 ? 1 : 0;
+    return call(context, "accuracy");
+}

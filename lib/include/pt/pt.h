@@ -10,7 +10,8 @@
  *   Structs    a struct passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and
  *              grows only at its tail; a zero field means "default". A shorter struct is read as if zeros followed;
  *              a longer one is accepted only if the tail unknown to this library is zero. Elements of arrays
- *              (pt_material, pt_sphere, pt_plane, pt_device_info) are frozen. Reserved fields must be zero.
+ *              (pt_material, pt_sphere, pt_plane, pt_device_info, pt_function_accuracy) are frozen. Reserved fields
+ *              must be zero.
  *   Results    a call is one transaction: if it fails (result < 0) it has changed nothing, except that a lost device
  *              stays lost (PT_ERROR_DEVICE_LOST from then on; destroy the context and create another).
  *              Every failure has a message, see pt_last_error.
@@ -199,6 +200,17 @@ typedef struct pt_stats {
     uint32_t reserved;
 } pt_stats;
 
+/* ---- Accuracy --------------------------------------------------------------------------------------------------- */
+
+/* How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
+ * is 2^(e - 23) for 2^e <= |y| < 2^(e + 1). */
+typedef struct pt_function_accuracy {
+    char name[40];      /* UTF-8, zero-terminated */
+    double worst_error; /* the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
+    double bound;       /* what it stays within on every device that keeps Vulkan's promises */
+    double worst_input; /* argument at which it was found */
+} pt_function_accuracy;
+
 /* ---- Context ---------------------------------------------------------------------------------------------------- */
 
 /* level of a log line */
@@ -269,6 +281,12 @@ PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 /* stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
+
+/* Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with double
+ * precision. Changes nothing, and needs no scene. rows == NULL: *count receives the number of functions, and nothing is
+ * evaluated. Else at most *count rows are written, and *count receives how many were. A worst_error above its bound is
+ * no failure of the call: it is what the call is for. */
+PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);
 
 #ifdef __cplusplus
 }

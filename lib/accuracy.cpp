@@ -1,0 +1,178 @@
+// Arguments, exact values and error bounds of the elementary functions; see accuracy.h.
+#include "accuracy.h"
+
+#include "accuracy.spv.h"
+#include "error.h"
+#include "gpu_layout.h"
+#include "vulkan/buffer.h"
+#include "vulkan/compute_pipeline.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+namespace pt {
+
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double float_pi = 3.14159274101257324; // shaders/maths.glsl's PI as a float
+
+// sin and cos of u turns, u in [0, 1]: folded to a quarter of a turn about 0, exactly, so that the zeros are exact.
+double sine_of_turn(double u) {
+    if (u > 0.5)
+        return -sine_of_turn(u - 0.5);
+    return std::sin(full_turn * std::min(u, 0.5 - u));
+}
+
+double cosine_of_turn(double u) {
+    return std::sin(full_turn * (0.25 - std::min(u, 1.0 - u)));
+}
+
+// Quarters and eighths of a turn.
+constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
+// 1 - sqrt(1/2), where the exponent taken out of 1 - x changes, and its like.
+constexpr float complements[] = {0.292893219F, 0.5F, 0.646446609F, 0.75F, 0.823223305F, 0.999F};
+// Odd multiples of ln(2) / 2, where the power of two changes, and of ln(2).
+constexpr float logarithms[] = {-0.34657359F, -0.693147181F, -1.03972077F, -17.0F, -68.965F};
+constexpr float squares[] = {1.0F, 2.0F, 4.0F};
+
+// What the bounds below are made of. Let u = 2^-24. A sum, difference or product is rounded correctly, by half an ulp
+// and so by at most u of its value. Vulkan allows a division 2.5 ulp, inversesqrt 2 ulp, and sqrt what 1 / inversesqrt
+// gives (specification, "Precision and Operation of SPIR-V Instructions"). An ulp is at most 2 u of its value, and u of
+// the value at most an ulp: errors k u before the last operation are k ulp of the result at most.
+constexpr ElementaryFunction functions[] = {
+    // x = 2 pi d, d exact: u / 2 for the constant, u for the product. s = x (1 + p), |p| <= 0.1: p errs by 7.3 u of
+    // itself (4 for x^2, 2.3 for its cofactor, 1), so 0.8 u; the sum 0.6 u; the remainder 0.04 u; the last product half
+    // an ulp: 3.4. c = 1 + p, |p| <= 0.293, errs by 6.4 u of p, the remainder 0.4 u, and half an ulp: 2.8.
+    {"sine (sin_cos_turn)", sine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
+    {"cosine (sin_cos_turn)", cosine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
+    // s: u for 2 + (m - 1), 5 u for the division. 1 + s^2 / 3 + ...: 1.2 u. The product half an ulp: 7.7 where e = 0.
+    // For e = -1 and y < 1/2, 1 - y is rounded too, u / m absolute; near m = sqrt(2), where e log 2 cancels half of the
+    // sum, that and 7.9 u of log m = 0.35 are 3.5 u, 7 ulp of the result. For e < -1 the result is larger than 1.
+    {"log(1 - x) (log_one_minus)", [](double x) { return std::log1p(-x); }, 8.0, 0x1p-100F, 0x1.fffffep-1F,
+     complements},
+    // r errs by 0.3 u: the sum a quarter, the small half of ln 2 the rest. e = r (1 + w), |w| <= 0.2: 2.2 u of e for w,
+    // the sum and the product; 0.1 u for the remainder. In units of 2^k, 1 + e in [0.7, 1.42] errs by at most 1.4 u
+    // above 1, where an ulp is 2 u, and by 1.1 u below, where it is u. The last sum is half an ulp.
+    {"exp(x) (exp_negative)", [](double x) { return std::exp(x); }, 2.0, -0x1p-100F, -69.0F, logarithms},
+    // k = 0: the result is -e, 1.2 u before and half an ulp for its last product, 0.3 u for the remainder. k = -1 is
+    // worst at r = ln(2) / 2, where the result is 0.29: half of the 1.4 u of e above, and u / 2 is an ulp there: 1.9
+    // with the last rounding. For smaller k the result grows and the share of e falls.
+    {"1 - exp(x) (one_minus_exp)", [](double x) { return -std::expm1(x); }, 2.5, -0x1p-100F, -69.0F, logarithms},
+    // The specification's bounds themselves: for sqrt the 2 ulp of inversesqrt are at most 4 u, and the division's 2.5.
+    {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},
+    {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, squares},
+    {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F, squares},
+};
+
+// What stands where the kernel has written nothing: NaN.
+constexpr std::uint32_t unwritten = 0xffffffffU;
+constexpr std::size_t guard_words = 64;
+
+std::uint32_t magnitude_bits(float x) {
+    return std::bit_cast<std::uint32_t>(std::abs(x));
+}
+
+} // namespace
+
+std::span<const ElementaryFunction> elementary_functions() {
+    return functions;
+}
+
+std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
+    const auto [small, large] = std::minmax(function.first, function.last);
+    std::vector<float> arguments = {function.first, function.last};
+    for (const float place : function.places) {
+        const float below = std::nextafter(place, small);
+        const float above = std::nextafter(place, large);
+        arguments.insert(arguments.end(),
+                         {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
+    }
+    // Multiples of the golden ratio modulo 1 (Weyl 1916) are spread evenly, however many are taken.
+    constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
+    const std::uint32_t first_bits = magnitude_bits(function.first);
+    const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;
+    for (std::uint32_t i = 1; arguments.size() < arguments_per_function; ++i) {
+        const std::uint32_t share = i * golden_ratio;
+        const auto by_exponent = first_bits + static_cast<std::uint32_t>(bits_range * share >> 32);
+        const float even = function.first + (function.last - function.first) * (static_cast<float>(share) * 0x1p-32F);
+        arguments.push_back(i % 2 == 0 ? even : std::copysign(std::bit_cast<float>(by_exponent), function.last));
+    }
+    return arguments;
+}
+
+double error_in_ulp(float value, double exact) {
+    const double error = std::abs(double{value} - exact);
+    if (error == 0.0)
+        return 0.0;
+    const double ulps = std::ldexp(error, 23 - std::ilogb(exact == 0.0 ? std::numeric_limits<float>::min() : exact));
+    return std::isfinite(value) && exact != 0.0 ? ulps : std::numeric_limits<double>::infinity();
+}
+
+std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_t> spirv,
+                            std::span<const float> arguments) {
+    constexpr std::array bindings = {vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+    static_assert(arguments_per_function % gpu::WORKGROUP_SIZE == 0);
+    std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
+
+    const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, {});
+    vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
+    vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),
+                          "values of functions");
+    input.upload(std::as_bytes(arguments), 0);
+    output.upload(std::as_bytes(std::span(words)), 0);
+    const std::array buffers = {&input, &output};
+    const vulkan::DescriptorSet set = pipeline.bind(buffers);
+    device.submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline.dispatch(commands, set, std::as_bytes(std::span(&arguments_per_function, 1)),
+                          static_cast<std::uint32_t>(arguments.size() / gpu::WORKGROUP_SIZE));
+    });
+    output.download(std::as_writable_bytes(std::span(words)), 0);
+
+    const auto guard = words.end() - static_cast<std::ptrdiff_t>(guard_words);
+    if (std::any_of(guard, words.end(), [](std::uint32_t word) { return word != unwritten; }))
+        throw Error(PT_ERROR_INTERNAL, "measuring the accuracy: the kernel wrote past its values");
+    std::vector<float> values(arguments.size());
+    std::memcpy(values.data(), words.data(), values.size() * sizeof(float));
+    return values;
+}
+
+pt_function_accuracy compare(const ElementaryFunction &function, std::span<const float> arguments,
+                             std::span<const float> values) {
+    pt_function_accuracy row{};
+    std::strncpy(row.name, function.name, sizeof row.name - 1);
+    row.bound = function.bound;
+    row.worst_error = -1.0;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const double error = error_in_ulp(values[i], function.exact(double{arguments[i]}));
+        if (error > row.worst_error) {
+            row.worst_error = error;
+            row.worst_input = double{arguments[i]};
+        }
+    }
+    return row;
+}
+
+std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device) {
+    std::vector<float> arguments;
+    for (const ElementaryFunction &function : functions) {
+        const std::vector<float> of_function = accuracy_arguments(function);
+        arguments.insert(arguments.end(), of_function.begin(), of_function.end());
+    }
+    const std::vector<float> values = evaluate(device, accuracy_spirv, arguments);
+
+    std::vector<pt_function_accuracy> rows;
+    for (std::size_t i = 0; i < std::size(functions); ++i) {
+        const std::size_t first = i * arguments_per_function;
+        rows.push_back(compare(functions[i], std::span(arguments).subspan(first, arguments_per_function),
+                               std::span(values).subspan(first, arguments_per_function)));
+    }
+    return rows;
+}
+
+} // namespace pt

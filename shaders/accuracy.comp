@@ -1,0 +1,44 @@
+// Evaluates the kernel's elementary functions, for pt_get_accuracy: one function at one argument per invocation.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "gpu_layout.h"
+#include "maths.glsl"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+
+// The functions' order is that of elementary_functions() in lib/accuracy.cpp; each has as many arguments.
+layout(push_constant) uniform Push { uint arguments_per_function; };
+layout(set = 0, binding = 0) readonly buffer Arguments { float arguments[]; };
+layout(set = 0, binding = 1) writeonly buffer Values { float values[]; };
+
+float value_of(uint function, float x)
+{
+    float sine, cosine;
+    switch (function) {
+    case 0u:
+        sin_cos_turn(x, sine, cosine);
+        return sine;
+    case 1u:
+        sin_cos_turn(x, sine, cosine);
+        return cosine;
+    case 2u:
+        return log_one_minus(x);
+    case 3u:
+        return exp_negative(x);
+    case 4u:
+        return one_minus_exp(x);
+    case 5u:
+        return PI / x;
+    case 6u:
+        return sqrt(x);
+    default:
+        return inversesqrt(x);
+    }
+}
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    values[index] = value_of(index / arguments_per_function, arguments[index]);
+}

@@ -1,0 +1,164 @@
+// Distances to spheres and planes against long double: near, far and grazing, from inside and from the surface itself.
+#include "accuracy/direction.h"
+#include "accuracy/evaluation.h"
+#include "distance_items.spv.h"
+#include "gpu_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace accuracy {
+
+namespace {
+
+// Where a ray starts.
+constexpr float anywhere = 0.0F;
+constexpr float leaving_outside = 1.0F;
+constexpr float leaving_inside = 2.0F;
+
+struct Item {
+    glm::vec3 centre; // from the ray's start; also the normal of the plane
+    float radius;     // also the height above the plane
+    glm::vec3 direction;
+    float start;
+};
+
+struct Result {
+    float sphere, plane, unused[2];
+};
+
+constexpr float no_hit = 3.0e38F;
+
+// A ray that passes a sphere at distance d and impact parameter i r from its centre.
+Item passing_ray(Inputs &inputs, double distance, double radius, double impact, float start) {
+    const glm::dvec3 direction(inputs.direction());
+    const glm::dvec3 across =
+        glm::normalize(glm::cross(direction, glm::dvec3(inputs.direction()) + glm::dvec3(0, 0.01, 0.02)));
+    const double sine = std::min(impact * radius / distance, 1.0);
+    const double side = inputs.word() % 4 == 0 ? -1.0 : 1.0;
+    const glm::dvec3 centre = distance * (side * std::sqrt(1.0 - sine * sine) * direction + sine * across);
+    return {glm::vec3(centre), static_cast<float>(radius), glm::vec3(direction), start};
+}
+
+// Near spheres and such at a million radii; impacts from the middle to grazing within 1e-6 and beyond; starts inside;
+// and starts on the surface, where the distance of the centre is the radius to rounding.
+std::vector<Item> items() {
+    Inputs inputs(10);
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < random_count; ++i) {
+        const double radius = inputs.log_uniform(1e-3, 1e3);
+        const double grazing = 1.0 + (inputs.number() < 0.5F ? -1.0 : 1.0) * inputs.log_uniform(1e-6, 0.5);
+        const float start = i % 8 < 6 ? anywhere : i % 8 == 6 ? leaving_outside : leaving_inside;
+        const double impact = i % 2 == 0 || start != anywhere ? inputs.number() : grazing;
+        const double distance = start != anywhere ? radius
+                                : i % 3 == 0      ? radius * inputs.number()
+                                                  : radius * (1.0 + inputs.log_uniform(1e-6, 1e6));
+        items.push_back(passing_ray(inputs, std::max(distance, 1e-6 * radius), radius, impact, start));
+    }
+    return items;
+}
+
+// Roots of the sphere in long double; met: 0 or 1, or -1 where float32 cannot tell.
+struct Exact {
+    int met;
+    Real distance;
+    Real bound;
+};
+
+// In float32, with d the distance of the centre, b = centre . direction its part along the ray, l that across, u =
+// 2^-24: b errs by 3 u d and the lengths; the vector across by u |b| + u l, and by the error of b, which lies along the
+// ray and so adds to its square alone; l^2 by 3 u more, r^2 by u and the difference by u. sqrt: 9 u. The direction's
+// lack of unit length is an error of the distance too.
+Exact exact_sphere(const Item &item) {
+    const Direction centre(item.centre);
+    const Direction direction = glm::normalize(Direction(item.direction));
+    const Real r = item.radius;
+    const Real d = glm::length(centre);
+    const Real b = glm::dot(centre, direction);
+    const Real b_bound = d * (3 * half_ulp + length_error(item.direction));
+    if (item.start == leaving_outside)
+        return {0, no_hit, 1};
+    if (item.start == leaving_inside)
+        return {std::abs(b) > b_bound ? 1 : -1, 2 * std::abs(b), 2 * b_bound}; // along the surface there is no telling
+    const Real l = glm::length(centre - b * direction);
+    const Real along = 2 * b_bound;
+    const Real l_bound = half_ulp * (std::abs(b) + l);
+    const Real square = r * r - l * l;
+    const Real square_bound = 2 * l * l_bound + l_bound * l_bound + along * along + half_ulp * (4 * l * l + 2 * r * r);
+    const Real half_chord = std::sqrt(std::max<Real>(square, 0));
+    const Real bound = b_bound + 9 * half_ulp * half_chord + std::sqrt(std::max<Real>(square, 0) + square_bound) -
+                       std::sqrt(std::max<Real>(square - square_bound, 0)) + 2 * half_ulp * (std::abs(b) + half_chord);
+    if (std::abs(d * d - r * r) < 5 * half_ulp * d * d)
+        return {-1, 0, 0}; // on the surface, as far as can be told
+    const bool outside = d > r;
+    const Real distance = outside ? b - half_chord : b + half_chord;
+    if (outside && std::abs(square) <= square_bound)
+        return {-1, 0, 0}; // grazing, as far as can be told
+    const bool met = (square > 0 || !outside) && distance > 0;
+    return {std::abs(distance) <= bound ? -1 : static_cast<int>(met), distance, bound};
+}
+
+// -h / (n . v): the dot product errs by 2 u of at most |n|; the division by 5 u.
+Exact exact_plane(const Item &item) {
+    const Direction normal(item.centre);
+    const Real rate = glm::dot(normal, Direction(item.direction));
+    const Real rate_bound = 3 * half_ulp * glm::length(normal);
+    if (item.start != anywhere)
+        return {0, no_hit, 1};
+    if (std::abs(rate) <= 2 * rate_bound)
+        return {-1, 0, 0}; // parallel, as far as can be told
+    const Real distance = -item.radius / rate;
+    return {distance > 0, distance, std::abs(distance) * (rate_bound / (std::abs(rate) - rate_bound) + 5 * half_ulp)};
+}
+
+// Whether the device meets a surface exactly where it is to be met, as far as can be told.
+bool agrees(const Exact &exact, float found) {
+    return exact.met < 0 || (found != no_hit) == (exact.met == 1);
+}
+
+void compare(Comparison &comparison, const Exact &exact, float found, Real unit, const Item &item) {
+    if (exact.met == 1 && found != no_hit)
+        comparison.add(found / unit, exact.distance / unit, exact.bound / unit, list(item));
+}
+
+// Negative control: a sphere that is larger by a thousandth.
+Exact exact_larger_sphere(Item item) {
+    item.radius *= 1.001F;
+    return exact_sphere(item);
+}
+
+TEST(AccuracyIntersect, OfDistances) {
+    Comparison sphere("sphere_distance", "of the centre");
+    Comparison leaving("sphere_distance, leaving", "of the radius");
+    Comparison plane("plane_distance", "of itself");
+    const std::vector<Item> all = items();
+    std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_SPHERE_COUNT] = 1;
+    Probe probe(distance_items_spirv, sizeof(ItemRange), constants);
+    const std::vector<Result> results = evaluate<Result>(probe, all);
+    std::size_t undecided = 0;
+    std::size_t wrong = 0;
+    std::size_t wrong_control = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Exact exact = exact_sphere(all[i]);
+        undecided += exact.met < 0 ? 1 : 0;
+        wrong += agrees(exact, results[i].sphere) ? 0 : 1;
+        wrong_control += agrees(exact_larger_sphere(all[i]), results[i].sphere) ? 0 : 1;
+        const Real distance = glm::length(Direction(all[i].centre));
+        compare(all[i].start == anywhere ? sphere : leaving, exact, results[i].sphere, distance, all[i]);
+        const Exact on_plane = exact_plane(all[i]);
+        wrong += agrees(on_plane, results[i].plane) ? 0 : 1;
+        compare(plane, on_plane, results[i].plane, std::abs(on_plane.distance), all[i]);
+    }
+    EXPECT_EQ(wrong, 0U) << "surfaces that are met and should not be, or the reverse";
+    EXPECT_GT(wrong_control, 0U) << "such surfaces must be seen";
+    EXPECT_LT(undecided, all.size() / 8);
+    sphere.finish();
+    leaving.finish();
+    plane.finish();
+}
+
+} // namespace
+
+} // namespace accuracy

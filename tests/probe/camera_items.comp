@@ -1,0 +1,26 @@
+// Evaluates the shipped camera_direction.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "camera.glsl"
+
+#include "items.glsl"
+
+struct Item { vec4 right_width; vec4 up_height; vec4 forward; vec4 pixel_place; };
+layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
+layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (!is_item(index))
+        return;
+    Item item = items[index];
+    FrameConstants frame;
+    frame.camera_right = item.right_width.xyz;
+    frame.camera_up = item.up_height.xyz;
+    frame.camera_forward = item.forward.xyz;
+    frame.width = floatBitsToUint(item.right_width.w);
+    frame.height = floatBitsToUint(item.up_height.w);
+    results[index] = vec4(camera_direction(frame, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw), 0.0);
+}

@@ -1,0 +1,27 @@
+// Evaluates the shipped distances along a ray to a sphere and to a plane.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "intersect.glsl"
+
+#include "items.glsl"
+
+// start: 0 anywhere, 1 on the surface and outside of the sphere, 2 on it and inside. The sphere's centre as seen from
+// the ray's start is the plane's normal too, and its radius the height above the plane.
+struct Item { vec4 centre_radius; vec4 direction_start; };
+layout(set = 0, binding = 2) writeonly buffer Output { vec4 results[]; };
+layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (!is_item(index))
+        return;
+    vec4 sphere = items[index].centre_radius;
+    vec3 direction = items[index].direction_start.xyz;
+    float start = items[index].direction_start.w;
+    bool leaving = start > 0.0;
+    results[index] = vec4(sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0),
+                          plane_distance(sphere.w, sphere.xyz, direction, leaving), 0.0, 0.0);
+}

@@ -1,0 +1,31 @@
+// Evaluates the shipped functions of phong.glsl.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+
+#include "phong.glsl"
+
+#include "items.glsl"
+
+struct Item { vec4 axis_glossiness; vec4 outgoing_diffuse; vec4 normal_specular; vec4 numbers_probability; };
+struct Result { vec4 direction; vec4 power_value_density; };
+layout(set = 0, binding = 2) writeonly buffer Output { Result results[]; };
+layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (!is_item(index))
+        return;
+    Item item = items[index];
+    vec3 axis = item.axis_glossiness.xyz;
+    float n = item.axis_glossiness.w;
+    vec3 outgoing = item.outgoing_diffuse.xyz;
+    Material material = Material(vec3(item.outgoing_diffuse.w), vec3(item.normal_specular.w), n,
+                                 item.numbers_probability.z);
+    // The axis is the incoming direction too; then the lobe is about its mirror image.
+    Vertex vertex = Vertex(vec3(0.0), item.normal_specular.xyz, axis, 0u, false);
+    Reflection found = reflection(material, vertex, outgoing);
+    results[index] = Result(vec4(lobe_direction(axis, n, item.numbers_probability.xy), 0.0),
+                            vec4(lobe_power(axis, outgoing, n), found.value.r, found.density, 0.0));
+}

@@ -1,0 +1,23 @@
+// Evaluates the shipped vertex_at.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "vertex.glsl"
+
+#include "items.glsl"
+
+struct Item { vec4 origin_surface; vec4 direction_distance; };
+struct Result { vec4 position; vec4 normal; };
+layout(set = 0, binding = 2) writeonly buffer Output { Result results[]; };
+layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (!is_item(index))
+        return;
+    Item item = items[index];
+    Vertex vertex = vertex_at(item.origin_surface.xyz, item.direction_distance.xyz, item.direction_distance.w,
+                              floatBitsToUint(item.origin_surface.w), 0.0);
+    results[index] = Result(vec4(vertex.position, vertex.inside ? 1.0 : 0.0), vec4(vertex.normal, 0.0));
+}
