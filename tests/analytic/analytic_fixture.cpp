@@ -1,0 +1,44 @@
+// See analytic_fixture.h.
+#include "analytic_fixture.h"
+
+#include <bit>
+#include <cstdio>
+#include <fstream>
+
+namespace analytic {
+
+pt_render AnalyticFixture::render_of(std::uint32_t width, std::uint32_t height, std::uint32_t max_path_length) {
+    pt_render render{};
+    render.struct_size = sizeof render;
+    render.width = width;
+    render.height = height;
+    render.max_path_length = max_path_length;
+    return render;
+}
+
+Image AnalyticFixture::image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render,
+                                std::uint32_t sample_count) {
+    Image image{render.width, render.height, std::vector<float>(std::size_t{3} * render.width * render.height)};
+    set_up(scene, camera);
+    EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+    accumulate(sample_count);
+    readback(image.radiance);
+    EXPECT_EQ(stats().rejected_samples, 0U);
+    return image;
+}
+
+// As a portable float map: rows from the bottom, a negative scale for little endian.
+void AnalyticFixture::keep(const Image &image, const std::string &name) {
+    const std::string path = testing::TempDir() + name + ".pfm";
+    std::ofstream file(path, std::ios::binary);
+    file << "PF\n"
+         << image.width << ' ' << image.height << '\n'
+         << (std::endian::native == std::endian::little ? -1 : 1) << '\n';
+    const std::size_t row_floats = std::size_t{3} * image.width;
+    for (std::uint32_t y = image.height; y-- > 0;)
+        file.write(reinterpret_cast<const char *>(image.radiance.data() + y * row_floats),
+                   static_cast<std::streamsize>(row_floats * sizeof(float)));
+    std::printf("the image is in %s\n", path.c_str());
+}
+
+} // namespace analytic

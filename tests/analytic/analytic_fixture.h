@@ -1,0 +1,32 @@
+// Renders the scenes of the tests against exact values. An image that disagrees is kept as a file.
+#pragma once
+
+#include "batch_fixture.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace analytic {
+
+// Radiance of the pixels, R, G, B, row by row from the top.
+struct Image {
+    std::uint32_t width;
+    std::uint32_t height;
+    std::vector<float> radiance;
+
+    double red(std::uint32_t x, std::uint32_t y) const { return radiance[3 * (std::size_t{y} * width + x)]; }
+};
+
+class AnalyticFixture : public BatchFixture {
+protected:
+    static pt_render render_of(std::uint32_t width, std::uint32_t height, std::uint32_t max_path_length);
+
+    Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);
+
+    // Prints where it is.
+    static void keep(const Image &image, const std::string &name);
+};
+
+} // namespace analytic

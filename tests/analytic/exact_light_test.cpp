@@ -1,0 +1,104 @@
+// Scenes without noise: every sample of every pixel has the same value. And sample numbers at the end of their range.
+// Run alone with --gtest_filter=ExactLight*.
+#include "analytic_fixture.h"
+#include "scenes.h"
+#include "sphere_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+namespace {
+
+using namespace analytic;
+
+class ExactLight : public AnalyticFixture {
+protected:
+    Image render(const cli::SceneFile &scene, std::uint32_t max_path_length, std::uint32_t estimator) {
+        pt_render settings = render_of(*scene.width, *scene.height, max_path_length);
+        settings.estimator = estimator;
+        return image_of(scene.scene(), scene.camera, settings, 64);
+    }
+};
+
+// The largest relative error of a pixel in units of 2^-24, half of a unit in the last place of float32 or more.
+double largest_error(const Image &image, double exact) {
+    double largest = 0.0;
+    for (const float value : image.radiance)
+        largest = std::max(largest, std::abs(value / exact - 1.0));
+    return std::ldexp(largest, 24);
+}
+
+TEST_F(ExactLight, InsideALampIsItsEmission) {
+    const cli::SceneFile scene = read_scene("08-inside");
+    for (const std::uint32_t length : {1U, 2U, 64U})
+        EXPECT_EQ(largest_error(render(scene, length, PT_ESTIMATOR_BEST), 0.1F), 0.0) << "path length " << length;
+    EXPECT_GT(largest_error(render(scene, 1, PT_ESTIMATOR_BEST), 0.1F * 1.03), 0.0);
+}
+
+// A white ball in a black lamp: every path ends on the lamp, whose emission is 1, after one reflection of weight 1. The
+// weight is the quotient of albedo / pi * cos and cos / pi, of four rounded operations, and times the emission that is
+// five, each off by up to 2^-24.
+TEST_F(ExactLight, FurnaceIsWhite) {
+    const cli::SceneFile scene = read_scene("09-furnace");
+    for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF, PT_ESTIMATOR_MIS})
+        for (const std::uint32_t length : {2U, 5U}) {
+            const double error = largest_error(render(scene, length, estimator), 1.0);
+            std::printf("estimator %u, path length %u: %.1f units of 2^-24\n", estimator, length, error);
+            EXPECT_LE(error, 5.0) << "estimator " << estimator << ", path length " << length;
+        }
+    cli::SceneFile brighter = scene;
+    brighten(brighter, 1.000001F);
+    EXPECT_GT(largest_error(render(brighter, 2, PT_ESTIMATOR_BSDF), 1.0), 5.0);
+}
+
+// The last samples that there are.
+TEST_F(ExactLight, LastSampleNumbers) {
+    constexpr std::uint32_t samples = 4096;
+    const cli::SceneFile scene = read_scene("10-enclosure-L2");
+    for (const std::uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
+        pt_render settings = render_of(4, 2, 2);
+        settings.sampler = sampler;
+        settings.first_sample = 0U - samples;
+        const pt_camera camera = scene.camera;
+        const Image image = image_of(scene.scene(), camera, settings, samples);
+        // The middle two columns see the lamp, the outer ones the wall alone.
+        for (const std::uint32_t x : {0U, 3U})
+            for (const std::uint32_t y : {0U, 1U}) {
+                const Exact wall{0.5, 0.0983};
+                std::printf("sampler %u: %.3f standard errors\n", sampler,
+                            (image.red(x, y) / wall.radiance - 1.0) / wall.relative_std * std::sqrt(samples));
+                EXPECT_TRUE(agrees(image.red(x, y), wall, samples)) << image.red(x, y) << " sampler " << sampler;
+                EXPECT_FALSE(agrees(image.red(x, y), {0.515, wall.relative_std}, samples)) << "3% must show";
+            }
+        const pt_accumulate_info beyond{sizeof beyond, 1, nullptr, nullptr};
+        EXPECT_EQ(pt_accumulate(context(), &beyond), PT_ERROR_INVALID_ARGUMENT);
+    }
+}
+
+// 2^30 samples of one pixel, of which a sphere covers a part: neither a count nor a sum may stall. Takes minutes on
+// a CPU, whose lanes are all idle but one. Run it with
+//     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*BillionSamples*
+TEST_F(ExactLight, DISABLED_BillionSamples) {
+    constexpr std::uint32_t samples = 1U << 30;
+    const pt_material material{{0, 0, 0}, {0, 0, 0}, {0.1F, 0.1F, 0.1F}, 0};
+    const pt_sphere sphere{{1, 0.5, -4}, 1, {0, 0, 0}, 0, 0};
+    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.position[2] = 1;
+    camera.vertical_fov = 2.0 * std::atan(0.5);
+    const double area = SphereCoverage(1, 0.5, -5).area();
+    const Exact exact{area * double{0.1F}, std::sqrt((1.0 - area) / area)};
+    const double measured = image_of(scene, camera, render_of(1, 1, 1), samples).red(0, 0);
+    std::printf("off by %.1e, the bound is %.1e\n", measured / exact.radiance - 1.0,
+                error_bound(exact.relative_std, samples));
+    EXPECT_TRUE(agrees(measured, exact, samples)) << measured << ", expected " << exact.radiance;
+    EXPECT_FALSE(agrees(measured, {1.001 * exact.radiance, exact.relative_std}, samples));
+    EXPECT_EQ(stats().sample_count, samples);
+}
+
+} // namespace

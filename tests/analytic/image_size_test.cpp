@@ -1,0 +1,117 @@
+// Images of every shape: each pixel covers what it should of an emitting sphere. Run alone with
+// --gtest_filter=ImageSize*.
+#include "analytic_fixture.h"
+#include "judge.h"
+#include "sphere_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace {
+
+using namespace analytic;
+
+struct Shape {
+    std::uint32_t width;
+    std::uint32_t height;
+    double window_height; // of the image plane at distance 1
+};
+
+class ImageSize : public AnalyticFixture, public testing::WithParamInterface<Shape> {};
+
+const SphereCoverage sphere_coverage(1, 0.5, -5);
+
+// What the middle of the sphere at (1, 0.5, -4), seen from (0, 0, 1), shows.
+Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
+    const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
+    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.position[2] = 1;
+    camera.vertical_fov = 2.0 * std::atan(0.5 * shape.window_height);
+    return image_of(scene, camera);
+}
+
+// A power of two, for which the Sobol points are best.
+std::uint32_t samples_for(const Shape &shape) {
+    return std::bit_floor(std::clamp((1U << 22) / (shape.width * shape.height), 256U, 1U << 18));
+}
+
+double share_of(const Shape &shape, std::uint32_t x, std::uint32_t y) {
+    const double size = shape.window_height / shape.height;
+    const double left = (x - 0.5 * shape.width) * size;
+    const double top = (0.5 * shape.height - y) * size;
+    // Outside a pixel's surroundings no line of it need be looked at.
+    const auto [first, last] = sphere_coverage.chord(top - 0.5 * size);
+    if (left > 0.5 || left + size < -0.1 || (first == last && std::abs(top) > 0.5 + size))
+        return 0.0;
+    return sphere_coverage.share(left, left + size, top - size, top);
+}
+
+struct Disagreements {
+    std::uint32_t pixels = 0;
+    double mean_error = 0.0; // of the whole image
+};
+
+// A pixel that is wholly covered, or not at all, is that in every sample. The quadrature decides it to 1e-4.
+Disagreements compare(const Image &image, const Shape &shape) {
+    Disagreements found;
+    for (std::uint32_t y = 0; y < shape.height; ++y)
+        for (std::uint32_t x = 0; x < shape.width; ++x) {
+            const double share = share_of(shape, x, y);
+            const double measured = image.red(x, y);
+            const bool partly = share > 0.0 && share < 1.0 - 1e-9;
+            const double tolerance =
+                partly ? 1e-4 + share * noise_bound(std::sqrt((1.0 - share) / share), samples_for(shape)) : 0.0;
+            found.pixels += std::abs(measured - (partly ? share : std::round(share))) > tolerance;
+            found.mean_error += (measured - share) / (static_cast<double>(image.width) * image.height);
+        }
+    return found;
+}
+
+TEST_P(ImageSize, EveryPixelCoversItsShare) {
+    const Shape &shape = GetParam();
+    const auto render = [&](const pt_scene &scene, const pt_camera &camera) {
+        return image_of(scene, camera, render_of(shape.width, shape.height, 1), samples_for(shape));
+    };
+    const Image image = render_sphere(shape, 1.0, render);
+    const Disagreements found = compare(image, shape);
+    std::printf("%u x %u: %u pixels disagree, mean off by %.1e\n", shape.width, shape.height, found.pixels,
+                found.mean_error);
+    EXPECT_EQ(found.pixels, 0U);
+    if (HasFailure())
+        keep(image, "image-size-" + std::to_string(shape.width) + "x" + std::to_string(shape.height));
+    // Negative control: a sphere 3% larger, of 6% more area.
+    EXPECT_GT(compare(render_sphere(shape, 1.03, render), shape).pixels, 0U);
+}
+
+// The sphere lies within the window: its area, which has a closed form of its own, is all there is, however it is cut
+// into pixels.
+TEST(ImageSizeClosedForm, SharesAddUpToTheArea) {
+    EXPECT_NEAR(sphere_coverage.area(), 0.1342652736, 1e-9);
+    const Shape shape{61, 37, 1.0};
+    double sum = 0.0;
+    for (std::uint32_t y = 0; y < shape.height; ++y)
+        for (std::uint32_t x = 0; x < shape.width; ++x)
+            sum += share_of(shape, x, y) / (37.0 * 37.0);
+    EXPECT_NEAR(sum, sphere_coverage.area(), 1e-6);
+}
+
+// One pixel; a workgroup, one less and one more; rows and columns of the greatest length; primes. In rows and columns
+// of 16384 the pixels are small, so that many of them see the sphere.
+INSTANTIATE_TEST_SUITE_P(Shapes, ImageSize,
+                         testing::Values(Shape{1, 1, 1.0}, Shape{63, 1, 0.02}, Shape{64, 1, 0.02}, Shape{65, 1, 0.02},
+                                         Shape{16384, 1, 2.0 / 16384}, Shape{1, 16384, 1.0}, Shape{61, 37, 1.0},
+                                         Shape{127, 65, 1.0}),
+                         [](const auto &param) {
+                             return "Of" + std::to_string(param.param.width) + "x" + std::to_string(param.param.height);
+                         });
+
+} // namespace

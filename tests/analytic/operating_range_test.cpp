@@ -1,0 +1,217 @@
+// How far the exact values hold: scales, distances, lamps, lobes and brightness up to where they break. It fails
+// nothing and takes minutes; it prints a table. Run it with
+//     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
+#include "analytic_fixture.h"
+#include "crop.h"
+#include "scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace analytic;
+
+constexpr std::uint32_t batch_count = 16;
+
+class DISABLED_OperatingRange : public AnalyticFixture {
+protected:
+    void TearDown() override {
+        print_range();
+        AnalyticFixture::TearDown();
+    }
+
+    void begin(const std::string &quantity) {
+        print_range();
+        quantity_ = quantity;
+        std::printf("\n%s\n", quantity.c_str());
+    }
+
+    // Whether the value of a quantity gives the radiance that it should, within the noise of batches, and that below
+    // 1%.
+    void measure(double value, const cli::SceneFile &scene, const pt_camera &camera, const Crop &crop, double expected,
+                 std::uint32_t samples) {
+        const pt_scene library_scene = scene.scene();
+        pt_render render = render_of(crop.width, crop.height, *scene.max_path_length);
+        if (pt_set_scene(context(), &library_scene) != PT_OK || pt_set_camera(context(), &camera) != PT_OK) {
+            std::printf("  %8.1e refused: %s\n", value, pt_last_error(context()));
+            return;
+        }
+        Batches batches;
+        std::uint64_t rejected = 0;
+        for (render.seed = 1; render.seed <= batch_count; ++render.seed) {
+            std::vector<float> image(std::size_t{3} * crop.width * crop.height);
+            ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+            accumulate(samples);
+            readback(image);
+            rejected += stats().rejected_samples;
+            batches.push_back({double{image[3 * (std::size_t{crop.y} * crop.width + crop.x)]}});
+        }
+        const Estimate found = estimate_of_pixel(batches, 0);
+        const double error = found.mean / expected - 1.0;
+        const double bound = batch_bound(found, {expected, 0.0}, batch_count) / expected;
+        const bool holds = std::abs(error) <= bound && bound < 0.01 && rejected == 0;
+        const char *verdict = holds ? "" : std::abs(error) <= bound ? "  TOO NOISY" : "  FAILS";
+        std::printf("  %8.1e expected %-13.8g measured %-13.8g off by %8.1e, noise allows %7.1e%s%s\n", value, expected,
+                    found.mean, error, bound, verdict, rejected ? ", samples rejected" : "");
+        (holds ? held_ : failed_).push_back(value);
+    }
+
+    // Of a tabulated pixel.
+    void measure(double value, const cli::SceneFile &scene, std::uint32_t x, std::uint32_t y, double expected) {
+        const Crop crop = crop_around(*scene.width, *scene.height, x, y);
+        measure(value, scene, cropped(scene.camera, *scene.height, crop.height), crop, expected, 1024);
+    }
+
+private:
+    void print_range() {
+        if (!held_.empty())
+            std::printf("%s: holds from %.1e to %.1e, %zu values between fail\n", quantity_.c_str(), held_.front(),
+                        held_.back(), static_cast<std::size_t>(std::ranges::count_if(failed_, [&](double value) {
+                            return value > held_.front() && value < held_.back();
+                        })));
+        held_.clear();
+        failed_.clear();
+    }
+
+    std::string quantity_;
+    std::vector<double> held_;
+    std::vector<double> failed_;
+};
+
+void scale(cli::SceneFile &scene, double factor) {
+    for (pt_sphere &sphere : scene.spheres) {
+        sphere.radius *= factor;
+        for (double &component : sphere.center)
+            component *= factor;
+    }
+    for (pt_plane &plane : scene.planes)
+        plane.offset *= factor;
+    for (int i = 0; i < 3; ++i) {
+        scene.camera.position[i] *= factor;
+        scene.camera.target[i] *= factor;
+    }
+}
+
+TEST_F(DISABLED_OperatingRange, Scale) {
+    begin("unit of length");
+    for (int exponent = -18; exponent <= 18; ++exponent) {
+        cli::SceneFile scene = read_scene("01-above");
+        scale(scene, std::pow(10.0, exponent));
+        measure(std::pow(10.0, exponent), scene, 128, 127, 0.12151634857013521);
+    }
+}
+
+// On the axis a sphere of radius 1 fills pi / (d^2 - 1) of the image plane at distance 1, here of a square of 16 / (d^2
+// - 1).
+TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
+    begin("distance from a sphere's surface / radius");
+    for (int exponent = -12; exponent <= 9; ++exponent) {
+        const double gap = std::pow(10.0, exponent);
+        cli::SceneFile scene = read_scene("27-silhouette");
+        scene.spheres[0] = {{0, 0, -gap}, 1, {0, 0, 0}, 0, 0};
+        scene.camera.vertical_fov = 2.0 * std::atan(2.0 / std::sqrt(gap * (2.0 + gap)));
+        measure(gap, scene, scene.camera, {1, 1, 0, 0}, std::numbers::pi / 16.0, 65536);
+    }
+}
+
+constexpr double floor_side = 0.1;
+constexpr double lamp_height = 3.1; // above the floor y = -1
+
+// The mean over a square of that side about (0, 0) on a floor of albedo 0.8 under a lamp of radius 1 and emission 10 at
+// (3, 2.1, 0), as in floor_radiance.h: by two Gauss nodes in each direction, which errs by less than 1e-7 of it.
+double floor_under_lamp() {
+    double sum = 0.0;
+    const double node = 0.5 * floor_side / std::sqrt(3.0);
+    for (const double x : {-node, node}) // the nodes in z are as far from the lamp as each other
+        sum += 0.8 * 10 * lamp_height / std::pow(std::hypot(3 - x, node, lamp_height), 3);
+    return sum / 2;
+}
+
+TEST_F(DISABLED_OperatingRange, DistanceOfALitFloor) {
+    begin("distance of a floor / distance of its lamp, from above");
+    for (int exponent = 0; exponent <= 8; ++exponent) {
+        const double distance = std::numbers::pi / 3.0 * std::pow(10.0, exponent); // nothing is a round number
+        cli::SceneFile scene = read_scene("01-above");
+        scene.spheres[0] = {{3, lamp_height - 1, 0}, 1, {0, 0, 0}, scene.spheres[0].material, 0};
+        scene.camera = {sizeof(pt_camera), 0, {0, distance - 1, 0}, {0, -1, 0}, {0, 0, 1}, 0, 0, 0};
+        scene.camera.vertical_fov = 2.0 * std::atan(0.5 * floor_side / distance);
+        measure(distance / std::hypot(3.0, lamp_height), scene, scene.camera, {1, 1, 0, 0}, floor_under_lamp(), 16384);
+    }
+}
+
+// The light of a lamp of radius 1e-4 and emission 1e14 in 1000 goes with emission * radius^2.
+TEST_F(DISABLED_OperatingRange, SizeOfALamp) {
+    begin("radius / distance of a lamp");
+    for (int exponent = -15; exponent <= 2; ++exponent) {
+        cli::SceneFile scene = read_scene("05-tiny-far");
+        const double radius = std::pow(10.0, exponent);
+        pt_material &material = scene.materials[scene.spheres[0].material];
+        const double emission = std::min(1e18, 1e6 / (radius * radius));
+        std::ranges::fill(material.emission, static_cast<float>(emission));
+        scene.spheres[0].radius = radius;
+        measure(radius / 1000.0, scene, 128, 127,
+                0.6404319556986502 * double{material.emission[0]} * radius * radius / 1e6);
+    }
+}
+
+TEST_F(DISABLED_OperatingRange, SizeOfAFloorBall) {
+    begin("radius of a sphere that is the floor");
+    for (int exponent = 4; exponent <= 17; ++exponent) {
+        cli::SceneFile scene = read_scene("16-hugefloor-R1e+07");
+        pt_sphere &ball = scene.spheres[0].radius > 1 ? scene.spheres[0] : scene.spheres[1];
+        ball.radius = std::pow(10.0, exponent);
+        ball.center[1] = -1.0 - ball.radius;
+        // The plane's value, and the first term in the curvature from the tabulated radius of 1e5.
+        measure(ball.radius, scene, 128, 127, 0.12151634857013521 + 0.0640719 / ball.radius);
+    }
+}
+
+// From n = 3000 on the lobe clears the horizon and its albedo is the cosine.
+TEST_F(DISABLED_OperatingRange, GlossinessUnderADome) {
+    begin("glossiness under a uniform dome");
+    for (const double glossiness : {1e-30, 1e-12, 1e-7, 3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10}) {
+        cli::SceneFile scene = read_scene("12-phong-furnace-n3000");
+        scene.materials[scene.planes[0].material].glossiness = static_cast<float>(glossiness);
+        measure(glossiness, scene, 128, 80, glossiness < 1.0 ? 0.5639230931531707 : 0.12784618630634145);
+    }
+}
+
+TEST_F(DISABLED_OperatingRange, GlossinessUnderALamp) {
+    begin("glossiness under a lamp that fills the lobe");
+    for (const double glossiness : {3e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}) {
+        cli::SceneFile scene = read_scene("13-mirror-n1e6");
+        scene.materials[scene.planes[0].material].glossiness = static_cast<float>(glossiness);
+        measure(glossiness, scene, 128, 100, 1.5356352480155948);
+    }
+}
+
+TEST_F(DISABLED_OperatingRange, Emission) {
+    begin("emission of the only lamp");
+    for (int exponent = -45; exponent <= 18; exponent += 3) {
+        cli::SceneFile scene = read_scene("01-above");
+        std::ranges::fill(scene.materials[scene.spheres[0].material].emission,
+                          static_cast<float>(std::pow(10.0, exponent)));
+        const double emission = double{scene.materials[scene.spheres[0].material].emission[0]};
+        measure(std::pow(10.0, exponent), scene, 128, 127, 0.012151634857013521 * emission);
+    }
+}
+
+TEST_F(DISABLED_OperatingRange, RatioOfLamps) {
+    begin("a hidden lamp's emission / the seen one's");
+    for (int exponent = 0; exponent <= 18; ++exponent) {
+        cli::SceneFile scene = read_scene("20-ratio1e8");
+        std::ranges::fill(scene.materials[scene.spheres[0].material].emission,
+                          static_cast<float>(std::pow(10.0, exponent)));
+        measure(std::pow(10.0, exponent), scene, 128, 82, 0.002876759225824044);
+    }
+}
+
+} // namespace

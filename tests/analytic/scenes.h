@@ -1,0 +1,38 @@
+// The scenes of tests/data/analytic and what their pixels are exactly. Used by the tests against exact values.
+#pragma once
+
+#include "judge.h"
+#include "scene_file.h"
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace analytic {
+
+struct Pixel {
+    std::uint32_t x;
+    std::uint32_t y; // from the top
+    Exact exact;
+};
+
+// The lines of expected.csv about one scene.
+struct Expectation {
+    std::string scene;
+    std::vector<Pixel> pixels;
+};
+
+// For GoogleTest's messages.
+inline void PrintTo(const Expectation &expectation, std::ostream *stream) {
+    *stream << expectation.scene;
+}
+
+std::vector<Expectation> read_expectations();
+
+cli::SceneFile read_scene(const std::string &name);
+
+// All lamps brighter by a factor.
+void brighten(cli::SceneFile &scene, float factor);
+
+} // namespace analytic
