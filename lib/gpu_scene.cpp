@@ -1,6 +1,8 @@
 // Turns a validated scene and camera into bytes for the kernel; see gpu_scene.h.
 #include "gpu_scene.h"
 
+#include "curved_plane.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,13 +14,34 @@ float mean(const glm::vec3 &colour) {
     return (colour.r + colour.g + colour.b) / 3.0F;
 }
 
-// Sphere indices in the kernel's order: lamps first, otherwise as in the scene.
-std::vector<std::uint32_t> kernel_order(const Scene &scene) {
-    std::vector<std::uint32_t> order(scene.spheres.size());
-    for (std::uint32_t i = 0; i < order.size(); ++i)
-        order[i] = i;
-    std::ranges::stable_partition(
-        order, [&](std::uint32_t i) { return scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F); });
+// Surfaces in the kernel's order: lamps, other spheres, planes with curvature, planes; otherwise as in the scene.
+struct KernelOrder {
+    std::vector<Sphere> spheres;
+    std::vector<CurvedPlane> planes;
+    std::vector<std::uint32_t> materials; // of all these
+};
+
+KernelOrder kernel_order(const Scene &scene, const Camera &camera) {
+    KernelOrder order;
+    std::vector<std::uint32_t> plane_materials;
+    for (const Sphere &sphere : scene.spheres) {
+        if (const auto plane = curved_plane(sphere, scene.materials[sphere.material], camera)) {
+            order.planes.push_back(*plane);
+            plane_materials.push_back(sphere.material);
+        } else {
+            order.spheres.push_back(sphere);
+        }
+    }
+    std::ranges::stable_partition(order.spheres, [&](const Sphere &sphere) {
+        return scene.materials[sphere.material].emission != glm::vec3(0.0F);
+    });
+    for (const Plane &plane : scene.planes) {
+        order.planes.push_back(curved_plane(plane, camera));
+        plane_materials.push_back(plane.material);
+    }
+    for (const Sphere &sphere : order.spheres)
+        order.materials.push_back(sphere.material);
+    order.materials.insert(order.materials.end(), plane_materials.begin(), plane_materials.end());
     return order;
 }
 
@@ -51,15 +74,19 @@ public:
         const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
         words_[surface] = glm::vec4(glm::vec3(opening), static_cast<float>(sphere.radius));
         if (features_.motion)
-            words_[scene_word_count(features_) - features_.sphere_count + surface] = glm::vec4(glm::vec3(way), 0.0F);
+            words_[motion_words() + surface] = glm::vec4(glm::vec3(way), 0.0F);
     }
 
-    void plane(std::uint32_t surface, const Plane &plane, const Camera &camera) {
-        const double offset = plane.offset + glm::dot(plane.normal, camera.position);
-        words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(offset));
+    void plane(std::uint32_t surface, const CurvedPlane &plane) {
+        words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
+        if (features_.curvature)
+            words_[curvature_words() + surface - features_.sphere_count].x = static_cast<float>(plane.curvature);
     }
 
 private:
+    std::uint32_t motion_words() const { return (features_.gloss ? 4 : 3) * features_.surface_count(); }
+    std::uint32_t curvature_words() const { return motion_words() + (features_.motion ? features_.sphere_count : 0); }
+
     std::vector<glm::vec4> &words_;
     const Features &features_;
 };
@@ -78,15 +105,14 @@ std::uint64_t mixed(std::uint64_t seed) {
 std::vector<glm::vec4> gpu_scene(const Scene &scene, const Camera &camera, const Features &features) {
     std::vector<glm::vec4> words(scene_word_count(features));
     Writer writer(words, features);
+    const KernelOrder order = kernel_order(scene, camera);
     std::uint32_t surface = 0;
-    for (const std::uint32_t i : kernel_order(scene)) {
-        writer.sphere(surface, scene.spheres[i], camera);
-        writer.material(surface++, scene.materials[scene.spheres[i].material]);
-    }
-    for (const Plane &plane : scene.planes) {
-        writer.plane(surface, plane, camera);
-        writer.material(surface++, scene.materials[plane.material]);
-    }
+    for (const Sphere &sphere : order.spheres)
+        writer.sphere(surface++, sphere, camera);
+    for (const CurvedPlane &plane : order.planes)
+        writer.plane(surface++, plane);
+    for (surface = 0; surface < features.surface_count(); ++surface)
+        writer.material(surface, scene.materials[order.materials[surface]]);
     return words;
 }
 

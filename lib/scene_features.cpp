@@ -1,6 +1,7 @@
 // Finds the features of a scene; see scene_features.h.
 #include "scene_features.h"
 
+#include "curved_plane.h"
 #include "point_sequence.h"
 
 #include <algorithm>
@@ -13,19 +14,37 @@ bool emits(const Material &material) {
     return material.emission != glm::vec3(0.0F);
 }
 
+// Lamps to which the first vertex sends a ray besides those of its branches: every one of a few.
+std::uint32_t lamps_of_first_vertex(const Features &features) {
+    return features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
+}
+
+// Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
+std::uint64_t loop_trips_per_branch(const Features &features) {
+    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
+    return (features.max_path_length - 1) * vertex;
+}
+
 } // namespace
 
 Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render) {
-    const auto is_lamp = [&](const Sphere &sphere) { return emits(scene.materials[sphere.material]); };
     const auto is_glossy = [&](const auto &surface) {
         return scene.materials[surface.material].specular != glm::vec3(0.0F);
     };
     const auto moves = [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); };
 
     Features features{};
-    features.sphere_count = static_cast<std::uint32_t>(scene.spheres.size());
     features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
-    features.lamp_count = static_cast<std::uint32_t>(std::ranges::count_if(scene.spheres, is_lamp));
+    for (const Sphere &sphere : scene.spheres) {
+        const Material &material = scene.materials[sphere.material];
+        if (curved_plane(sphere, material, camera)) {
+            ++features.plane_count;
+            features.curvature = true;
+        } else {
+            ++features.sphere_count;
+            features.lamp_count += emits(material) ? 1 : 0;
+        }
+    }
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
@@ -37,13 +56,15 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
 
 std::uint32_t scene_word_count(const Features &features) {
     const std::uint32_t words_per_surface = features.gloss ? 4 : 3;
-    return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0);
+    return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0) +
+           (features.curvature ? features.plane_count : 0);
 }
 
 std::uint32_t branch_count(const Features &features) {
     constexpr std::uint32_t branches = 4;
-    constexpr std::uint32_t longest_branching_path = 64;
-    return features.max_path_length > 2 && features.max_path_length <= longest_branching_path ? branches : 1;
+    constexpr std::uint64_t max_trips = 1 << 14;
+    const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
+    return features.max_path_length > 2 && affordable ? branches : 1;
 }
 
 PointLayout point_layout(const Features &features) {
@@ -71,28 +92,24 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_SAMPLER] = features.sampler;
     constants[gpu::ID_TABLE_DIMENSIONS] = point_layout(features).dimensions;
     constants[gpu::ID_BRANCH_COUNT] = branch_count(features);
+    constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
     constants[gpu::ID_SCENE_IN_UNIFORM] = features.scene_in_uniform ? 1 : 0;
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // One trip of the sample loop and a walk over the surfaces for the camera ray; at the first vertex a walk for each
-    // lamp of a few and two walks over the lamps; at each vertex of a branch one trip of a loop, two walks over the lamps
-    // and one over the surfaces.
+    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each lamp of the first vertex,
+    // two walks over the lamps to choose among them, and the branches.
     const std::uint64_t surfaces = features.surface_count();
-    const std::uint64_t lamps = features.lamp_count;
-    const std::uint64_t first_vertex =
-        std::min<std::uint64_t>(lamps, gpu::EVERY_LAMP_LIMIT) * (1 + surfaces) + 2 * lamps;
-    const std::uint64_t vertex = 1 + 2 * lamps + surfaces;
-    return 1 + surfaces + first_vertex + branch_count(features) * (features.max_path_length - 1) * vertex;
+    const std::uint64_t first_vertex = lamps_of_first_vertex(features) * (1 + surfaces) + 2 * features.lamp_count;
+    return 1 + surfaces + first_vertex + branch_count(features) * loop_trips_per_branch(features);
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
-    // The camera ray, one to each lamp of a few, then from each vertex of a branch the next ray and one to a lamp; an
-    // empty scene still costs something.
+    // The camera ray, those to lamps from the first vertex, then from each vertex of a branch the next ray and one to a
+    // lamp; an empty scene still costs something.
     const std::uint64_t vertices = branch_count(features) * (features.max_path_length - 1);
-    const std::uint64_t rays = 1 + std::min(features.lamp_count, gpu::EVERY_LAMP_LIMIT) + 2 * vertices;
-    return std::max<std::uint64_t>(1, features.surface_count()) * rays;
+    return std::max<std::uint64_t>(1, features.surface_count()) * (1 + lamps_of_first_vertex(features) + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

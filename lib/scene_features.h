@@ -13,14 +13,15 @@
 namespace pt {
 
 struct Features {
-    std::uint32_t sphere_count;
-    std::uint32_t plane_count;
-    std::uint32_t lamp_count; // emitting spheres
+    std::uint32_t sphere_count; // spheres held by centre and radius
+    std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
+    std::uint32_t lamp_count;   // emitting ones of sphere_count
     std::uint32_t max_path_length;
     std::uint32_t estimator;
     std::uint32_t sampler;
     bool gloss;            // some material in use has a specular lobe
     bool motion;           // some sphere moves while the shutter is open
+    bool curvature;        // some sphere is held as a plane with a curvature
     bool scene_in_uniform; // the scene fits into a uniform buffer
 
     bool operator==(const Features &) const = default;
@@ -35,8 +36,8 @@ std::uint32_t scene_word_count(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise, and
 // the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with six
-// vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Very long paths do not branch:
-// they exhaust the dimensions of the sequences, and the loop trips that some drivers allow.
+// vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where scene and path are so long
+// that a sample is a long job by itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
 // What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences have;

@@ -20,9 +20,9 @@ using vec4 = glm::vec4;
 #endif
 
 // ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
-PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres; the emitting ones come first
-PT_CONSTANT ID_PLANE_COUNT = 1;      // planes
-PT_CONSTANT ID_LAMP_COUNT = 2;       // spheres that emit
+PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres held by centre and radius; the emitting ones come first
+PT_CONSTANT ID_PLANE_COUNT = 1;      // planes, and spheres held as planes with a curvature
+PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT
 PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
 PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
 PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
@@ -31,7 +31,8 @@ PT_CONSTANT ID_SCENE_IN_UNIFORM = 7; // 1: the scene is read from the uniform bu
 PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
 PT_CONSTANT ID_TABLE_DIMENSIONS = 9; // dimensions in the point table
 PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
-PT_CONSTANT CONSTANT_COUNT = 11;
+PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
+PT_CONSTANT CONSTANT_COUNT = 12;
 
 // The numbers of pt.h's PT_ESTIMATOR_* and PT_SAMPLER_*.
 PT_CONSTANT ESTIMATOR_UNIFORM = 1;
@@ -86,11 +87,12 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
 // With S = spheres + planes and each block following the one before:
-//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset
+//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/curved_plane.h)
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        R, G, B; probability of choosing the specular lobe
 //   specular[S]       R, G, B; glossiness          (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
+//   curvature[planes] curvature; 0, 0, 0             (only with CURVATURE)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 

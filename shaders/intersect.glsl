@@ -20,6 +20,9 @@ struct Start {
 // al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the
 // sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The side is
 // known: for small far spheres and grazing directions the sign of b would tell it wrongly.
+// Whether there is a hit is told by the side and the direction: from outside, a line that meets the sphere does so
+// ahead if it leads inwards, b > 0; and no direction leads out of a sphere but through its surface. It is not told by
+// the sign of the distance, which rounding may turn, by as little as it rounds, for rays that start near the sphere.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside)
 {
     float b = dot(to_centre, direction);
@@ -28,17 +31,36 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     float half_chord = sqrt(max(squared_half_chord, 0.0));
     bool outside = dot(to_centre, to_centre) > radius * radius;
     float distance = outside ? b - half_chord : b + half_chord;
-    bool met = squared_half_chord >= 0.0 || !outside; // no direction leads out of a sphere but through its surface
+    bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);
     distance = leaving ? abs(2.0 * b) : distance;
     met = leaving ? inside : met;
-    return met && distance > 0.0 ? distance : NO_HIT;
+    return met ? distance : NO_HIT;
 }
 
-// Distance along direction to a plane, or NO_HIT. height = normal . origin + offset; leaving: the ray starts on it.
-float plane_distance(float height, vec3 normal, vec3 direction, bool leaving)
+// Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
+// ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of
+// k / 2 t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
+// cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
+// wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0.
+// Far above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the
+// ray: the squared length of the gradient is 1 + 2 k h.
+float plane_distance(Level level, vec3 direction, bool leaving, bool inside)
 {
-    float distance = -height / dot(normal, direction);
-    return !leaving && distance > 0.0 ? distance : NO_HIT;
+    float slope = dot(level.gradient, direction);
+    if (CURVATURE == 0) {
+        float distance = -level.height / slope;
+        return !leaving && distance > 0.0 ? distance : NO_HIT;
+    }
+    float height = leaving ? 0.0 : level.height;
+    bool below = leaving ? inside : height < 0.0;
+    float rise = 2.0 * level.curvature * height;
+    vec3 across = level.gradient - slope * direction;
+    float discriminant = rise > 1.0 ? 1.0 - dot(across, across) : slope * slope - rise;
+    float q = abs(slope) + sqrt(max(discriminant, 0.0));
+    bool near = !leaving && discriminant >= 0.0 && below == (slope > 0.0);
+    bool far = !near && below && level.curvature > 0.0;
+    float distance = (far ? q : 2.0 * abs(height)) / (far ? level.curvature : q);
+    return (near || far) && distance > 0.0 ? distance : NO_HIT;
 }
 
 struct Hit {
@@ -53,29 +75,6 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// First surface that a ray from the camera, at the origin, meets.
-Hit closest_hit(vec3 direction, float time)
-{
-    Hit hit = Hit(NO_HIT, NO_SURFACE);
-    if (SPHERE_COUNT > 0u) {
-        uint i = 0u;
-        [[unroll]] do {
-            vec4 sphere = sphere_at(i, time);
-            keep_closer(hit, sphere_distance(sphere.xyz, sphere.w, direction, false, false), i);
-            ++i;
-        } while (i < SPHERE_COUNT);
-    }
-    if (PLANE_COUNT > 0u) {
-        uint i = SPHERE_COUNT;
-        [[unroll]] do {
-            vec4 plane = geometry_of(i);
-            keep_closer(hit, plane_distance(plane.w, plane.xyz, direction, false), i);
-            ++i;
-        } while (i < SURFACE_COUNT);
-    }
-    return hit;
-}
-
 // A ray towards a lamp: it is blocked by what it meets before the lamp.
 struct ShadowRay {
     vec3 direction;
@@ -83,64 +82,87 @@ struct ShadowRay {
     uint lamp;      // never blocks itself
 };
 
+// The tests that the walks below share. A walk fetches a surface once for all its rays, so they take what was fetched.
+float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius)
+{
+    bool leaving = sphere == start.surface;
+    return sphere_distance(centre_radius.xyz - start.origin, centre_radius.w, direction, leaving, start.inside);
+}
+
+float distance_to_plane(Start start, vec3 direction, uint plane, Level level)
+{
+    return plane_distance(level, direction, plane == start.surface, start.inside);
+}
+
+// Whether a surface at a distance along a shadow ray blocks it.
+bool blocks(ShadowRay shadow, float distance, uint surface)
+{
+    return distance < shadow.distance && surface != shadow.lamp;
+}
+
+void see_sphere(inout Hit hit, vec3 direction, uint sphere, float time)
+{
+    vec4 centre_radius = sphere_at(sphere, time);
+    keep_closer(hit, sphere_distance(centre_radius.xyz, centre_radius.w, direction, false, false), sphere);
+}
+
+void see_plane(inout Hit hit, vec3 direction, uint plane)
+{
+    keep_closer(hit, plane_distance(level_at(plane, vec3(0.0)), direction, false, false), plane);
+}
+
+// First surface that a ray from the camera, at the origin, meets.
+Hit closest_hit(vec3 direction, float time)
+{
+    Hit hit = Hit(NO_HIT, NO_SURFACE);
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, direction, sphere, time));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, direction, plane));
+    return hit;
+}
+
+void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius)
+{
+    blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
+}
+
+void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level)
+{
+    blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level), plane);
+}
+
 // Whether a shadow ray is blocked.
 bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
-    if (SPHERE_COUNT > 0u) {
-        uint i = 0u;
-        [[unroll]] do {
-            vec4 sphere = sphere_at(i, time);
-            vec3 to_centre = sphere.xyz - start.origin;
-            bool leaving = i == start.surface;
-            float distance = sphere_distance(to_centre, sphere.w, shadow.direction, leaving, start.inside);
-            blocked = blocked || (distance < shadow.distance && i != shadow.lamp);
-            ++i;
-        } while (i < SPHERE_COUNT);
-    }
-    if (PLANE_COUNT > 0u) {
-        uint i = SPHERE_COUNT;
-        [[unroll]] do {
-            vec4 plane = geometry_of(i);
-            float height = dot(plane.xyz, start.origin) + plane.w;
-            float distance = plane_distance(height, plane.xyz, shadow.direction, i == start.surface);
-            blocked = blocked || distance < shadow.distance;
-            ++i;
-        } while (i < SURFACE_COUNT);
-    }
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
+             shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin)));
     return blocked;
 }
 
+void meet_sphere(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint sphere,
+                 float time)
+{
+    vec4 centre_radius = sphere_at(sphere, time);
+    keep_closer(hit, distance_to_sphere(start, direction, sphere, centre_radius), sphere);
+    shade_sphere(blocked, start, shadow, sphere, centre_radius);
+}
+
+void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint plane)
+{
+    Level level = level_at(plane, start.origin);
+    keep_closer(hit, distance_to_plane(start, direction, plane, level), plane);
+    shade_plane(blocked, start, shadow, plane, level);
+}
+
 // One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
-// shadow ray is blocked. Each surface is fetched once for both.
+// shadow ray is blocked.
 Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
-    if (SPHERE_COUNT > 0u) {
-        uint i = 0u;
-        [[unroll]] do {
-            vec4 sphere = sphere_at(i, time);
-            vec3 to_centre = sphere.xyz - start.origin;
-            bool leaving = i == start.surface;
-            keep_closer(hit, sphere_distance(to_centre, sphere.w, direction, leaving, start.inside), i);
-            float distance = sphere_distance(to_centre, sphere.w, shadow.direction, leaving, start.inside);
-            blocked = blocked || (distance < shadow.distance && i != shadow.lamp);
-            ++i;
-        } while (i < SPHERE_COUNT);
-    }
-    if (PLANE_COUNT > 0u) {
-        uint i = SPHERE_COUNT;
-        [[unroll]] do {
-            vec4 plane = geometry_of(i);
-            float height = dot(plane.xyz, start.origin) + plane.w;
-            bool leaving = i == start.surface;
-            keep_closer(hit, plane_distance(height, plane.xyz, direction, leaving), i);
-            float distance = plane_distance(height, plane.xyz, shadow.direction, leaving);
-            blocked = blocked || distance < shadow.distance;
-            ++i;
-        } while (i < SURFACE_COUNT);
-    }
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane));
     return hit;
 }
 

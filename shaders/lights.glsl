@@ -52,7 +52,7 @@ LampChoice lamp_choice(Vertex vertex, float time)
 {
     LampChoice choice = no_lamp_choice();
     uint lamp = 0u;
-    [[unroll]] do {
+    do {
         float weight = view_lamp(vertex, lamp, time).weight;
         choice.total_weight += weight;
         choice.lamp_count += weight > 0.0 ? 1.0 : 0.0;
@@ -107,7 +107,7 @@ uint choose_lamp(Vertex vertex, LampChoice choice, float time, float u)
     uint chosen = 0u;
     float cumulated = 0.0;
     uint lamp = 0u;
-    [[unroll]] do {
+    do {
         float weight = view_lamp(vertex, lamp, time).weight;
         chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
         cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;

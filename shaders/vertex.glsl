@@ -10,7 +10,7 @@ struct Vertex {
     vec3 normal;   // unit, on the side that the path came from
     vec3 incoming; // unit direction in which the path arrived
     uint surface;
-    bool inside; // of the sphere that the surface is; for a plane, on the side away from its normal
+    bool inside; // of the sphere that the surface is; of a plane, on the side away from its normal
 };
 
 // The vertex at a distance along a ray, where it meets a surface. The point is moved onto its surface: along the ray
@@ -24,9 +24,9 @@ Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, floa
         normal = normalize(position - sphere.xyz);
         position = sphere.xyz + sphere.w * normal;
     } else {
-        vec4 plane = geometry_of(surface);
-        normal = plane.xyz;
-        position -= (dot(normal, position) + plane.w) * normal;
+        Level level = level_at(surface, position);
+        normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;
+        position -= level.height * normal;
     }
     bool inside = dot(normal, direction) > 0.0;
     return Vertex(position, inside ? -normal : normal, direction, surface, inside);

@@ -1,4 +1,5 @@
 // Host and kernel agree on the bytes between them: push constants, and the scene buffer word by word.
+#include "curved_plane.h"
 #include "gpu_scene.h"
 #include "probe.h"
 #include "push_layout.spv.h"
@@ -52,6 +53,7 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
     EXPECT_EQ(features.lamp_count, 1U);
     EXPECT_TRUE(features.gloss);
     EXPECT_TRUE(features.motion);
+    EXPECT_FALSE(features.curvature);
     EXPECT_TRUE(features.scene_in_uniform);
 
     const std::vector<glm::vec4> expected = {
@@ -97,6 +99,53 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
         sphere.center += shift;
     scene.planes[0].offset -= glm::dot(scene.planes[0].normal, shift);
     EXPECT_EQ(pt::gpu_scene(scene, camera_at(camera.position + shift), features), expected);
+}
+
+// A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp that
+// is 2048 times as large as far away, and then it counts as a lamp no more.
+TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
+    pt::Scene scene = small_scene();
+    scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
+    scene.spheres.push_back({{0, 0, 4099}, 4096, {0, 0, 0}, 2});
+    const pt::Camera camera = camera_at({0, 0, 1});
+    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+    EXPECT_EQ(features.sphere_count, 2U);
+    EXPECT_EQ(features.plane_count, 3U);
+    EXPECT_EQ(features.lamp_count, 1U);
+    EXPECT_TRUE(features.curvature);
+    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_CURVATURE], 1U);
+
+    const std::vector<glm::vec4> words = pt::gpu_scene(scene, camera, features);
+    ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
+    EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
+    EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
+    EXPECT_EQ(words[4], glm::vec4(0, 1, 0, 4));
+    EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
+    EXPECT_EQ(words[10 + 2], glm::vec4(0.5F, 0.25F, 0, 0));
+    EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
+    EXPECT_EQ(words[23], glm::vec4(1.0F / 4096, 0, 0, 0));
+    EXPECT_EQ(words[24], glm::vec4(0));
+}
+
+// What is not huge against its distance, or moves, keeps its centre and radius.
+TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
+    const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt::Camera camera = camera_at({0, 0, 0});
+    const auto below = [](double radius, double height, double motion) {
+        return pt::Sphere{{0, -radius - height, 0}, radius, {motion, 0, 0}, 0};
+    };
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 0), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(33, -1, 0), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(33, 0, 0), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(31, 1, 0), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
+    EXPECT_FALSE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(1025, 1, 0), lamp, camera));
+    EXPECT_FALSE(pt::curved_plane(below(1023, 1, 0), lamp, camera));
+    pt::Camera closed = camera;
+    closed.shutter_close = closed.shutter_open;
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
 }
 
 TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
