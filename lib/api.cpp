@@ -8,6 +8,8 @@
 #include "struct_size.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -128,10 +130,13 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::copy_in(info, "accumulate");
         pt::Violations violations;
-        pt::Subject(violations, "accumulate")
-            .require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+        const pt::Subject subject(violations, "accumulate");
+        subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+        subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
+                        accumulate.target_error, "must be finite and >= 0");
         violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-        return renderer.accumulate(accumulate.sample_count, accumulate.progress, accumulate.progress_user);
+        return renderer.accumulate(accumulate.sample_count, accumulate.target_error,
+                                   {accumulate.progress, accumulate.progress_user});
     });
 }
 
@@ -140,14 +145,15 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         const pt_image target = pt::copy_in(image, "image");
         // Before pt_set_render there is no size to check against; the renderer refuses then.
         const bool sized = renderer.width() > 0;
-        const auto [data, row_floats] =
-            sized ? pt::validated_image(target, renderer.width(), renderer.height()) : pt::Image{};
-        renderer.readback(data, row_floats);
+        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.height()) : pt::Image{});
     });
 }
 
 pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
-    return pt::guard_context(context, [&](pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
+        pt::copy_out(renderer.stats(with_error), stats, "stats");
+    });
 }
 
 pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count) {

@@ -4,43 +4,102 @@
 #include "error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
 namespace pt {
 
-double sum_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]) {
-    // unsigned __int128 to double rounds once, to nearest.
-    __extension__ using Wide = unsigned __int128;
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+Wide wide_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]) {
     const Wide low = words[0] | Wide{words[1]} << 32;
     const Wide high = words[2] | Wide{words[3]} << 32;
-    return std::ldexp(static_cast<double>(low | high << 64), -static_cast<int>(gpu::FILM_FRACTION_BITS));
+    return low | high << 64;
 }
 
-void mean_radiance(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
-                   std::uint32_t expected_samples, std::span<float> radiance) {
-    for (std::size_t pixel = 0; pixel < radiance.size() / 3; ++pixel) {
-        const auto word = [&](std::size_t plane) { return words[plane * plane_pixels + pixel]; };
-        const std::uint32_t accepted = word(gpu::FILM_ACCEPTED);
-        const std::uint32_t done = accepted + word(gpu::FILM_REJECTED);
-        if (done != expected_samples)
-            throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(done) + " of " +
-                                               std::to_string(expected_samples) + " samples of a pixel");
+double fixed_point_value(Wide sum) {
+    // unsigned __int128 to double rounds once, to nearest.
+    return std::ldexp(static_cast<double>(sum), -static_cast<int>(gpu::FILM_FRACTION_BITS));
+}
+
+// The words of one pixel in one half of the film.
+class HalfPixel {
+public:
+    HalfPixel(std::span<const std::uint32_t> words, std::size_t plane_pixels, std::size_t half, std::size_t pixel) :
+        words_(words.subspan(half * gpu::FILM_WORDS * plane_pixels)),
+        plane_pixels_(plane_pixels),
+        pixel_(pixel) {}
+
+    std::uint32_t accepted() const { return word(gpu::FILM_ACCEPTED); }
+    std::uint32_t done() const { return word(gpu::FILM_ACCEPTED) + word(gpu::FILM_REJECTED); }
+
+    Wide sum(std::size_t channel) const {
+        std::array<std::uint32_t, gpu::FILM_SUM_WORDS> sum{};
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] = word(channel * gpu::FILM_SUM_WORDS + i);
+        return wide_of_words(sum.data());
+    }
+
+private:
+    std::uint32_t word(std::size_t plane) const { return words_[plane * plane_pixels_ + pixel_]; }
+
+    std::span<const std::uint32_t> words_;
+    std::size_t plane_pixels_;
+    std::size_t pixel_;
+};
+
+void require_samples(const HalfPixel &pixel, std::uint32_t expected) {
+    if (pixel.done() != expected)
+        throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(pixel.done()) + " of " +
+                                           std::to_string(expected) + " samples of a pixel in one half of the film");
+}
+
+// Of a mean over a + b samples, from the means of its first a and its other b. If every sample has the variance v, the
+// square of their difference has the expectation v / a + v / b, and the mean has the variance v / (a + b): that square
+// times a b / (a + b)^2.
+double standard_error(double sum_a, double a, double sum_b, double b) {
+    if (a == 0.0 || b == 0.0)
+        return std::numeric_limits<double>::infinity();
+    return std::abs(sum_a / a - sum_b / b) * std::sqrt(a * b) / (a + b);
+}
+
+} // namespace
+
+double sum_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]) {
+    return fixed_point_value(wide_of_words(words));
+}
+
+PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
+                               const HalfCounts &expected) {
+    PixelEstimates estimates;
+    estimates.radiance.reserve(3 * plane_pixels);
+    estimates.standard_error.reserve(3 * plane_pixels);
+    for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
+        const HalfPixel a(words, plane_pixels, 0, pixel);
+        const HalfPixel b(words, plane_pixels, 1, pixel);
+        require_samples(a, expected[0]);
+        require_samples(b, expected[1]);
+        const std::uint32_t accepted = a.accepted() + b.accepted();
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            std::array<std::uint32_t, gpu::FILM_SUM_WORDS> sum{};
-            for (std::size_t i = 0; i < sum.size(); ++i)
-                sum[i] = word(channel * gpu::FILM_SUM_WORDS + i);
-            const double mean = accepted > 0 ? sum_of_words(sum.data()) / accepted : 0.0;
-            radiance[3 * pixel + channel] = static_cast<float>(mean * unit);
+            const Wide sum_a = a.sum(channel);
+            const Wide sum_b = b.sum(channel);
+            const double mean = accepted > 0 ? fixed_point_value(sum_a + sum_b) / accepted : 0.0;
+            const double error =
+                standard_error(fixed_point_value(sum_a), a.accepted(), fixed_point_value(sum_b), b.accepted());
+            estimates.radiance.push_back(static_cast<float>(mean * unit));
+            estimates.standard_error.push_back(static_cast<float>(error * unit));
         }
     }
+    return estimates;
 }
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
     const std::uint64_t bytes = std::min<std::uint64_t>(limits.max_storage_buffer_range, limits.max_allocation_bytes);
-    const std::uint64_t pixels = bytes / (gpu::FILM_WORDS * sizeof(std::uint32_t));
+    const std::uint64_t pixels = bytes / (Film::words_per_pixel * sizeof(std::uint32_t));
     const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({pixels, dispatched, UINT32_MAX}));
 }
@@ -50,7 +109,7 @@ Film::Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, st
     height_(height) {
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(max_strip_pixels, pixel_count() - first);
-        const std::uint64_t words_bytes = std::uint64_t{count} * gpu::FILM_WORDS * sizeof(std::uint32_t);
+        const std::uint64_t words_bytes = count * words_per_pixel * sizeof(std::uint32_t);
         const std::uint64_t pass_bytes = std::uint64_t{count} * sizeof(glm::vec4);
         strips_.push_back({first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"),
                            vulkan::Buffer(device, vulkan::BufferUse::Storage, pass_bytes, "split pass")});
@@ -66,24 +125,18 @@ void Film::clear() {
     }
 }
 
-void Film::read_radiance(double unit, std::uint32_t expected_samples, float *data, std::size_t row_floats) {
+void Film::read(double unit, const HalfCounts &expected, const std::function<void(const PixelEstimates &)> &receive) {
     // A piece of a strip at a time, so that a large image is not held twice.
-    constexpr std::uint32_t piece_pixels = 1U << 18;
+    constexpr std::uint32_t piece_pixels = 1U << 17;
     std::vector<std::uint32_t> words;
-    std::vector<float> radiance;
     for (Strip &strip : strips_) {
         for (std::uint32_t first = 0; first < strip.pixel_count; first += piece_pixels) {
             const std::uint32_t count = std::min(piece_pixels, strip.pixel_count - first);
-            words.resize(std::size_t{count} * gpu::FILM_WORDS);
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane)
+            words.resize(count * words_per_pixel);
+            for (std::size_t plane = 0; plane < words_per_pixel; ++plane)
                 strip.words.download(std::as_writable_bytes(std::span(words).subspan(plane * count, count)),
                                      (plane * strip.pixel_count + first) * sizeof(std::uint32_t));
-            radiance.resize(std::size_t{count} * 3);
-            mean_radiance(words, count, unit, expected_samples, radiance);
-            for (std::uint32_t i = 0; i < count; ++i) {
-                const std::uint32_t pixel = strip.first_pixel + first + i;
-                std::copy_n(&radiance[std::size_t{i} * 3], 3, data + pixel / width_ * row_floats + pixel % width_ * 3);
-            }
+            receive(pixel_estimates(words, count, unit, expected));
         }
     }
 }
@@ -93,9 +146,12 @@ std::uint64_t Film::rejected_samples() {
     std::vector<std::uint32_t> plane;
     for (Strip &strip : strips_) {
         plane.resize(strip.pixel_count);
-        strip.words.download(std::as_writable_bytes(std::span(plane)),
-                             std::uint64_t{gpu::FILM_REJECTED} * strip.pixel_count * sizeof(std::uint32_t));
-        total = std::accumulate(plane.begin(), plane.end(), total);
+        for (std::size_t half = 0; half < gpu::FILM_HALVES; ++half) {
+            const std::uint64_t index = half * gpu::FILM_WORDS + gpu::FILM_REJECTED;
+            strip.words.download(std::as_writable_bytes(std::span(plane)),
+                                 index * strip.pixel_count * sizeof(std::uint32_t));
+            total = std::accumulate(plane.begin(), plane.end(), total);
+        }
     }
     return total;
 }

@@ -1,12 +1,15 @@
-// The film: exact sums of samples on the device, in strips, and their read-out to radiance. Owned by Renderer.
+// The film: exact sums of samples on the device, in strips, and their read-out to radiance and its error. Owned by
+// Renderer.
 #pragma once
 
 #include "gpu_layout.h"
 #include "vulkan/buffer.h"
 #include "vulkan/device.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,11 +18,19 @@ namespace pt {
 // An unsigned 128-bit fixed-point sum, words from the least significant, to double; one rounding to 53 bits.
 double sum_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]);
 
-// Mean radiance of consecutive pixels from their film words (planes of plane_pixels words, gpu_layout.h), as R, G, B per
-// pixel. Every pixel must hold expected_samples, accepted or rejected: else PT_ERROR_INTERNAL, which tells that a driver
-// lost work. A pixel all of whose samples were rejected is black.
-void mean_radiance(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
-                   std::uint32_t expected_samples, std::span<float> radiance);
+// What the samples say about consecutive pixels, as R, G, B per pixel.
+struct PixelEstimates {
+    std::vector<float> radiance;       // mean of all samples; black where all were rejected
+    std::vector<float> standard_error; // of that mean, from the difference of its halves; infinity where one is empty
+};
+
+// How many samples, accepted or rejected, each half of a pixel holds.
+using HalfCounts = std::array<std::uint32_t, gpu::FILM_HALVES>;
+
+// Reads the film words of consecutive pixels (both halves, planes of plane_pixels words, gpu_layout.h). A pixel that does
+// not hold the expected samples is PT_ERROR_INTERNAL, which tells that a driver lost work.
+PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
+                               const HalfCounts &expected);
 
 class Film {
 public:
@@ -27,11 +38,12 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words; // gpu::FILM_WORDS planes
+        vulkan::Buffer words; // gpu::FILM_WORDS planes of each half
         vulkan::Buffer pass;  // one vec4 per pixel: samples of a split pass
     };
 
-    static constexpr std::uint64_t bytes_per_pixel = gpu::FILM_WORDS * sizeof(std::uint32_t) + sizeof(glm::vec4);
+    static constexpr std::uint64_t words_per_pixel = std::uint64_t{gpu::FILM_HALVES} * gpu::FILM_WORDS;
+    static constexpr std::uint64_t bytes_per_pixel = words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
 
     // Zeroed. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
     Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
@@ -41,8 +53,8 @@ public:
 
     void clear();
 
-    // Rows lie row_floats apart.
-    void read_radiance(double unit, std::uint32_t expected_samples, float *data, std::size_t row_floats);
+    // Reads the film in pieces of consecutive pixels, the first beginning with pixel 0.
+    void read(double unit, const HalfCounts &expected, const std::function<void(const PixelEstimates &)> &receive);
 
     std::uint64_t rejected_samples();
 

@@ -12,7 +12,8 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
     const Subject image(violations, "image");
     const std::uint64_t width_bytes = std::uint64_t{width} * 3 * sizeof(float);
     const std::uint64_t row_bytes = source.row_bytes == 0 ? width_bytes : source.row_bytes;
-    image.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
+    image.require(source.quantity <= PT_QUANTITY_STANDARD_ERROR, "quantity", source.quantity,
+                  "must be a PT_QUANTITY_* of pt.h");
     if (!source.data)
         violations.add("image.data", "NULL", "must not be NULL");
     image.require(reinterpret_cast<std::uintptr_t>(source.data) % alignof(float) == 0, "data",
@@ -27,7 +28,7 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
                   "must be >= (height - 1) * row_bytes + width * 12 (" + number_text(height - 1) + " * " +
                       number_text(row_bytes) + " + " + number_text(width_bytes) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-    return {source.data, static_cast<std::size_t>(row_bytes / sizeof(float))};
+    return {source.data, static_cast<std::size_t>(row_bytes / sizeof(float)), source.quantity};
 }
 
 } // namespace pt

@@ -11,6 +11,7 @@ namespace pt {
 struct Image {
     float *data;
     std::size_t row_floats; // distance between rows
+    std::uint32_t quantity; // PT_QUANTITY_*
 };
 
 // Checks that an image whose struct_size is settled holds width x height pixels, both >= 1. Throws

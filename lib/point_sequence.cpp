@@ -139,6 +139,10 @@ std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension) {
     return x;
 }
 
+std::uint32_t prime_base(std::uint32_t dimension) {
+    return primes[dimension];
+}
+
 std::uint32_t radical_inverse(std::uint32_t index, std::uint32_t dimension) {
     // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k), so the inverse is reversed / b^K.
     const std::uint64_t base = primes[dimension];

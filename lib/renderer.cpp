@@ -7,11 +7,12 @@
 #include "gpu_scene.h"
 #include "pathtrace.spv.h"
 #include "point_sequence.h"
+#include "sample_halves.h"
 #include "vulkan/device_choice.h"
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <iterator>
 #include <utility>
 
 namespace pt {
@@ -70,6 +71,7 @@ void Renderer::discard_samples() {
     kernel_.reset();
     samples_done_ = 0;
     pass_pixels_done_ = 0;
+    error_.reset();
 }
 
 void Renderer::set_scene(Scene scene) {
@@ -147,8 +149,10 @@ void Renderer::prepare_kernel() {
     schedule_limits.target_seconds = target_seconds_;
     schedule_limits.first_slice_paths =
         target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(features));
-    schedule_limits.max_samples =
+    // An invocation takes the samples of one half.
+    const auto max_samples_of_half =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.loop_trip_budget / trips, max_table_rows));
+    schedule_limits.max_samples = std::min(longest_range(max_samples_of_half), max_table_rows);
     schedule_limits.pixel_granularity = gpu::WORKGROUP_SIZE;
 
     Kernel kernel{features,
@@ -172,19 +176,24 @@ void Renderer::prepare_kernel() {
 double Renderer::run(const Slice &slice) {
     const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
     const bool pass_complete = !slice.whole && slice_end == film_->pixel_count();
+    const std::uint32_t first_sample = settings_->first_sample + samples_done_;
     gpu::FrameConstants frame = kernel_->frame;
-    frame.first_sample = settings_->first_sample + samples_done_;
-    frame.sample_count = slice.sample_count;
     frame.split_pass = slice.whole ? 0 : 1;
 
+    // Each half's samples are rows of their own in the table of points.
+    const SampleHalves sample_halves(settings_->sampler);
+    std::array<HalfRange, gpu::FILM_HALVES> halves{};
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
+        halves[half] = sample_halves.range(half, first_sample, slice.sample_count);
+        std::ranges::copy(sample_halves.indices(half, halves[half]), std::back_inserter(indices));
+    }
     if (const PointLayout layout = point_layout(kernel_->features); layout.dimensions > 0) {
-        std::vector<std::uint32_t> indices(slice.sample_count);
-        std::iota(indices.begin(), indices.end(), frame.first_sample);
         const std::vector<std::uint32_t> points = point_table(settings_->sampler, indices, layout);
         kernel_->points.upload(std::as_bytes(std::span(points)), 0);
     }
 
-    // Dispatches a kernel over the part of [first, end) in each strip.
+    // Dispatches a kernel over the part of [first, end) in each strip, for each half that has samples.
     const auto dispatch = [&](const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                               const std::vector<vulkan::DescriptorSet> &sets, std::uint32_t first, std::uint32_t end) {
         for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -198,7 +207,15 @@ double Renderer::run(const Slice &slice) {
             frame.first_pixel = strip_first - strip.first_pixel;
             frame.pixel_count = strip_end - strip_first;
             const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
-            pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups);
+            frame.first_row = 0;
+            for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
+                frame.film_half = half;
+                frame.first_pair = halves[half].first_pair;
+                frame.sample_count = halves[half].sample_count;
+                if (frame.sample_count > 0)
+                    pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups);
+                frame.first_row += frame.sample_count;
+            }
         }
     };
     const double seconds = device_.submit([&](const vk::raii::CommandBuffer &commands) {
@@ -219,12 +236,39 @@ void Renderer::advance(const Slice &slice) {
     if (slice_end == film_->pixel_count()) {
         samples_done_ += slice.sample_count;
         pass_pixels_done_ = 0;
+        error_.reset();
     } else {
         pass_pixels_done_ = slice_end;
     }
 }
 
-pt_result Renderer::accumulate(std::uint32_t sample_count, pt_progress_fn progress, void *progress_user) {
+// Samples that the film holds.
+HalfCounts Renderer::half_counts() const {
+    HalfCounts counts{};
+    for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half)
+        counts[half] =
+            SampleHalves(settings_->sampler).range(half, settings_->first_sample, samples_done_).sample_count;
+    return counts;
+}
+
+const ErrorEstimate &Renderer::error() {
+    if (!error_ && samples_done_ < min_estimate_samples)
+        error_ = unknown_error();
+    if (!error_) {
+        ErrorEstimator estimator(settings_->width);
+        film_->read(kernel_->film_unit, half_counts(),
+                    [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
+        error_ =
+            estimator.result(accuracy_of_halves(settings_->sampler, point_layout(kernel_->features), samples_done_));
+    }
+    return *error_;
+}
+
+bool Renderer::is_on_target(double target_error) {
+    return target_error > 0.0 && is_check(samples_done_) && error().relative_rmse.high <= target_error;
+}
+
+pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
     require_settings();
     const std::uint64_t first = std::uint64_t{settings_->first_sample} + samples_done_;
     if (first + sample_count > std::uint64_t{1} << 32)
@@ -237,35 +281,54 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, pt_progress_fn progre
     const std::uint32_t samples_wanted = samples_done_ + sample_count;
     const double start = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
     while (samples_done_ < samples_wanted) {
-        const Slice slice = kernel_->schedule.next(samples_wanted - samples_done_, pass_pixels_done_);
+        if (pass_pixels_done_ == 0 && is_on_target(target_error))
+            return PT_TARGET_REACHED;
+        const std::uint32_t end =
+            target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted;
+        const Slice slice = kernel_->schedule.next(end - samples_done_, pass_pixels_done_);
         kernel_->schedule.measured(slice, run(slice));
         advance(slice);
-        if (!progress)
+        if (!progress.function)
             continue;
         const double pass = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
         const double done = samples_done_ - samples_before + pass - start;
-        const bool stop = progress(progress_user, done / (sample_count - start)) != 0;
+        const bool stop = progress.function(progress.user, done / (sample_count - start)) != 0;
         if (stop && samples_done_ < samples_wanted)
             return PT_CANCELLED;
     }
     return PT_OK;
 }
 
-void Renderer::readback(float *data, std::size_t row_floats) {
+void Renderer::readback(const Image &image) {
     require_settings();
     if (samples_done_ == 0)
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
-    film_->read_radiance(kernel_->film_unit, samples_done_, data, row_floats);
+    const std::size_t width = settings_->width;
+    std::size_t pixel = 0;
+    film_->read(kernel_->film_unit, half_counts(), [&](const PixelEstimates &pixels) {
+        const std::vector<float> &values =
+            image.quantity == PT_QUANTITY_RADIANCE ? pixels.radiance : pixels.standard_error;
+        for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
+            std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);
+    });
 }
 
-pt_stats Renderer::stats() {
+pt_stats Renderer::stats(bool with_error) {
+    const bool readable = film_ && !device_.lost();
+    const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
     pt_stats stats{};
     stats.sample_count = samples_done_;
-    stats.rejected_samples = film_ && !device_.lost() ? film_->rejected_samples() : 0;
+    stats.rejected_samples = readable ? film_->rejected_samples() : 0;
     stats.device_bytes = device_.allocated_bytes();
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
     stats.features = kernel_ ? feature_bits(kernel_->features) : 0;
+    stats.rmse = error.rmse.estimate;
+    stats.rmse_low = error.rmse.low;
+    stats.rmse_high = error.rmse.high;
+    stats.relative_rmse = error.relative_rmse.estimate;
+    stats.relative_rmse_low = error.relative_rmse.low;
+    stats.relative_rmse_high = error.relative_rmse.high;
     return stats;
 }
 

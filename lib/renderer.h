@@ -2,7 +2,9 @@
 #pragma once
 
 #include "camera.h"
+#include "error_estimate.h"
 #include "film.h"
+#include "image.h"
 #include "log.h"
 #include "render_settings.h"
 #include "scene.h"
@@ -27,6 +29,12 @@ struct CreateSettings {
     std::uint32_t submit_milliseconds = 50;
 };
 
+// The caller's pt_progress_fn.
+struct Progress {
+    pt_progress_fn function; // may be NULL
+    void *user;
+};
+
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
@@ -44,13 +52,13 @@ public:
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 
-    // PT_OK or PT_CANCELLED.
-    pt_result accumulate(std::uint32_t sample_count, pt_progress_fn progress, void *progress_user);
+    // PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
+    pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
 
-    // Mean radiance, rows row_floats apart.
-    void readback(float *data, std::size_t row_floats);
+    void readback(const Image &image);
 
-    pt_stats stats();
+    // Without the error its fields say that nothing is known.
+    pt_stats stats(bool with_error);
 
     // Of the kernel's elementary functions; leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
@@ -74,6 +82,9 @@ private:
     void prepare_kernel();
     double run(const Slice &slice);
     void advance(const Slice &slice);
+    HalfCounts half_counts() const;
+    const ErrorEstimate &error();
+    bool is_on_target(double target_error);
 
     Log log_;
     vulkan::Instance instance_;
@@ -89,6 +100,7 @@ private:
     std::optional<Kernel> kernel_;       // empty after a setter
     std::uint32_t samples_done_ = 0;     // whole samples in every pixel
     std::uint32_t pass_pixels_done_ = 0; // of the split pass under way
+    std::optional<ErrorEstimate> error_; // of the whole samples, once it has been asked for
     std::uint64_t submit_count_ = 0;
     double device_seconds_ = 0.0;
 };

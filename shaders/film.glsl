@@ -13,6 +13,14 @@ struct FilmPixel {
     uint rejected;
 };
 
+// Index of the one of the samples 2 * pair and 2 * pair + 1 that belongs to a half: bit 0 adds to the parity of the
+// other bits that are in the mask.
+uint sample_of_pair(uint pair, uint film_half, uint mask)
+{
+    uint even = pair << 1u;
+    return even | ((uint(bitCount(even & mask)) ^ film_half) & 1u);
+}
+
 FilmPixel empty_film_pixel()
 {
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
@@ -69,26 +77,29 @@ void film_add(inout FilmPixel pixel, vec3 value)
     pixel.rejected += accepted ? 0u : 1u;
 }
 
-// Adds to the sum whose least significant word is words[first], its words lying stride apart.
+// Adds to the sum whose least significant word is words[first], its words lying stride apart. The most significant one
+// hardly ever changes, and memory is what an invocation's end costs.
 void film_store_sum(uint first, uint stride, uvec4 sum)
 {
-    uvec4 old = uvec4(film.words[first], film.words[first + stride], film.words[first + 2u * stride],
-                      film.words[first + 3u * stride]);
+    uvec4 old = uvec4(film.words[first], film.words[first + stride], film.words[first + 2u * stride], 0u);
     uvec4 new = add_with_carry(old, sum);
     film.words[first] = new.x;
     film.words[first + stride] = new.y;
     film.words[first + 2u * stride] = new.z;
-    film.words[first + 3u * stride] = new.w;
+    if (new.w != 0u)
+        film.words[first + 3u * stride] += new.w;
 }
 
-// Adds what an invocation has gathered to its pixel of the strip.
-void film_store(uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel)
+// Adds what an invocation has gathered to its pixel of the strip, in one half of the film.
+void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel)
 {
-    film_store_sum(pixel_in_strip, strip_pixel_count, pixel.sums[0]);
-    film_store_sum(pixel_in_strip + FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[1]);
-    film_store_sum(pixel_in_strip + 2u * FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[2]);
-    film.words[FILM_ACCEPTED * strip_pixel_count + pixel_in_strip] += pixel.accepted;
-    film.words[FILM_REJECTED * strip_pixel_count + pixel_in_strip] += pixel.rejected;
+    uint first = film_half * FILM_WORDS * strip_pixel_count + pixel_in_strip;
+    film_store_sum(first, strip_pixel_count, pixel.sums[0]);
+    film_store_sum(first + FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[1]);
+    film_store_sum(first + 2u * FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[2]);
+    film.words[first + FILM_ACCEPTED * strip_pixel_count] += pixel.accepted;
+    if (pixel.rejected != 0u)
+        film.words[first + FILM_REJECTED * strip_pixel_count] += pixel.rejected;
 }
 
 #endif

@@ -96,9 +96,19 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
-// ---- Film: planes of one uint per pixel of the strip ----------------------------------------------------------------
-// Words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least significant
-// word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units (FrameConstants.film_scale).
+// ---- Film: two halves, each planes of one uint per pixel of the strip -----------------------------------------------
+// A sample belongs to the half that is the parity of its index, masked: the image is the sum of the halves, and their
+// difference tells its error. The masks have bit 0, so that of the pair of samples 2k and 2k + 1 each half has one.
+// Their other bits make the halves of a point set good point sets themselves (README.md, section 11): those of Sobol
+// are stratified in every dimension; those of Halton, where every bit costs uniformity in the odd bases, have few.
+PT_CONSTANT FILM_HALVES = 2;
+PT_FUNCTION uint half_mask(uint sampling)
+{
+    return sampling == SAMPLER_HALTON || sampling == SAMPLER_HALTON_CP ? 0x42108421u : 0x7e762db7u;
+}
+// Of a half, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
+// significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units
+// (FrameConstants.film_scale).
 PT_CONSTANT FILM_SUM_WORDS = 4;
 PT_CONSTANT FILM_FRACTION_BITS = 64;
 PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
@@ -120,17 +130,19 @@ struct FrameConstants {
     uint strip_pixel_count;
     uint first_pixel; // of this slice, in the strip
     uint pixel_count;
-    uint first_sample; // index of the slice's first sample
+    uint film_half;    // to which the samples of this dispatch belong
+    uint first_pair;   // the first sample is the one of the pair 2k, 2k + 1 in that half, k = first_pair
+    uint first_row;    // of its point in the table; those of further samples, of the pairs after it, follow
     uint sample_count; // >= 1
-    uint split_pass;   // 1: keep the slice's one sample per pixel aside, 0: add the samples to the film
+    uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
 };
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
-static_assert(sizeof(FrameConstants) == 84 && sizeof(FrameConstants) <= 128);
+static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
 static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
-static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 80);
+static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 88);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

@@ -1,4 +1,5 @@
-// The path tracer's kernel: each invocation takes sample_count samples of one pixel of a slice.
+// The path tracer's kernel: each invocation takes the samples of a slice that belong to one half of the film, in one
+// pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -28,7 +29,8 @@ void main()
     vec3 value;
     uint done = 0u;
     do {
-        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done * row_length);
+        uint sample_index = sample_of_pair(frame.first_pair + done, frame.film_half, half_mask(SAMPLER));
+        SampleKey key = SampleKey(frame.seed, pixel_index, sample_index, (frame.first_row + done) * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;
@@ -37,5 +39,5 @@ void main()
     if (frame.split_pass == 1u)
         split_pass.samples[pixel_in_strip] = vec4(value, 1.0);
     else
-        film_store(pixel_in_strip, frame.strip_pixel_count, gathered);
+        film_store(frame.film_half, pixel_in_strip, frame.strip_pixel_count, gathered);
 }

@@ -5,7 +5,7 @@
 
 #include "scene.glsl"
 
-// Row r holds the points of the slice's r-th sample: coordinates as multiples of 2^-32, those of Sobol with their bits
+// A row holds the points of a sample: coordinates as multiples of 2^-32, those of Sobol with their bits
 // reversed; gpu_layout.h has their order. The points are the same in every pixel; what differs is made from them below.
 layout(set = 0, binding = BINDING_POINTS) readonly buffer Points { uint words[]; } points;
 

@@ -251,12 +251,16 @@ TEST_F(ApiTest, ReadsOlderStructsAsIfZerosFollowed) {
     info.struct_size = offsetof(pt_accumulate_info, progress);
     info.progress = [](void *, double) -> int32_t { throw std::logic_error("must not be called"); };
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
+    info.struct_size = offsetof(pt_accumulate_info, target_error);
+    info.progress = nullptr;
+    info.target_error = -1;
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     std::vector<float> pixels(width * height * 3);
     pt_image target = tight_image(pixels);
     target.struct_size = offsetof(pt_image, row_bytes);
     target.row_bytes = 1;
     EXPECT_EQ(pt_readback(context(), &target), PT_OK) << message();
-    expect_image(1);
+    expect_image(2);
 }
 
 TEST_F(ApiTest, WritesStatsIntoOlderAndNewerStructs) {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace api {
 
@@ -146,6 +148,16 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
                    "accumulate.sample_count = 0: must be >= 1");
     expect_image(3);
 
+    pt_accumulate_info aimless = samples(1);
+    for (const auto &[target, value] : {std::pair{-0.5, "-0.5"},
+                                        {std::numeric_limits<double>::infinity(), "inf"},
+                                        {std::numeric_limits<double>::quiet_NaN(), "nan"}}) {
+        aimless.target_error = target;
+        expect_failure(pt_accumulate(context(), &aimless), PT_ERROR_INVALID_ARGUMENT,
+                       std::string("accumulate.target_error = ") + value + ": must be finite and >= 0");
+    }
+    expect_image(3);
+
     accumulate(2); // goes on as if nothing had happened
     expect_image(5);
 }
@@ -236,7 +248,7 @@ struct Progress {
 TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     set_all();
     Progress progress;
-    const pt_accumulate_info info{sizeof info, 5000, &Progress::call, &progress};
+    const pt_accumulate_info info{sizeof info, 5000, &Progress::call, &progress, 0};
     ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     ASSERT_FALSE(progress.fractions.empty());
     EXPECT_TRUE(std::is_sorted(progress.fractions.begin(), progress.fractions.end()));
@@ -249,7 +261,7 @@ TEST_F(ApiTest, ProgressCancels) {
     set_all();
     Progress progress;
     progress.stop_after = 2;
-    const pt_accumulate_info info{sizeof info, 1U << 30, &Progress::call, &progress};
+    const pt_accumulate_info info{sizeof info, 1U << 30, &Progress::call, &progress, 0};
     ASSERT_EQ(pt_accumulate(context(), &info), PT_CANCELLED) << message();
     EXPECT_EQ(progress.fractions.size(), 2U);
     const uint32_t kept = stats().sample_count;
@@ -260,12 +272,41 @@ TEST_F(ApiTest, ProgressCancels) {
     expect_image(kept + 1);
 }
 
+// Every sample of this scene is the same, so that its error is 0 as soon as it is looked at.
+TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
+    set_all();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const uint32_t more : {0U, 15U}) {
+        if (more > 0)
+            accumulate(more);
+        const pt_stats unknown = stats();
+        EXPECT_EQ(unknown.rmse, infinity);
+        EXPECT_EQ(unknown.rmse_low, 0.0);
+        EXPECT_EQ(unknown.rmse_high, infinity);
+        EXPECT_EQ(unknown.relative_rmse, infinity);
+        EXPECT_EQ(unknown.relative_rmse_low, 0.0);
+        EXPECT_EQ(unknown.relative_rmse_high, infinity);
+    }
+    pt_accumulate_info info = samples(100);
+    info.target_error = 1e-6;
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
+    expect_image(16);
+    const pt_stats known = stats();
+    EXPECT_EQ(known.rmse, 0.0);
+    EXPECT_EQ(known.relative_rmse_high, 0.0);
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
+    expect_image(16);
+    info.target_error = 0.0; // none
+    ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
+    expect_image(116);
+}
+
 // What a C++ callback throws does not cross the C boundary; the film holds whole samples.
 TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
     set_all();
     const pt_accumulate_info info{sizeof info, 1U << 30,
                                   [](void *, double) -> int32_t { throw std::runtime_error("thrown by a callback"); },
-                                  nullptr};
+                                  nullptr, 0};
     expect_failure(pt_accumulate(context(), &info), PT_ERROR_INTERNAL, "thrown by a callback");
     const uint32_t kept = stats().sample_count;
     accumulate(2);

@@ -1,10 +1,12 @@
 // The film's promise: the same samples give the same bits, however they are split over calls and submissions.
 #include "context_fixture.h"
 #include "coursework_scene.h"
+#include "error_estimate.h"
 
 #include <gtest/gtest.h>
 
-#include <numeric>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace {
@@ -50,7 +52,7 @@ TEST_F(ExactnessTest, SliceTargetsKeepTheBits) {
     for (int i = 0; i < 3; ++i) {
         Context other = create_context([&](pt_create_info &info) { info.submit_milliseconds = targets[i]; });
         set_up_coursework(other.get(), 6);
-        const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr};
+        const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr, 0};
         ASSERT_EQ(pt_accumulate(other.get(), &samples), PT_OK) << pt_last_error(other.get());
         images[i].resize(width * height * 3);
         const pt_image image{sizeof image, 0, images[i].data(), images[i].size() * sizeof(float), 0};
@@ -75,7 +77,7 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
     int cancelled = 0;
     for (uint32_t done = 0; done < 48;) {
         Stopper stopper{3};
-        const pt_accumulate_info samples{sizeof samples, 48 - done, &Stopper::progress, &stopper};
+        const pt_accumulate_info samples{sizeof samples, 48 - done, &Stopper::progress, &stopper, 0};
         const pt_result result = pt_accumulate(other.get(), &samples);
         ASSERT_GE(result, PT_OK) << pt_last_error(other.get());
         cancelled += result == PT_CANCELLED;
@@ -94,6 +96,81 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
     const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
     ASSERT_EQ(pt_readback(other.get(), &target), PT_OK) << pt_last_error(other.get());
     EXPECT_EQ(image, uninterrupted);
+}
+
+// The check at which the error was low enough is that of an uninterrupted call, and so are the bits, however the samples come
+// there: in submissions of any length, over calls, after cancellations.
+TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
+    constexpr uint32_t most = 4096;
+    constexpr double target = 0.15;
+    set_up_coursework(context(), 3);
+    const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target};
+    ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
+    const pt_stats reached = stats();
+    EXPECT_GT(reached.sample_count, 16U);
+    EXPECT_LT(reached.sample_count, most);
+    EXPECT_LE(reached.relative_rmse_high, target);
+    Image expected(width * height * 3);
+    readback(expected);
+
+    // Again: it is reached already.
+    ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED);
+    EXPECT_EQ(stats().sample_count, reached.sample_count);
+
+    Context other = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+    set_up_coursework(other.get(), 3);
+    const pt_accumulate_info few{sizeof few, 7, nullptr, nullptr, target};
+    ASSERT_EQ(pt_accumulate(other.get(), &few), PT_OK) << pt_last_error(other.get());
+    pt_result result = PT_CANCELLED;
+    int cancelled = 0;
+    for (; result == PT_CANCELLED; ++cancelled) {
+        Stopper stopper{5};
+        const pt_accumulate_info info{sizeof info, most, &Stopper::progress, &stopper, target};
+        result = pt_accumulate(other.get(), &info);
+    }
+    ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(other.get());
+    EXPECT_GT(cancelled, 2);
+    Image image(width * height * 3);
+    const pt_image readable{sizeof readable, PT_QUANTITY_RADIANCE, image.data(), image.size() * sizeof(float), 0};
+    ASSERT_EQ(pt_readback(other.get(), &readable), PT_OK) << pt_last_error(other.get());
+    EXPECT_EQ(image, expected);
+
+    // And one check earlier it was not.
+    set_up_coursework(context(), 3);
+    uint32_t before = pt::next_check(0);
+    while (pt::next_check(before) < reached.sample_count)
+        before = pt::next_check(before);
+    accumulate(before);
+    EXPECT_GT(stats().relative_rmse_high, target);
+}
+
+// All samples are taken where the target is out of reach, and where it would be reached with the last.
+TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
+    set_up_coursework(context(), 3);
+    for (const double target : {1e-9, 1e9}) {
+        const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target};
+        ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
+    }
+    EXPECT_EQ(stats().sample_count, 16U);
+}
+
+// The standard error of a sample's image from one of each half is half of their difference, as is that of many.
+TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheHalves) {
+    const auto standard_errors = [&] {
+        Image errors(width * height * 3);
+        const pt_image target{sizeof target, PT_QUANTITY_STANDARD_ERROR, errors.data(), errors.size() * sizeof(float),
+                              0};
+        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+        return errors;
+    };
+    const Image both = image_of({2});
+    const Image found = standard_errors();
+    const Image first = image_of({1});
+    EXPECT_EQ(standard_errors(), Image(found.size(), std::numeric_limits<float>::infinity()));
+    for (std::size_t i = 0; i < found.size(); ++i)
+        // |a - b| / 2 = |a - (a + b) / 2|, up to two roundings to float32.
+        ASSERT_NEAR(found[i], std::abs(double{first[i]} - double{both[i]}), 2e-7 * (first[i] + both[i]))
+            << "value " << i;
 }
 
 // Samples are a pure function of their index: two halves of a sequence, taken apart, average to the whole.

@@ -1,12 +1,15 @@
 // Exact sums: the device's fixed-point additions against sums of the same floats in wider integers on the host.
 #include "film.h"
 
-#include "error.h"
+#include "expected_error.h"
 #include "film_sums.spv.h"
 #include "probe.h"
+#include "sample_halves.h"
+#include "sample_pairs.spv.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -57,20 +60,26 @@ std::vector<glm::vec4> awkward_samples() {
         for (int channel = 0; channel < 3; ++channel)
             sample[channel] =
                 kind(generator) == 0 ? special[generator() % std::size(special)] : std::exp2(exponent(generator));
+    // A pixel as bright as can be, whose sums reach into the most significant words.
+    std::fill_n(samples.begin(), per_pixel, glm::vec4(0x1.fffffep27F));
     return samples;
 }
 
 std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, std::size_t pixel) {
-    return film[plane * pixels + pixel];
+    return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
 }
 
+// In the second half of the film; the first stays as it is.
 TEST(Film, DeviceSumsAreExact) {
     struct {
-        std::uint32_t per_pixel, count;
-    } push{per_pixel, pixels};
+        std::uint32_t per_pixel, count, film_half;
+    } push{per_pixel, pixels, 1};
     const std::vector<glm::vec4> samples = awkward_samples();
     Probe probe(film_sums_spirv, sizeof push);
-    std::vector<std::uint32_t> film = probe.run<std::uint32_t>(samples, pixels * pt::gpu::FILM_WORDS, push, pixels);
+    const std::vector<std::uint32_t> film =
+        probe.run<std::uint32_t>(samples, pixels * pt::Film::words_per_pixel, push, pixels);
+    EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
+                            [](std::uint32_t value) { return value == 0; }));
 
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
         Wide sums[3] = {};
@@ -92,6 +101,23 @@ TEST(Film, DeviceSumsAreExact) {
     }
 }
 
+// The kernel and the host agree on which samples belong to which half.
+TEST(Film, DeviceFindsTheSampleOfEachHalfInAPair) {
+    constexpr std::uint32_t count = 1000;
+    for (const std::uint32_t first_pair : {0U, 123456U, (1U << 31) - count}) {
+        struct {
+            std::uint32_t first_pair, count, mask;
+        } push{first_pair, count, pt::gpu::half_mask(PT_SAMPLER_SOBOL)};
+        const auto found = Probe(sample_pairs_spirv, sizeof push).run<glm::uvec2>({}, count, push, count);
+        for (std::uint32_t half = 0; half < 2; ++half) {
+            const std::vector<std::uint32_t> expected =
+                pt::SampleHalves(PT_SAMPLER_SOBOL).indices(half, {first_pair, count});
+            for (std::uint32_t i = 0; i < count; ++i)
+                ASSERT_EQ(found[i][static_cast<int>(half)], expected[i]) << "half " << half << ", pair " << i;
+        }
+    }
+}
+
 TEST(Film, SumOfWordsIsTheFixedPointValue) {
     const std::uint32_t half[4] = {0, 0x80000000U, 0, 0};
     const std::uint32_t one[4] = {0, 0, 1, 0};
@@ -103,33 +129,52 @@ TEST(Film, SumOfWordsIsTheFixedPointValue) {
     EXPECT_EQ(pt::sum_of_words(smallest), 0x1p-64);
 }
 
-// Film words of one pixel whose red sum is the given number of units.
-std::vector<std::uint32_t> film_pixel(std::uint32_t red, std::uint32_t accepted, std::uint32_t rejected) {
-    std::vector<std::uint32_t> words(pt::gpu::FILM_WORDS);
-    words[2] = red;
-    words[pt::gpu::FILM_ACCEPTED] = accepted;
-    words[pt::gpu::FILM_REJECTED] = rejected;
-    return words;
+// What one half of the film holds of a pixel, with the red sum as a number of units.
+struct Half {
+    std::uint32_t red;
+    std::uint32_t accepted;
+    std::uint32_t rejected;
+};
+
+// Estimates from a film of one pixel, with the unit 0.25.
+pt::PixelEstimates estimates(const Half &a, const Half &b, const pt::HalfCounts &expected) {
+    std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
+    const auto set = [&](const Half &half, std::size_t first) {
+        words[first + 2] = half.red;
+        words[first + pt::gpu::FILM_ACCEPTED] = half.accepted;
+        words[first + pt::gpu::FILM_REJECTED] = half.rejected;
+    };
+    set(a, 0);
+    set(b, pt::gpu::FILM_WORDS);
+    return pt::pixel_estimates(words, 1, 0.25, expected);
 }
 
 TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {
-    float radiance[3] = {-1, -1, -1};
-    pt::mean_radiance(film_pixel(9, 3, 1), 1, 0.25, 4, radiance);
-    EXPECT_EQ(radiance[0], 0.75F);
-    EXPECT_EQ(radiance[1], 0.0F);
-    pt::mean_radiance(film_pixel(0, 0, 4), 1, 0.25, 4, radiance);
-    EXPECT_EQ(radiance[0], 0.0F);
+    const std::vector<float> mean = estimates({5, 1, 1}, {4, 2, 0}, {2, 2}).radiance;
+    EXPECT_EQ(mean, (std::vector<float>{0.75F, 0.0F, 0.0F}));
+    EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}, {2, 2}).radiance, std::vector<float>(3, 0.0F));
+}
+
+// Means of 8 and 4 units differ by one radiance unit, of which equal halves count a half.
+TEST(Film, StandardErrorIsFromTheDifferenceOfTheHalves) {
+    EXPECT_EQ(estimates({16, 2, 0}, {8, 2, 0}, {2, 2}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
+    // Of 1 and 4 samples: sqrt(1 * 4) / 5. Rejected samples do not count.
+    EXPECT_EQ(estimates({8, 1, 3}, {16, 4, 0}, {4, 4}).standard_error[0], 0.4F);
+}
+
+TEST(Film, StandardErrorIsUnknownWithAnEmptyHalf) {
+    const std::vector<float> unknown(3, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(estimates({8, 1, 0}, {0, 0, 0}, {1, 0}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 1}, {8, 1, 0}, {1, 1}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 1}, {0, 0, 1}, {1, 1}).standard_error, unknown);
 }
 
 TEST(Film, LostSamplesAreAnError) {
-    float radiance[3];
-    try {
-        pt::mean_radiance(film_pixel(9, 3, 0), 1, 1.0, 4, radiance);
-        FAIL() << "a lost sample went unnoticed";
-    } catch (const pt::Error &error) {
-        EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
-        EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel");
-    }
+    const pt::Error error = error_of([] { estimates({9, 4, 0}, {9, 3, 0}, {4, 4}); });
+    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one half of the film");
+    // Not even if the other half has one too many.
+    EXPECT_EQ(error_of([] { estimates({9, 5, 0}, {9, 3, 0}, {4, 4}); }).code(), PT_ERROR_INTERNAL);
 }
 
 } // namespace

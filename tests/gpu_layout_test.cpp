@@ -21,11 +21,13 @@ TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     frame.strip_pixel_count = 16;
     frame.first_pixel = 17;
     frame.pixel_count = 18;
-    frame.first_sample = 19;
-    frame.sample_count = 20;
-    frame.split_pass = 21;
+    frame.film_half = 19;
+    frame.first_pair = 20;
+    frame.first_row = 21;
+    frame.sample_count = 22;
+    frame.split_pass = 23;
     const auto seen = Probe(push_layout_spirv, sizeof frame).run<float>({}, 24, frame, 1);
-    for (int i = 0; i < 21; ++i)
+    for (int i = 0; i < 23; ++i)
         EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
 }
 

@@ -72,6 +72,7 @@ TEST(LastError, StandsInForAMessageThatCannotBeStored) {
 TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_OK), "PT_OK");
     EXPECT_STREQ(pt::result_name(PT_CANCELLED), "PT_CANCELLED");
+    EXPECT_STREQ(pt::result_name(PT_TARGET_REACHED), "PT_TARGET_REACHED");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_ARGUMENT), "PT_ERROR_INVALID_ARGUMENT");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_SCENE), "PT_ERROR_INVALID_SCENE");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_STATE), "PT_ERROR_INVALID_STATE");
@@ -83,7 +84,7 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_ERROR_SHADER), "PT_ERROR_SHADER");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INTERNAL), "PT_ERROR_INTERNAL");
     EXPECT_STREQ(pt::result_name(-11), "unknown result");
-    EXPECT_STREQ(pt::result_name(2), "unknown result");
+    EXPECT_STREQ(pt::result_name(3), "unknown result");
 }
 
 using Lines = std::vector<std::string>;

@@ -73,20 +73,21 @@ PT_EXPECT_MEMBER(pt_render, estimator, 28, 4);
 PT_EXPECT_MEMBER(pt_render, sampler, 32, 4);
 PT_EXPECT_MEMBER(pt_render, reserved, 36, 4);
 
-PT_EXPECT_STRUCT(pt_accumulate_info, 24);
+PT_EXPECT_STRUCT(pt_accumulate_info, 32);
 PT_EXPECT_MEMBER(pt_accumulate_info, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_accumulate_info, sample_count, 4, 4);
 PT_EXPECT_MEMBER(pt_accumulate_info, progress, 8, 8);
 PT_EXPECT_MEMBER(pt_accumulate_info, progress_user, 16, 8);
+PT_EXPECT_MEMBER(pt_accumulate_info, target_error, 24, 8);
 
 PT_EXPECT_STRUCT(pt_image, 32);
 PT_EXPECT_MEMBER(pt_image, struct_size, 0, 4);
-PT_EXPECT_MEMBER(pt_image, reserved, 4, 4);
+PT_EXPECT_MEMBER(pt_image, quantity, 4, 4);
 PT_EXPECT_MEMBER(pt_image, data, 8, 8);
 PT_EXPECT_MEMBER(pt_image, size_bytes, 16, 8);
 PT_EXPECT_MEMBER(pt_image, row_bytes, 24, 8);
 
-PT_EXPECT_STRUCT(pt_stats, 48);
+PT_EXPECT_STRUCT(pt_stats, 96);
 PT_EXPECT_MEMBER(pt_stats, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_stats, sample_count, 4, 4);
 PT_EXPECT_MEMBER(pt_stats, rejected_samples, 8, 8);
@@ -95,6 +96,12 @@ PT_EXPECT_MEMBER(pt_stats, submit_count, 24, 8);
 PT_EXPECT_MEMBER(pt_stats, device_seconds, 32, 8);
 PT_EXPECT_MEMBER(pt_stats, features, 40, 4);
 PT_EXPECT_MEMBER(pt_stats, reserved, 44, 4);
+PT_EXPECT_MEMBER(pt_stats, rmse, 48, 8);
+PT_EXPECT_MEMBER(pt_stats, rmse_low, 56, 8);
+PT_EXPECT_MEMBER(pt_stats, rmse_high, 64, 8);
+PT_EXPECT_MEMBER(pt_stats, relative_rmse, 72, 8);
+PT_EXPECT_MEMBER(pt_stats, relative_rmse_low, 80, 8);
+PT_EXPECT_MEMBER(pt_stats, relative_rmse_high, 88, 8);
 
 PT_EXPECT_STRUCT(pt_function_accuracy, 64);
 PT_EXPECT_MEMBER(pt_function_accuracy, name, 0, 40);
@@ -112,7 +119,7 @@ PT_EXPECT_MEMBER(pt_create_info, submit_milliseconds, 32, 4);
 PT_EXPECT_MEMBER(pt_create_info, reserved, 36, 4);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
-static_assert(PT_OK == 0 && PT_CANCELLED == 1);
+static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2);
 static_assert(PT_ERROR_INVALID_ARGUMENT == -1 && PT_ERROR_INVALID_SCENE == -2 && PT_ERROR_INVALID_STATE == -3);
 static_assert(PT_ERROR_UNSUPPORTED == -4 && PT_ERROR_NO_DEVICE == -5 && PT_ERROR_OUT_OF_HOST_MEMORY == -6);
 static_assert(PT_ERROR_OUT_OF_DEVICE_MEMORY == -7 && PT_ERROR_DEVICE_LOST == -8 && PT_ERROR_SHADER == -9);
@@ -121,6 +128,7 @@ static_assert(PT_DEVICE_OTHER == 0 && PT_DEVICE_INTEGRATED_GPU == 1 && PT_DEVICE
 static_assert(PT_DEVICE_VIRTUAL_GPU == 3 && PT_DEVICE_CPU == 4);
 static_assert(PT_ESTIMATOR_BEST == 0 && PT_ESTIMATOR_UNIFORM == 1 && PT_ESTIMATOR_MIS == 5);
 static_assert(PT_FEATURE_LAMPS == 1 && PT_FEATURE_GLOSS == 2 && PT_FEATURE_MOTION == 4 && PT_FEATURE_LARGE == 8);
+static_assert(PT_QUANTITY_RADIANCE == 0 && PT_QUANTITY_STANDARD_ERROR == 1);
 static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
 

@@ -32,6 +32,7 @@ TEST(Image, IsTightByDefault) {
     const pt::Image image = pt::validated_image(valid_image(), width, height);
     EXPECT_EQ(image.data, memory);
     EXPECT_EQ(image.row_floats, width * 3);
+    EXPECT_EQ(image.quantity, uint32_t{PT_QUANTITY_RADIANCE});
 }
 
 TEST(Image, MayHaveGapsBetweenRows) {
@@ -57,10 +58,12 @@ TEST(Image, NeedsAlignedData) {
                                   ": must be a multiple of 4");
 }
 
-TEST(Image, NeedsReservedZero) {
+TEST(Image, NeedsAKnownQuantity) {
     pt_image image = valid_image();
-    image.reserved = 1;
-    EXPECT_EQ(message(image), "image.reserved = 1: must be 0");
+    image.quantity = PT_QUANTITY_STANDARD_ERROR;
+    EXPECT_EQ(pt::validated_image(image, width, height).quantity, uint32_t{PT_QUANTITY_STANDARD_ERROR});
+    image.quantity = 2;
+    EXPECT_EQ(message(image), "image.quantity = 2: must be a PT_QUANTITY_* of pt.h");
 }
 
 TEST(Image, NeedsWholeFloatsInARow) {

@@ -20,7 +20,7 @@ Image render(pt_context *context, const InvarianceScene &source, uint64_t seed =
     const pt_scene scene = source.scene();
     pt_render settings = CourseworkScene::render(width, height, 4);
     settings.seed = seed;
-    const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr};
+    const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0};
     Image image(std::size_t{3} * width * height);
     const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
     EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);

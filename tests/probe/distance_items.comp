@@ -23,5 +23,5 @@ void main()
     float start = items[index].direction_start.w;
     bool leaving = start > 0.0;
     results[index] = vec4(sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0),
-                          plane_distance(sphere.w, sphere.xyz, direction, leaving), 0.0, 0.0);
+                          plane_distance(Level(sphere.w, sphere.xyz, 0.0), direction, leaving, start == 2.0), 0.0, 0.0);
 }

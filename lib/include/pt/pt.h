@@ -40,6 +40,7 @@ typedef int32_t pt_result;
 enum {
     PT_OK = 0,
     PT_CANCELLED = 1,               /* the progress callback asked to stop; whole samples were kept */
+    PT_TARGET_REACHED = 2,          /* the target error was reached before all samples were taken */
     PT_ERROR_INVALID_ARGUMENT = -1, /* a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,    /* a scene breaks a rule; the message names field, value and rule */
     PT_ERROR_INVALID_STATE = -3,    /* something has to be set first; the message says what */
@@ -171,11 +172,25 @@ typedef struct pt_accumulate_info {
     uint32_t sample_count;   /* samples to add to every pixel, >= 1; indices must stay below 2^32 */
     pt_progress_fn progress; /* may be NULL */
     void *progress_user;
+    /* 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
+     * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has 16, 18,
+     * 20, ... 32, 36, 40, ... 64, 72, ... samples, eighths of a power of two, and at no other time: where a sequence
+     * ends does not depend on how it is split over calls. Finite, >= 0. */
+    double target_error;
 } pt_accumulate_info;
+
+/* pt_image.quantity */
+enum {
+    PT_QUANTITY_RADIANCE = 0, /* mean of the samples */
+    /* standard error of that mean, from two halves of the samples: half the magnitude of the difference of their means.
+     * It has one degree of freedom, so in a single pixel it is a hint and no more: it is below a third of the true one
+     * in a quarter of all values. INFINITY where a half has no sample. */
+    PT_QUANTITY_STANDARD_ERROR = 1
+};
 
 typedef struct pt_image {
     uint32_t struct_size;
-    uint32_t reserved;
+    uint32_t quantity;   /* PT_QUANTITY_* */
     float *data;         /* receives R, G, B of each pixel, row by row from the top */
     uint64_t size_bytes; /* of data; at least (height - 1) * row_bytes + width * 12 */
     uint64_t row_bytes;  /* distance between rows, a multiple of 4; default width * 12 */
@@ -198,6 +213,17 @@ typedef struct pt_stats {
     double device_seconds;     /* time spent in them */
     uint32_t features;         /* PT_FEATURE_* */
     uint32_t reserved;
+    /* Error of the image, estimated without a reference (shaders/README.md, section 11): the root of the mean of
+     * (x - r)^2 over pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01),
+     * each with bounds of 95% confidence. Light that no sample has met yet is not in it. With fewer than 16 samples
+     * nothing is known: the lower bounds are 0, the others INFINITY. A struct that ends before these fields spares the
+     * read-out that they take. */
+    double rmse;
+    double rmse_low;
+    double rmse_high;
+    double relative_rmse;
+    double relative_rmse_low;
+    double relative_rmse_high;
 } pt_stats;
 
 /* ---- Accuracy --------------------------------------------------------------------------------------------------- */
@@ -276,7 +302,7 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * (uniform, cosine, light) meet them on surfaces of glossiness beyond 1e5, for which they should not be used. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/* Writes the mean radiance of the samples so far. PT_ERROR_INVALID_STATE if there is none. */
+/* Writes the mean radiance of the samples so far, or its standard error. PT_ERROR_INVALID_STATE if there is none. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 /* stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. */

@@ -1,0 +1,75 @@
+// The error of an image, estimated from the standard errors of its pixels. Pure arithmetic; Renderer feeds it with the film.
+#pragma once
+
+#include "point_sequence.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// An estimate and its bounds of 95% confidence.
+struct Interval {
+    double estimate;
+    double low;
+    double high;
+};
+
+struct ErrorEstimate {
+    Interval rmse;          // root of the mean of (x - r)^2 over pixels and channels
+    Interval relative_rmse; // of (x - r)^2 / (r^2 + 0.01)
+};
+
+// With fewer samples the difference of two halves says too little.
+inline constexpr std::uint32_t min_estimate_samples = 16;
+
+// What is known without samples.
+ErrorEstimate unknown_error();
+
+// The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of two.
+std::uint32_t next_check(std::uint32_t sample_count);
+bool is_check(std::uint32_t sample_count);
+
+// How well the difference of two halves of a point set tells the error of the whole.
+struct HalvesAccuracy {
+    double unseen;      // factor >= 1 of the error, for what both halves have in common
+    double exaggerated; // factor >= 1 by which the difference may exceed the error
+};
+
+// layout: which dimensions of the point set the samples consume.
+HalvesAccuracy accuracy_of_halves(std::uint32_t sampler, const PointLayout &layout, std::uint32_t sample_count);
+
+// Square of a pixel's limit, for the denominator of the relative error, in one channel of a pixel: from its mean and standard
+// error, and the median of the means about it.
+double squared_limit(double mean, double standard_error, double median);
+
+class ErrorEstimator {
+public:
+    explicit ErrorEstimator(std::uint32_t width);
+
+    // Takes consecutive pixels, the first being the first of the image: R, G, B of radiance and of its standard error.
+    void add(std::span<const float> radiance, std::span<const float> standard_error);
+
+    // Of all pixels taken: whole rows, at least one.
+    ErrorEstimate result(const HalvesAccuracy &accuracy);
+
+private:
+    // Sums over a part of the image.
+    struct Tile {
+        double value_count;
+        double squares; // of errors
+        double relative_squares;
+    };
+
+    void finish_band();
+    Interval root_mean(double Tile::*squares, const HalvesAccuracy &accuracy) const;
+
+    std::size_t row_values_;
+    std::vector<float> radiance_; // of a band of tiles that is not complete
+    std::vector<float> standard_error_;
+    std::vector<Tile> tiles_;
+};
+
+} // namespace pt
