@@ -102,7 +102,7 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
 // there: in submissions of any length, over calls, after cancellations.
 TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
     constexpr uint32_t most = 4096;
-    constexpr double target = 0.15;
+    constexpr double target = 0.07;
     set_up_coursework(context(), 3);
     const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target};
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
