@@ -12,8 +12,9 @@ namespace {
 constexpr double nearly_flat = 32.0;
 
 // A lamp that is held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions
-// alone. That serves as well where it fills half of the view, as one does that is so much larger than its distance.
-constexpr double nearly_flat_lamp = 1024.0;
+// alone. That serves as well where it fills half of the view, but sees its rim, of which few directions know, with more
+// noise, so it begins where the centre's precision ends: here its surface is off by 2^-24 R, 1/256 of the distance.
+constexpr double nearly_flat_lamp = 65536.0;
 
 bool moves(const Sphere &sphere, const Camera &camera) {
     return sphere.motion != glm::dvec3(0.0) && camera.shutter_close > camera.shutter_open;

@@ -64,7 +64,8 @@ HalvesAccuracy accuracy_of_halves(std::uint32_t sampler, const PointLayout &layo
     if (sampler == PT_SAMPLER_SOBOL)
         return {1.0, exaggerated};
     // Radical inverses in a base above N are a regular row of points that leaves a part of [0, 1) empty; both halves share it,
-    // and the error that it makes. Measured, the estimate is too small by up to sqrt(3) where that is so in all dimensions.
+    // and the error that it makes, as they share most of it while N is a few times the base. Measured, the estimate is too small
+    // by up to sqrt(3) where that is so in all dimensions.
     std::uint32_t uncovered = 0;
     for (std::uint32_t d = 0; d < layout.dimensions; ++d) {
         const std::uint64_t points = std::uint64_t{sample_count} * (d < layout.shared ? 1 : layout.branches);
