@@ -108,7 +108,7 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
-    scene.spheres.push_back({{0, 0, 4099}, 4096, {0, 0, 0}, 2});
+    scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
     const pt::Camera camera = camera_at({0, 0, 1});
     const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
     EXPECT_EQ(features.sphere_count, 2U);
@@ -125,7 +125,7 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
     EXPECT_EQ(words[10 + 2], glm::vec4(0.5F, 0.25F, 0, 0));
     EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
-    EXPECT_EQ(words[23], glm::vec4(1.0F / 4096, 0, 0, 0));
+    EXPECT_EQ(words[23], glm::vec4(1.0F / 262144, 0, 0, 0));
     EXPECT_EQ(words[24], glm::vec4(0));
 }
 
@@ -143,8 +143,8 @@ TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     EXPECT_FALSE(pt::curved_plane(below(31, 1, 0), diffuse, camera));
     EXPECT_FALSE(pt::curved_plane(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
     EXPECT_FALSE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
-    EXPECT_TRUE(pt::curved_plane(below(1025, 1, 0), lamp, camera));
-    EXPECT_FALSE(pt::curved_plane(below(1023, 1, 0), lamp, camera));
+    EXPECT_TRUE(pt::curved_plane(below(65537, 1, 0), lamp, camera));
+    EXPECT_FALSE(pt::curved_plane(below(65535, 1, 0), lamp, camera));
     pt::Camera closed = camera;
     closed.shutter_close = closed.shutter_open;
     EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
