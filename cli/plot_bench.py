@@ -13,6 +13,7 @@ import matplotlib
 
 matplotlib.use("Agg")  # no window, no display needed
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 # Okabe and Ito's palette without its yellow, which is too light for lines (Wong 2011, "Color blindness").
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00"]
@@ -68,6 +69,7 @@ def plot(bench):
     axes.set_title(f"{scene}, {bench['width']}x{bench['height']}, {bench['device']['name']}", fontsize=10)
     axes.grid(which="major", color="#dddddd", linewidth=0.6)
     axes.set_axisbelow(True)
+    axes.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())  # a decade's labels would overlap
     axes.spines[["top", "right"]].set_visible(False)
     figure.subplots_adjust(left=0.09, right=0.8, bottom=0.11, top=0.92)  # room for the labels
     axes.autoscale_view()  # settles the scales that the labels' places depend on
