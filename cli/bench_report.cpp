@@ -2,6 +2,7 @@
 // Called by bench_command; bench_run fills it.
 #include "bench_report.h"
 
+#include "device_text.h"
 #include "method_names.h"
 #include "render_report.h"
 

@@ -1,5 +1,5 @@
-// Owns the options that `pt render` and `pt bench` share, and the reading of values that CLI11 reads too laxly.
-// Called by render_options and bench_options.
+// Owns the options that `pt render`, `pt bench` and `pt selftest` share, and the reading of values that CLI11 reads too
+// laxly. Called by render_options, bench_options and selftest_command.
 #pragma once
 
 #include "number.h"

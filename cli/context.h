@@ -1,5 +1,5 @@
 // Owns one pt_context and turns its failures into Failure.
-// Called by render_command and bench_command.
+// Called by render_command, bench_command and selftest_command.
 #pragma once
 
 #include "exit_code.h"
@@ -7,6 +7,7 @@
 #include <pt/pt.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -34,15 +35,24 @@ public:
         }
     }
 
-    // Three components to a pixel.
-    std::vector<float> read_image(const pt_render &render) const {
-        std::vector<float> radiance(std::size_t{3} * render.width * render.height);
+    // Includes the estimate of the error, which takes a read-out of the image.
+    pt_stats read_stats() const {
+        pt_stats stats{};
+        stats.struct_size = sizeof(pt_stats);
+        require(pt_get_stats(context_, &stats));
+        return stats;
+    }
+
+    // Three components to a pixel. quantity: PT_QUANTITY_*.
+    std::vector<float> read_image(const pt_render &render, std::uint32_t quantity = PT_QUANTITY_RADIANCE) const {
+        std::vector<float> values(std::size_t{3} * render.width * render.height);
         pt_image image{};
         image.struct_size = sizeof(pt_image);
-        image.data = radiance.data();
-        image.size_bytes = radiance.size() * sizeof(float);
+        image.quantity = quantity;
+        image.data = values.data();
+        image.size_bytes = values.size() * sizeof(float);
         require(pt_readback(context_, &image));
-        return radiance;
+        return values;
     }
 
 private:

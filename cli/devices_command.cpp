@@ -2,8 +2,8 @@
 // Called by main.
 #include "devices_command.h"
 
+#include "device_text.h"
 #include "exit_code.h"
-#include "render_report.h"
 
 #include <pt/pt.h>
 
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <iomanip>
 #include <iostream>
 #include <string>
@@ -33,27 +32,6 @@ std::vector<pt_device_info> list_devices() {
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
     }
     return devices;
-}
-
-std::string kind_name(std::uint32_t kind) {
-    switch (kind) {
-    case PT_DEVICE_INTEGRATED_GPU:
-        return "integrated GPU";
-    case PT_DEVICE_DISCRETE_GPU:
-        return "discrete GPU";
-    case PT_DEVICE_VIRTUAL_GPU:
-        return "virtual GPU";
-    case PT_DEVICE_CPU:
-        return "CPU";
-    default:
-        return "other";
-    }
-}
-
-std::string memory_text(std::uint64_t bytes) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f GiB", static_cast<double>(bytes) / 0x1p30);
-    return text.data();
 }
 
 constexpr std::size_t column_count = 7;

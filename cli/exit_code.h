@@ -11,7 +11,7 @@ namespace cli {
 
 enum class ExitCode {
     done = 0,
-    internal = 1,
+    internal = 1, // something computes wrongly: the program, the library, the driver or the device
     usage = 2,
     scene = 3,
     no_device = 4,
@@ -20,16 +20,17 @@ enum class ExitCode {
     signal = 128 // plus the signal's number
 };
 
-inline constexpr const char *exit_code_help = "Exit codes:\n"
-                                              "  0    done\n"
-                                              "  1    internal error, or a message of the validation layer\n"
-                                              "  2    usage: a wrong option or value\n"
-                                              "  3    scene: the scene file is not valid\n"
-                                              "  4    no usable Vulkan device or driver\n"
-                                              "  5    device lost; another try may succeed\n"
-                                              "  6    a file could not be read or written\n"
-                                              "  130  SIGINT: the samples done so far were written, if there were any\n"
-                                              "  143  SIGTERM: the same\n";
+inline constexpr const char *exit_code_help =
+    "Exit codes:\n"
+    "  0    done\n"
+    "  1    internal error, a message of the validation layer, or a failed selftest\n"
+    "  2    usage: a wrong option or value\n"
+    "  3    scene: the scene file is not valid\n"
+    "  4    no usable Vulkan device or driver\n"
+    "  5    device lost; another try may succeed\n"
+    "  6    a file could not be read or written\n"
+    "  130  SIGINT: the samples done so far were written, if there were any\n"
+    "  143  SIGTERM: the same\n";
 
 class Failure : public std::runtime_error {
 public:

@@ -7,6 +7,7 @@
 #include "render_command.h"
 #include "render_options.h"
 #include "render_report.h"
+#include "selftest_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -30,12 +31,17 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::RenderOptions options;
     CLI::App *render = program.add_subcommand("render", "Render a scene file to images");
     cli::add_render_options(*render, options);
-    render->footer("A file that cannot be written whole is left as it was.\n\n" + std::string(cli::exit_code_help));
+    render->footer(std::string(cli::render_help) + "\n" + cli::exit_code_help);
 
     cli::BenchOptions bench_options;
     CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
     cli::add_bench_options(*bench, bench_options);
     bench->footer(std::string(cli::bench_help) + "\n" + cli::exit_code_help);
+
+    cli::SelftestOptions selftest_options;
+    CLI::App *selftest = program.add_subcommand("selftest", "Check a device against exact answers, in a second or so");
+    cli::add_selftest_options(*selftest, selftest_options);
+    selftest->footer(std::string(cli::selftest_help) + "\n" + cli::exit_code_help);
 
     bool as_json = false;
     CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
@@ -48,9 +54,10 @@ int parse_and_run(int argument_count, char **arguments) {
             return program.exit(error); // --help and --version
         }
         return fail(cli::ExitCode::usage, std::string(error.what()) + " (see pt " +
-                                              (render->parsed()  ? "render "
-                                               : bench->parsed() ? "bench "
-                                                                 : "") +
+                                              (render->parsed()     ? "render "
+                                               : bench->parsed()    ? "bench "
+                                               : selftest->parsed() ? "selftest "
+                                                                    : "") +
                                               "--help)");
     }
     if (render->parsed()) {
@@ -59,10 +66,13 @@ int parse_and_run(int argument_count, char **arguments) {
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
+    if (selftest->parsed()) {
+        return cli::run_selftest(selftest_options);
+    }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench or devices (see pt --help)");
+    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench, selftest or devices (see pt --help)");
 }
 
 } // namespace

@@ -26,6 +26,13 @@ std::optional<Number> parse_number(std::string_view text) {
     return number;
 }
 
+// "0.005" or "0.5%", both 0.005.
+inline std::optional<double> parse_share(std::string_view text) {
+    const bool percent = text.ends_with('%');
+    const auto number = parse_number<double>(percent ? text.substr(0, text.size() - 1) : text);
+    return number && percent ? std::optional(*number / 100.0) : number;
+}
+
 struct ImageSize {
     std::uint32_t width;
     std::uint32_t height;

@@ -1,9 +1,10 @@
 // Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by render_command from the library's progress callback.
+// Called by render_samples and bench_command from the library's progress callback.
 #include "progress.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,8 @@ std::string duration_text(double seconds) {
 }
 
 // What is left, if it goes on as it went so far.
-double remaining_seconds(double fraction, double seconds) {
-    return seconds * (1.0 - fraction) / fraction;
+double remaining_seconds(double samples, std::uint64_t sample_count, double seconds) {
+    return seconds * (static_cast<double>(sample_count) - samples) / samples;
 }
 
 } // namespace
@@ -54,36 +55,39 @@ Progress::~Progress() {
 }
 
 void Progress::update(double fraction, Clock::time_point now) {
-    if (style_ == ProgressStyle::none || fraction <= 0.0 || (now < next_update_ && fraction < 1.0)) {
+    update_samples(fraction * static_cast<double>(sample_count_), now);
+}
+
+void Progress::update_samples(double sample_count, Clock::time_point now) {
+    fraction_ = std::max(fraction_, sample_count / static_cast<double>(sample_count_));
+    if (style_ == ProgressStyle::none || sample_count <= 0.0 || (now < next_update_ && fraction_ < 1.0)) {
         return;
     }
     next_update_ = now + update_interval;
     // Below the clock's resolution there is no speed to tell.
     const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
     if (style_ == ProgressStyle::json) {
-        print_json(fraction, seconds);
+        print_json(sample_count, seconds);
     } else {
-        print_line(fraction, seconds);
+        print_line(sample_count, seconds);
     }
 }
 
-void Progress::print_line(double fraction, double seconds) {
-    const double samples = fraction * static_cast<double>(sample_count_);
+void Progress::print_line(double samples, double seconds) {
     std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%.0f spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction,
+    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%.0f spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction_,
                   std::floor(samples), static_cast<double>(sample_count_), samples * pixel_count_ / seconds * 1e-6,
-                  duration_text(remaining_seconds(fraction, seconds)).c_str());
+                  duration_text(remaining_seconds(samples, sample_count_, seconds)).c_str());
     output_ << erase_line << text.data() << std::flush;
 }
 
-void Progress::print_json(double fraction, double seconds) {
-    const double samples = fraction * static_cast<double>(sample_count_);
-    const nlohmann::ordered_json line{{"fraction", fraction},
+void Progress::print_json(double samples, double seconds) {
+    const nlohmann::ordered_json line{{"fraction", fraction_},
                                       {"samples_per_pixel", static_cast<std::uint64_t>(samples)},
                                       {"samples_per_pixel_total", sample_count_},
                                       {"paths_per_second", samples * pixel_count_ / seconds},
                                       {"seconds", seconds},
-                                      {"eta_seconds", remaining_seconds(fraction, seconds)}};
+                                      {"eta_seconds", remaining_seconds(samples, sample_count_, seconds)}};
     output_ << line.dump() << std::endl;
 }
 

@@ -1,5 +1,5 @@
 // Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by render_command and bench_command from the library's progress callback.
+// Called by render_samples and bench_command from the library's progress callback.
 #pragma once
 
 #include <chrono>
@@ -25,14 +25,21 @@ public:
     // The share that is done, in [0, 1]. Prints at most ten times a second, and at the end.
     void update(double fraction, Clock::time_point now);
 
+    // The same by the samples that are done. The share that is told never falls, whatever is expected in between.
+    void update_samples(double sample_count, Clock::time_point now);
+
+    // From now on this many samples are to be traced in all.
+    void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
+
 private:
-    void print_line(double fraction, double seconds);
-    void print_json(double fraction, double seconds);
+    void print_line(double samples, double seconds);
+    void print_json(double samples, double seconds);
 
     std::ostream &output_;
     ProgressStyle style_;
     double pixel_count_;
     std::uint64_t sample_count_;
+    double fraction_ = 0.0; // the largest told
     Clock::time_point start_;
     Clock::time_point next_update_;
 };

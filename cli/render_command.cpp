@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "render_output.h"
 #include "render_report.h"
+#include "render_samples.h"
 #include "render_settings.h"
 #include "scene_file.h"
 #include "scene_setup.h"
@@ -53,33 +54,12 @@ pt_create_info create_info(const RenderOptions &options, ValidationLog &log) {
     return info;
 }
 
-// What the library's progress callback needs.
-struct Watch {
-    Progress &progress;
-    const ImageWriter &writer;
-
-    static std::int32_t receive(void *user, double fraction) {
-        auto *watch = static_cast<Watch *>(user);
-        watch->progress.update(fraction, Clock::now());
-        return interrupt_signal() != 0 || watch->writer.failed() ? 1 : 0;
-    }
-};
-
-void accumulate(const Context &context, const RenderOptions &options, const RenderSettings &settings,
-                const ImageWriter &writer) {
-    if (interrupt_signal() != 0) {
-        return;
-    }
+void take_samples_with_progress(const Context &context, const RenderOptions &options, const RenderSettings &settings,
+                                const ImageWriter &writer) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
     Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
                       pixel_count, settings.sample_count, Clock::now());
-    Watch watch{progress, writer};
-    pt_accumulate_info info{};
-    info.struct_size = sizeof(pt_accumulate_info);
-    info.sample_count = settings.sample_count;
-    info.progress = &Watch::receive;
-    info.progress_user = &watch;
-    context.require(pt_accumulate(context.get(), &info));
+    take_samples(context, settings, writer, progress);
 }
 
 void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
@@ -91,12 +71,13 @@ void print_summary(const RenderReport &report, const std::vector<std::string> &w
     for (const std::string &path : written) {
         std::cout << path << (&path == &written.back() ? ": " : ", ");
     }
-    std::cout << summary_text(report) << std::endl;
+    std::cout << summary_text(report) << '\n' << error_text(report) << std::endl;
 }
 
 ExitCode write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
-                       std::span<const float> radiance, Clock::time_point start) {
-    const std::vector<std::string> written = write_images(writer, options, report, radiance);
+                       std::span<const float> radiance, std::span<const float> standard_error,
+                       Clock::time_point start) {
+    const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
     report.total_seconds = seconds_since(start);
     if (!options.stats.empty()) {
         write_stats(options.stats, report);
@@ -104,7 +85,7 @@ ExitCode write_outputs(ImageWriter &writer, const RenderOptions &options, Render
     if (!options.quiet && !written.empty()) {
         print_summary(report, written);
     }
-    return written.size() == options.outputs.size() ? ExitCode::done : ExitCode::file;
+    return written.size() == output_count(options) ? ExitCode::done : ExitCode::file;
 }
 
 void print_interruption(std::uint32_t done, std::uint32_t wanted) {
@@ -119,6 +100,7 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
     report.scene = file.path;
     report.render = settings.render;
     report.requested_sample_count = settings.sample_count;
+    report.target_error = settings.target_error;
 
     const Clock::time_point create_start = Clock::now();
     const pt_create_info info = create_info(options, log);
@@ -130,12 +112,11 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
     // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
     ImageWriter writer;
     const Clock::time_point accumulate_start = Clock::now();
-    accumulate(context, options, settings, writer);
+    take_samples_with_progress(context, options, settings, writer);
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(start);
 
-    report.stats.struct_size = sizeof(pt_stats);
-    context.require(pt_get_stats(context.get(), &report.stats));
+    report.stats = context.read_stats();
     if (interrupt_signal() != 0) {
         print_interruption(report.stats.sample_count, settings.sample_count);
         if (report.stats.sample_count == 0) {
@@ -143,7 +124,12 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
         }
     }
     writer.wait();
-    return write_outputs(writer, options, report, context.read_image(settings.render), start);
+    const std::vector<float> radiance = context.read_image(settings.render);
+    std::vector<float> standard_error;
+    if (!options.standard_error.empty()) {
+        standard_error = context.read_image(settings.render, PT_QUANTITY_STANDARD_ERROR);
+    }
+    return write_outputs(writer, options, report, radiance, standard_error, start);
 }
 
 } // namespace

@@ -8,6 +8,19 @@
 namespace cli {
 namespace {
 
+CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_error) {
+    const auto read = [&target_error](const std::string &text) {
+        target_error = parse_share(text);
+        if (!target_error || *target_error <= 0.0) {
+            refuse_option("--error", "must be a number above 0 like 0.005 or 0.5%", text);
+        }
+    };
+    return command
+        .add_option_function<std::string>("--error", read,
+                                          "Stop at this relative error, like 0.5% or 0.005 (default: take all samples)")
+        ->type_name("E");
+}
+
 void add_output_options(CLI::App &command, RenderOptions &options) {
     command
         .add_option("-o,--output", options.outputs,
@@ -15,6 +28,10 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
         ->required()
         ->expected(1)
         ->take_all()
+        ->type_name("FILE");
+    command
+        .add_option("--standard-error", options.standard_error,
+                    "Write the standard error of every pixel (.exr), estimated from two halves of its samples")
         ->type_name("FILE");
     command.add_option("--stats", options.stats, "Write the facts of the rendering as JSON")->type_name("FILE");
 }
@@ -37,8 +54,10 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
     const std::string group = "Sampling";
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
-                                    "Samples per pixel (default: the scene's, else 64)")
+                                    "Samples per pixel; with --error the most (default: the scene's, else 64, with "
+                                    "--error 65536)")
         ->group(group);
+    add_target_error(command, options.target_error)->group(group);
     add_seed(command, options.seed)->group(group);
     add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
                                     "Index of the first sample, to continue a sequence (default: 0)")
@@ -67,6 +86,14 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
 }
 
 } // namespace
+
+const char *const render_help =
+    "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
+    "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
+    "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
+    "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
+    "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
+    "A file that cannot be written whole is left as it was.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
     command.add_option("scene", options.scene, "Scene file (JSON)")->required()->type_name("SCENE");

@@ -17,11 +17,13 @@ namespace cli {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
+    std::string standard_error; // path of the image of standard errors; empty: none
     std::string stats;
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;
     std::optional<std::uint32_t> sample_count;
+    std::optional<double> target_error; // relative; nothing: take all samples
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sampler;
@@ -37,6 +39,8 @@ struct RenderOptions {
     std::string progress = "auto";
     bool quiet = false;
 };
+
+extern const char *const render_help;
 
 // The options write into `options` when the command line is parsed, so it has to live as long as the command.
 void add_render_options(CLI::App &command, RenderOptions &options);

@@ -29,6 +29,13 @@ void check_extensions(const RenderOptions &options) {
             throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
         }
     }
+    const std::string &path = options.standard_error;
+    if (!path.empty() && image_format(path) != ImageFormat::exr) {
+        throw Failure(ExitCode::usage, "--standard-error " + path + ": the name must end in .exr");
+    }
+    if (!path.empty() && std::find(options.outputs.begin(), options.outputs.end(), path) != options.outputs.end()) {
+        throw Failure(ExitCode::usage, "--standard-error " + path + ": is the name of the picture too");
+    }
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {
@@ -41,24 +48,35 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
         }
         AtomicFile::check_writable(path);
     }
-    if (!options.stats.empty()) {
-        AtomicFile::check_writable(options.stats);
+    for (const std::string &path : {options.standard_error, options.stats}) {
+        if (!path.empty()) {
+            AtomicFile::check_writable(path);
+        }
     }
 }
 
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
-                                      std::span<const float> radiance) {
-    const ImageMetadata metadata(report);
+                                      std::span<const float> radiance, std::span<const float> standard_error) {
     std::vector<std::string> written;
-    for (const std::string &path : options.outputs) {
+    const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity) {
         try {
-            write_image(writer, path, options.tone_map, report, radiance, metadata);
+            write_image(writer, path, options.tone_map, report, values, ImageMetadata(report, quantity));
             written.push_back(path);
         } catch (const Failure &failure) {
             print_message(failure.what());
         }
+    };
+    for (const std::string &path : options.outputs) {
+        write(path, radiance, PT_QUANTITY_RADIANCE);
+    }
+    if (!options.standard_error.empty()) {
+        write(options.standard_error, standard_error, PT_QUANTITY_STANDARD_ERROR);
     }
     return written;
+}
+
+std::size_t output_count(const RenderOptions &options) {
+    return options.outputs.size() + (options.standard_error.empty() ? 0 : 1);
 }
 
 void write_stats(const std::string &path, const RenderReport &report) {

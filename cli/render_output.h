@@ -7,6 +7,7 @@
 #include "render_report.h"
 #include "render_settings.h"
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +20,12 @@ void check_extensions(const RenderOptions &options);
 // All else that can go wrong with the outputs and can be known before an hour of rendering.
 void check_outputs(const RenderOptions &options, const RenderSettings &settings);
 
-// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
-// of those written.
+// Writes every image that can be written even if another cannot, and says on stderr which could not. standard_error may
+// be empty if no file of it is wanted. Returns the paths of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
-                                      std::span<const float> radiance);
+                                      std::span<const float> radiance, std::span<const float> standard_error);
+
+std::size_t output_count(const RenderOptions &options);
 
 void write_stats(const std::string &path, const RenderReport &report);
 

@@ -2,10 +2,14 @@
 // Called by render_command.
 #include "render_report.h"
 
+#include "device_text.h"
+#include "json_number.h"
 #include "method_names.h"
+#include "sample_forecast.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <limits>
@@ -40,6 +44,35 @@ double paths_per_second(const RenderReport &report) {
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
 }
 
+// Three significant digits, so that 0.0031% can be told from 0; without exponent for what is seen in pictures.
+std::string percent_text(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g%%", 100.0 * share);
+    return text.data();
+}
+
+std::string estimate_text(const pt_stats &stats) {
+    if (!std::isfinite(stats.relative_rmse)) {
+        const std::string reason = " with fewer than " + std::to_string(first_look) + " samples";
+        return "error unknown" + (stats.sample_count < first_look ? reason : "");
+    }
+    return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
+           percent_text(stats.relative_rmse_high) + ")";
+}
+
+std::string target_text(const RenderReport &report) {
+    const std::string samples = std::to_string(report.stats.sample_count) + " samples";
+    if (report.target_reached()) {
+        return "target reached after " + samples;
+    }
+    const std::string high = std::isfinite(report.stats.relative_rmse_high)
+                                 ? percent_text(report.stats.relative_rmse_high) + " is above "
+                                 : "unknown error for ";
+    const bool interrupted = report.stats.sample_count < report.requested_sample_count;
+    return "target not reached: " + high + percent_text(report.target_error) + " after " + samples +
+           (interrupted ? "" : ", raise --spp");
+}
+
 // The form that OpenEXR's standard attribute capDate and TIFF's DateTime have: local time.
 std::string date_text() {
     const std::time_t now = std::time(nullptr);
@@ -58,19 +91,6 @@ std::string version_text() {
            std::to_string(version % 1'000);
 }
 
-std::string uuid_text(const std::uint8_t (&uuid)[16]) {
-    std::string text;
-    for (std::size_t i = 0; i < 16; ++i) {
-        std::array<char, 3> digits{};
-        std::snprintf(digits.data(), digits.size(), "%02x", uuid[i]);
-        if (i == 4 || i == 6 || i == 8 || i == 10) {
-            text += '-';
-        }
-        text += digits.data();
-    }
-    return text;
-}
-
 nlohmann::ordered_json stats_json(const RenderReport &report) {
     const pt_render &render = report.render;
     return {{"version", version_text()},
@@ -86,6 +106,14 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"estimator", estimators.name(render.estimator)},
             {"device",
              {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}},
+            {"rmse", number_or_null(report.stats.rmse)},
+            {"rmse_low", number_or_null(report.stats.rmse_low)},
+            {"rmse_high", number_or_null(report.stats.rmse_high)},
+            {"relative_rmse", number_or_null(report.stats.relative_rmse)},
+            {"relative_rmse_low", number_or_null(report.stats.relative_rmse_low)},
+            {"relative_rmse_high", number_or_null(report.stats.relative_rmse_high)},
+            {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
+            {"target_reached", report.target_reached()},
             {"seconds",
              {{"create", report.create_seconds},
               {"accumulate", report.accumulate_seconds},
@@ -106,13 +134,18 @@ std::string summary_text(const RenderReport &report) {
     return text.data() + std::string(report.device.name);
 }
 
+std::string error_text(const RenderReport &report) {
+    return estimate_text(report.stats) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
+}
+
 // samplesPerPixel and renderTimeSeconds have pbrt's names and types, which other tools read. Numbers that may not fit
 // OpenEXR's signed 32-bit integer are texts.
-ImageMetadata::ImageMetadata(const RenderReport &report) {
+ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity) {
     add("software", "pt " + version_text());
     add("DateTime", date_text()); // becomes capDate in OpenEXR
     add_whole("samplesPerPixel", report.stats.sample_count);
     attributes_.push_back({"renderTimeSeconds", nullptr, report.accumulate_seconds, 1, 0});
+    add("pt.quantity", quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error");
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add_whole("pt.maxPathLength", report.render.max_path_length);

@@ -18,29 +18,33 @@ namespace cli {
 struct RenderReport {
     std::string scene;
     pt_render render;
-    std::uint32_t requested_sample_count;
+    std::uint32_t requested_sample_count; // the most, if there is a target
+    double target_error;                  // relative; 0: none
     pt_stats stats;
     pt_device_info device;
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
+
+    bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
 };
 
 // "0.1.0", from the library's number.
 std::string version_text();
-
-// 32 hexadecimal digits in the usual groups.
-std::string uuid_text(const std::uint8_t (&uuid)[16]);
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
 
+// "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
+std::string error_text(const RenderReport &report);
+
 // Attributes of the image file, which keep the texts that they point to.
 class ImageMetadata {
 public:
-    explicit ImageMetadata(const RenderReport &report);
+    // quantity: what the pixels are, PT_QUANTITY_*.
+    ImageMetadata(const RenderReport &report, std::uint32_t quantity);
     ImageMetadata(const ImageMetadata &) = delete;
     ImageMetadata &operator=(const ImageMetadata &) = delete;
 

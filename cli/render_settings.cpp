@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::uint32_t default_side = 512;
 constexpr std::uint32_t default_sample_count = 64;
+constexpr std::uint32_t default_most_samples = 65536; // where a target error says when to stop
 // The library's own, which is asked for by 0 there but has to be known for the report.
 constexpr std::uint32_t default_max_path_length = 6;
 
@@ -34,7 +35,9 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     render.first_sample = options.first_sample;
     render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});
     render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
-    settings.sample_count = first_given(options.sample_count, scene.sample_count, default_sample_count);
+    settings.target_error = options.target_error.value_or(0.0);
+    settings.sample_count = first_given(options.sample_count, scene.sample_count,
+                                        options.target_error ? default_most_samples : default_sample_count);
     settings.size_from_scene = !options.size && (scene.width || scene.height);
     settings.max_path_length_from_scene = !options.max_path_length && scene.max_path_length;
     return settings;

@@ -15,7 +15,8 @@ namespace cli {
 
 struct RenderSettings {
     pt_render render;
-    std::uint32_t sample_count;
+    std::uint32_t sample_count; // the most, if there is a target
+    double target_error;        // relative; 0: none
     bool size_from_scene;
     bool max_path_length_from_scene;
 

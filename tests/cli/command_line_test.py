@@ -1,12 +1,8 @@
 """Tests of the program as its users meet it: exit codes, messages, files left behind.
 
-Usage: command_line_test.py PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]
-
-Most cases run the program on a stand-in for the library (fake_library.cpp), which needs no device, fails on demand and
-takes as long as it is told to. RealDevice runs the program itself.
+Arguments: see command_line.py.
 """
 
-import csv
 import glob
 import json
 import os
@@ -15,111 +11,10 @@ import resource
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
-import zlib
 
-PT, FAKE_PT, SCENES = sys.argv[1:4]
-COURSEWORK = os.path.join(SCENES, "coursework.json")
-
-RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
-          "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10}
-
-
-def read_png(path):
-    """Width, height and bytes of an 8-bit RGB image; enough of PNG (ISO 15948) for what is written here."""
-    with open(path, "rb") as file:
-        data = file.read()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    position, pixels = 8, b""
-    while position < len(data):
-        length, kind = struct.unpack(">I4s", data[position:position + 8])
-        body = data[position + 8:position + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2)
-        elif kind == b"IDAT":
-            pixels += body
-        position += 12 + length
-    lines, stride, above, image = zlib.decompress(pixels), 3 * width, bytes(3 * width), []
-    for y in range(height):
-        kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
-        for x in range(stride):
-            left = line[x - 3] if x >= 3 else 0
-            corner = above[x - 3] if x >= 3 else 0
-            guesses = (left, above[x], corner)
-            paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
-            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
-        above = line
-        image.append(line)
-    return width, height, image
-
-
-def read_exr_attributes(path):
-    """Name -> (type, bytes) of an OpenEXR header."""
-    with open(path, "rb") as file:
-        data = file.read()
-    assert data[:4] == b"\x76\x2f\x31\x01"
-    attributes, position = {}, 8
-    while data[position] != 0:
-        name_end = data.index(b"\0", position)
-        type_end = data.index(b"\0", name_end + 1)
-        size, = struct.unpack("<i", data[type_end + 1:type_end + 5])
-        body = data[type_end + 5:type_end + 5 + size]
-        attributes[data[position:name_end].decode()] = (data[name_end + 1:type_end].decode(), body)
-        position = type_end + 5 + size
-    return attributes
-
-
-def default_signals():
-    """A job in the background of a shell inherits an ignored SIGINT, which the program then respects."""
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_DFL)
-
-
-class CommandLineTest(unittest.TestCase):
-    program = FAKE_PT
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-
-    def read(self, name):
-        with open(self.path(name), encoding="utf-8") as file:
-            return file.read()
-
-    def start(self, *arguments, **environment):
-        names = {name: str(value) for name, value in environment.items()}
-        return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=default_signals)
-
-    def run_pt(self, *arguments, **environment):
-        process = self.start(*arguments, **environment)
-        self.output, self.errors = process.communicate(timeout=120)
-        return process.returncode
-
-    def expect(self, code, *arguments, error=None, **environment):
-        """Runs the program; every line on stderr of a failure must begin with its name, and `error` be in there."""
-        self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
-        if code != 0:
-            self.assertNotEqual(self.errors, "")
-            for line in self.errors.splitlines():
-                self.assertTrue(line.startswith("pt: "), line)
-        if error is not None:
-            self.assertIn(error, self.errors)
-
-    def files(self):
-        return sorted(os.listdir(self.folder))
+from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes,
+                          read_png)
 
 
 class Usage(CommandLineTest):
@@ -253,7 +148,8 @@ class Outputs(CommandLineTest):
                     "--spp", "5", "--seed", "18446744073709551615", "--stats", "s.json")
         self.assertEqual(self.files(), ["a.exr", "b.png", "c.jpg", "s.json"])
         self.assertEqual(self.errors, "")
-        self.assertRegex(self.output, r"^wrote a.exr, b.png, c.jpg: 4x3, 5 spp in [\d.]+ s on fake device\n$")
+        self.assertRegex(self.output, r"^wrote a.exr, b.png, c.jpg: 4x3, 5 spp in [\d.]+ s on fake device\n"
+                                     r"error unknown with fewer than 16 samples\n$")
 
         attributes = read_exr_attributes(self.path("a.exr"))
         self.assertEqual(attributes["samplesPerPixel"], ("int", struct.pack("<i", 5)))
@@ -385,69 +281,8 @@ class ProgressOutput(CommandLineTest):
         self.assertTrue(output.endswith(b"\r\x1b[K"), output)
 
 
-class Bench(CommandLineTest):
-    COLUMNS = ["sampler", "estimator", "spp", "rounds", "seconds", "processor_seconds", "mse", "rel_mse", "efficiency",
-               "slope", "near_reference_noise"]
-
-    def test_wrong_values(self):
-        for option, value, error in (("--samplers", "random,sobl", 'did you mean "sobol"?'),
-                                     ("--estimators", "mss", 'did you mean "mis"?'), ("--samplers", "random,", ""),
-                                     ("--spp", "16,0", "--spp"), ("--spp", "4294967295", "give --reference-spp"),
-                                     ("--rounds", "0", "--rounds"), ("--reference-spp", "1", "--reference-spp")):
-            with self.subTest(option=option, value=value):
-                self.expect(2, "bench", COURSEWORK, option, value, "--csv", "b.csv", error=error)
-        self.expect(6, "bench", COURSEWORK, "--json", "none/b.json", error="cannot write none/b.json")
-        self.expect(6, "bench", COURSEWORK, "--reference", "none.exr", error="cannot read none.exr")
-        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--size", "4x3", "--spp", "1")
-        self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--size", "4x2", error="is 4x3, the picture is 4x2")
-        self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--reference-spp", "9", error="excludes")
-        self.assertEqual(self.files(), ["a.exr"])
-
-    def test_a_given_reference_is_compared_with(self):
-        # The stand-in always shows the same picture.
-        arguments = ["bench", COURSEWORK, "--samplers", "random", "--spp", "1", "--rounds", "1", "--csv", "b.csv"]
-        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--size", "4x3", "--spp", "1")
-        self.expect(0, *arguments, "--reference", "a.exr", "--size", "4x3")
-        row, = csv.DictReader(self.read("b.csv").splitlines())
-        self.assertEqual((row["mse"], row["efficiency"], row["near_reference_noise"]), ("0", "", "0"))
-
-    def test_an_interrupted_bench_reports_what_is_done(self):
-        process = self.start("bench", COURSEWORK, "--samplers", "random", "--spp", "2,100", "--size", "2x2",
-                             "--reference-spp", "2", "--progress", "json", "--csv", "b.csv", FAKE_PT_SAMPLE_MS=50)
-        while json.loads(process.stderr.readline())["samples_per_pixel"] < 6:
-            pass
-        process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130, errors)
-        self.assertIn("pt: stopped by a signal; the runs done so far are reported", errors)
-        rows = list(csv.DictReader(self.read("b.csv").splitlines()))
-        self.assertEqual([(row["spp"], row["rounds"]) for row in rows], [("2", "1")])
-        self.assertIn("random", output)
-        self.assertEqual(self.files(), ["b.csv"])
-
-
 class RealDevice(CommandLineTest):
     program = PT
-
-    def test_bench(self):
-        self.expect(0, "bench", COURSEWORK, "--size", "16x8", "--samplers", "random,sobol", "--estimators", "mis",
-                    "--spp", "16,4", "--rounds", "2", "--reference-spp", "512", "--csv", "b.csv", "--json", "b.json")
-        for text in ("reference: 512 spp", "efficiency", "random", "sobol"):
-            self.assertIn(text, self.output)
-        rows = list(csv.DictReader(self.read("b.csv").splitlines()))
-        self.assertEqual(list(rows[0]), Bench.COLUMNS)
-        self.assertEqual([(row["sampler"], row["spp"]) for row in rows],
-                         [("random", "4"), ("random", "16"), ("sobol", "4"), ("sobol", "16")])
-        cells = json.loads(self.read("b.json"))["cells"]
-        for row, cell in zip(rows, cells, strict=True):
-            self.assertEqual(list(cell), Bench.COLUMNS)
-            self.assertEqual((cell["sampler"], cell["rounds"]), (row["sampler"], 2))
-            self.assertGreater(cell["seconds"], 0)
-            self.assertGreater(cell["mse"], 0)
-        for few, many in (cells[0:2], cells[2:4]):
-            self.assertIsNone(few["slope"])
-            self.assertLess(many["slope"], 0)  # more samples, less error
-        self.assertEqual(self.files(), ["b.csv", "b.json"])
 
     def test_render(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "-o", "a.exr", "--size", "32x16", "--spp", "2",
@@ -498,4 +333,4 @@ class RealDevice(CommandLineTest):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
+    main()

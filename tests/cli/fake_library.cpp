@@ -1,10 +1,11 @@
 // Owns a stand-in for libpt that needs no device and fails on demand, for tests of the command line: which exit code
-// follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which command_line_test.py
-// runs. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the length of one sample;
+// follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which the tests
+// in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the length of one sample;
 // FAKE_PT_LOG=function makes it send a line to the log.
 #include <pt/pt.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -15,6 +16,7 @@ struct pt_context {
     pt_create_info info{};
     pt_render render{};
     std::uint32_t sample_count = 0;
+    std::uint32_t call_count = 0; // of pt_accumulate since pt_set_render
     std::string error;
 };
 
@@ -56,6 +58,11 @@ pt_device_info fake_device() {
     std::strcpy(device.driver, "fake driver 1.0");
     std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
     return device;
+}
+
+// Upper bound of both errors, unknown at first.
+double fake_error(std::uint32_t sample_count) {
+    return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
 } // namespace
@@ -119,6 +126,8 @@ pt_result pt_set_camera(pt_context *context, const pt_camera *) {
 
 pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->render = *render;
+    context->sample_count = 0;
+    context->call_count = 0;
     return call(context, "set_render");
 }
 
@@ -131,25 +140,33 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     constexpr std::uint32_t submissions_per_sample = 4;
     const auto pause = std::chrono::milliseconds(std::atoi(milliseconds.c_str())) / submissions_per_sample;
     const std::uint64_t submissions = std::uint64_t{info->sample_count} * submissions_per_sample;
+    const std::uint32_t before = context->sample_count;
+    ++context->call_count;
     for (std::uint64_t done = 1; done <= submissions; ++done) {
+        if (fake_error(context->sample_count) <= info->target_error) {
+            return PT_TARGET_REACHED;
+        }
         std::this_thread::sleep_for(pause);
-        context->sample_count = static_cast<std::uint32_t>(done / submissions_per_sample);
-        if (info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0) {
+        context->sample_count = before + static_cast<std::uint32_t>(done / submissions_per_sample);
+        if (info->progress != nullptr &&
+            info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0) {
             return PT_CANCELLED;
         }
     }
     return PT_OK;
 }
 
-// Red grows to the right from 0 to 1, green downwards; blue is 2 everywhere, brighter than a display.
+// Red grows to the right from 0 to 1, green downwards; blue is 2 everywhere, brighter than a display, and depends on
+// the calls that took the samples with FAKE_PT_FAIL=split:1.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
+    const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
     float *value = image->data;
     for (std::uint32_t y = 0; y < render.height; ++y) {
         for (std::uint32_t x = 0; x < render.width; ++x) {
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
             *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
-            *value++ = 2.0F;
+            *value++ = 2.0F + wrong;
         }
     }
     return call(context, "readback");
@@ -162,6 +179,13 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->submit_count = 4 * std::uint64_t{context->sample_count};
     stats->device_seconds = 0.25;
     stats->features = PT_FEATURE_LAMPS | PT_FEATURE_MOTION;
+    const double error = fake_error(context->sample_count);
+    stats->rmse_high = error;
+    stats->rmse = 0.5 * error;
+    stats->rmse_low = std::isinf(error) ? 0.0 : 0.25 * error;
+    stats->relative_rmse_high = stats->rmse_high;
+    stats->relative_rmse = stats->rmse;
+    stats->relative_rmse_low = stats->rmse_low;
     return call(context, "stats");
 }
 

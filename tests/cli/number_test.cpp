@@ -22,6 +22,15 @@ TEST(Number, RefusesAllElse) {
     }
 }
 
+TEST(Number, Share) {
+    EXPECT_EQ(cli::parse_share("0.005"), 0.005);
+    EXPECT_EQ(cli::parse_share("0.5%"), 0.005);
+    EXPECT_EQ(cli::parse_share("-2"), -2.0); // the sign is for the option to judge
+    for (const char *text : {"", "%", "1%%", "1 %", "1% ", "inf%", "nan", "1e999%"}) {
+        EXPECT_EQ(cli::parse_share(text), std::nullopt) << text;
+    }
+}
+
 TEST(Number, Size) {
     const auto size = cli::parse_size("1920x1080");
     ASSERT_TRUE(size);

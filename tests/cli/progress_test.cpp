@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 namespace {
@@ -50,6 +51,26 @@ TEST(Progress, TerminalLine) {
     EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, written over
     EXPECT_NE(output.find(" 50.5 %  50/100 spp  50.0 Mpaths/s  ETA 0:00:01"), std::string::npos) << output;
     EXPECT_TRUE(output.ends_with("\r\x1b[K")); // and left empty
+}
+
+TEST(Progress, NeverFallsWhateverIsExpected) {
+    std::ostringstream output;
+    Progress progress(output, ProgressStyle::json, 1, 100, start);
+    progress.update_samples(50.0, start + milliseconds(1000));
+    progress.expect(1000);
+    progress.update_samples(60.0, start + milliseconds(2000));
+    progress.expect(80);
+    progress.update_samples(80.0, start + milliseconds(2001)); // at the end, though soon after the last
+    std::istringstream lines(output.str());
+    for (const auto &[fraction, samples, total] :
+         {std::array{0.5, 50.0, 100.0}, {0.5, 60.0, 1000.0}, {1.0, 80.0, 80.0}}) {
+        std::string line;
+        ASSERT_TRUE(std::getline(lines, line));
+        const auto json = nlohmann::json::parse(line);
+        EXPECT_EQ(json.at("fraction"), fraction);
+        EXPECT_EQ(json.at("samples_per_pixel"), samples);
+        EXPECT_EQ(json.at("samples_per_pixel_total"), total);
+    }
 }
 
 TEST(Progress, NoneIsSilent) {

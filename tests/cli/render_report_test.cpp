@@ -1,9 +1,11 @@
 // Tests of cli/render_report.
+#include "device_text.h"
 #include "render_report.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 #include <map>
 
 namespace {
@@ -28,6 +30,14 @@ cli::RenderReport example() {
     return report;
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void set_error(cli::RenderReport &report, double estimate, double low, double high) {
+    report.stats.relative_rmse = estimate;
+    report.stats.relative_rmse_low = low;
+    report.stats.relative_rmse_high = high;
+}
+
 TEST(RenderReport, StatsJson) {
     const auto json = cli::stats_json(example());
     EXPECT_EQ(json.at("scene"), "scene.json");
@@ -43,8 +53,50 @@ TEST(RenderReport, StatsJson) {
     EXPECT_GT(json.at("peak_host_bytes"), 1'000'000); // no C++ program is smaller
 }
 
+TEST(RenderReport, ErrorInJson) {
+    cli::RenderReport report = example();
+    report.stats.rmse = report.stats.rmse_high = report.stats.relative_rmse = report.stats.relative_rmse_high =
+        infinity;
+    auto json = cli::stats_json(report);
+    for (const char *key : {"rmse", "rmse_high", "relative_rmse", "relative_rmse_high", "target_error"}) {
+        EXPECT_TRUE(json.at(key).is_null()) << key;
+    }
+    EXPECT_EQ(json.at("rmse_low"), 0.0);
+    EXPECT_EQ(json.at("target_reached"), false);
+
+    set_error(report, 0.0042, 0.0040, 0.0044);
+    report.stats.rmse = 7.0;
+    report.target_error = 0.0044;
+    json = cli::stats_json(report);
+    EXPECT_EQ(json.at("rmse"), 7.0);
+    EXPECT_EQ(json.at("relative_rmse"), 0.0042);
+    EXPECT_EQ(json.at("relative_rmse_low"), 0.0040);
+    EXPECT_EQ(json.at("relative_rmse_high"), 0.0044);
+    EXPECT_EQ(json.at("target_error"), 0.0044);
+    EXPECT_EQ(json.at("target_reached"), true);
+}
+
+TEST(RenderReport, ErrorText) {
+    cli::RenderReport report = example();
+    set_error(report, infinity, 0.0, infinity);
+    EXPECT_EQ(cli::error_text(report), "error unknown");
+    report.stats.sample_count = 15;
+    EXPECT_EQ(cli::error_text(report), "error unknown with fewer than 16 samples");
+    report.stats.sample_count = 32;
+    set_error(report, 0.0042, 0.0040, 0.0044);
+    EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%)");
+    report.target_error = 0.0044;
+    EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target reached after 32 samples");
+    report.requested_sample_count = 32;
+    report.target_error = 0.0043; // between the estimate and its upper bound
+    EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%); target not reached: 0.44% is above 0.43% after 32 "
+                                       "samples, raise --spp");
+    report.requested_sample_count = 64; // a signal came: more were allowed
+    EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
+}
+
 TEST(RenderReport, MetadataKeepsAllDigits) {
-    const cli::ImageMetadata metadata(example());
+    const cli::ImageMetadata metadata(example(), PT_QUANTITY_RADIANCE);
     std::map<std::string, std::string> texts;
     std::map<std::string, double> numbers;
     for (const pt_image_attribute &attribute : metadata.attributes()) {
@@ -54,6 +106,7 @@ TEST(RenderReport, MetadataKeepsAllDigits) {
             numbers[attribute.name] = attribute.number;
         }
     }
+    EXPECT_EQ(texts.at("pt.quantity"), "radiance");
     EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
     EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
     EXPECT_EQ(texts.at("pt.rejectedSamples"), "3");

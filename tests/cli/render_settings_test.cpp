@@ -54,6 +54,17 @@ TEST(RenderSettings, CommandLineBeatsSceneBeatsDefaults) {
     EXPECT_EQ(merge_settings(full_options(), {}).render.first_sample, 9U);
 }
 
+TEST(RenderSettings, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {
+    EXPECT_EQ(merge_settings({}, {}).target_error, 0.0);
+    RenderOptions options;
+    options.target_error = 0.005;
+    EXPECT_EQ(merge_settings(options, {}).target_error, 0.005);
+    EXPECT_EQ(merge_settings(options, {}).sample_count, 65536U);
+    EXPECT_EQ(merge_settings(options, full_scene()).sample_count, 5U);
+    options.sample_count = 6;
+    EXPECT_EQ(merge_settings(options, full_scene()).sample_count, 6U);
+}
+
 TEST(RenderSettings, AZeroSeedOnTheCommandLineCounts) {
     RenderOptions options;
     options.seed = 0;

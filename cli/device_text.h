@@ -1,0 +1,19 @@
+// Owns the words for what the library says of a device.
+// Called by devices_command and by the reports of `pt render` and `pt selftest`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace cli {
+
+// kind: PT_DEVICE_*.
+std::string kind_name(std::uint32_t kind);
+
+// "7.7 GiB"
+std::string memory_text(std::uint64_t bytes);
+
+// 32 hexadecimal digits in the usual groups.
+std::string uuid_text(const std::uint8_t (&uuid)[16]);
+
+} // namespace cli

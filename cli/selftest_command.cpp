@@ -1,0 +1,46 @@
+// Owns `pt selftest`: whether a device computes what it should.
+// Called by main.
+#include "selftest_command.h"
+
+#include "atomic_file.h"
+#include "common_options.h"
+#include "context.h"
+#include "exit_code.h"
+#include "selftest_report.h"
+#include "selftest_run.h"
+
+#include <iostream>
+
+namespace cli {
+
+const char *const selftest_help =
+    "Compares the kernel's functions with double precision, small scenes with closed forms, and images whose samples\n"
+    "were split over calls bit by bit. A bound is what every right device keeps: for functions by the precision that\n"
+    "Vulkan promises; for scenes by that of float32 and their noise, which fails a right device once in a million.\n"
+    "Paste the output into a report of a fault.\n";
+
+void add_selftest_options(CLI::App &command, SelftestOptions &options) {
+    add_device(command, options.device);
+    command.add_option("--json", options.json, "Write the same as JSON")->type_name("FILE");
+}
+
+int run_selftest(const SelftestOptions &options) {
+    if (!options.json.empty()) {
+        AtomicFile::check_writable(options.json);
+    }
+    pt_create_info info{};
+    info.struct_size = sizeof(pt_create_info);
+    info.device = options.device.empty() ? nullptr : options.device.c_str();
+    const Context context(info);
+    SelftestReport report{};
+    context.require(pt_get_context_device(context.get(), &report.device));
+    report.checks = run_selftest_checks(context);
+
+    std::cout << selftest_text(report) << std::flush;
+    if (!options.json.empty()) {
+        AtomicFile::write_text(options.json, selftest_json(report).dump(2) + "\n");
+    }
+    return static_cast<int>(report.passed() ? ExitCode::done : ExitCode::internal);
+}
+
+} // namespace cli

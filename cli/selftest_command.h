@@ -1,0 +1,24 @@
+// Owns `pt selftest`: whether a device computes what it should.
+// Called by main.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace cli {
+
+struct SelftestOptions {
+    std::string device;
+    std::string json;
+};
+
+extern const char *const selftest_help;
+
+// The options write into `options` when the command line is parsed, so it has to live as long as the command.
+void add_selftest_options(CLI::App &command, SelftestOptions &options);
+
+// Returns the exit code: ExitCode::internal if a check fails. Throws Failure.
+int run_selftest(const SelftestOptions &options);
+
+} // namespace cli

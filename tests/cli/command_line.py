@@ -1,0 +1,131 @@
+"""What the tests of the program share: running it in an empty folder, and reading what it leaves there.
+
+A test is a script with the arguments PT PT_WITH_FAKE_LIBRARY SCENES [unittest arguments]. Most cases run the program on
+a stand-in for the library (fake_library.cpp), which needs no device, fails on demand and takes as long as it is told
+to. Classes named RealDevice run the program itself.
+"""
+
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PT, FAKE_PT, SCENES = sys.argv[1:4]
+COURSEWORK = os.path.join(SCENES, "coursework.json")
+
+RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
+          "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10}
+
+
+def read_png(path):
+    """Width, height and bytes of an 8-bit RGB image; enough of PNG (ISO 15948) for what is written here."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    position, pixels = 8, b""
+    while position < len(data):
+        length, kind = struct.unpack(">I4s", data[position:position + 8])
+        body = data[position + 8:position + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2)
+        elif kind == b"IDAT":
+            pixels += body
+        position += 12 + length
+    lines, stride, above, image = zlib.decompress(pixels), 3 * width, bytes(3 * width), []
+    for y in range(height):
+        kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
+        for x in range(stride):
+            left = line[x - 3] if x >= 3 else 0
+            corner = above[x - 3] if x >= 3 else 0
+            guesses = (left, above[x], corner)
+            paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
+            line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
+        above = line
+        image.append(line)
+    return width, height, image
+
+
+def parse_exr_header(data):
+    """Name -> (type, bytes) of an OpenEXR file, and the header's size."""
+    assert data[:4] == b"\x76\x2f\x31\x01"
+    attributes, position = {}, 8
+    while data[position] != 0:
+        name_end = data.index(b"\0", position)
+        type_end = data.index(b"\0", name_end + 1)
+        size, = struct.unpack("<i", data[type_end + 1:type_end + 5])
+        body = data[type_end + 5:type_end + 5 + size]
+        attributes[data[position:name_end].decode()] = (data[name_end + 1:type_end].decode(), body)
+        position = type_end + 5 + size
+    return attributes, position + 1
+
+
+def read_exr_attributes(path):
+    with open(path, "rb") as file:
+        return parse_exr_header(file.read())[0]
+
+
+def read_exr_blocks(path):
+    """The compressed pixels, without the header, in which times differ, and the table of where they are."""
+    with open(path, "rb") as file:
+        data = file.read()
+    table = parse_exr_header(data)[1]
+    first_block, = struct.unpack("<Q", data[table:table + 8])
+    return data[first_block:]
+
+
+def default_signals():
+    """A job in the background of a shell inherits an ignored SIGINT, which the program then respects."""
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
+class CommandLineTest(unittest.TestCase):
+    program = FAKE_PT
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def start(self, *arguments, **environment):
+        names = {name: str(value) for name, value in environment.items()}
+        return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=default_signals)
+
+    def run_pt(self, *arguments, **environment):
+        process = self.start(*arguments, **environment)
+        self.output, self.errors = process.communicate(timeout=120)
+        return process.returncode
+
+    def expect(self, code, *arguments, error=None, **environment):
+        """Runs the program; every line on stderr of a failure must begin with its name, and `error` be in there."""
+        self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
+        if code != 0:
+            self.assertNotEqual(self.errors, "")
+            for line in self.errors.splitlines():
+                self.assertTrue(line.startswith("pt: "), line)
+        if error is not None:
+            self.assertIn(error, self.errors)
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+
+def main():
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:])

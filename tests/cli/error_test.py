@@ -1,0 +1,137 @@
+"""Tests of `pt render --error` and of what is told about the error of an image. Arguments: see command_line.py."""
+
+import json
+import resource
+import signal
+import subprocess
+
+from command_line import (COURSEWORK, PT, CommandLineTest, default_signals, main, read_exr_attributes,
+                          read_exr_blocks)
+
+KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low", "_high")]
+
+
+class TargetError(CommandLineTest):
+    """The stand-in's image of N samples has the error 0.5 / N with bounds of half and twice that, unknown below 16."""
+
+    def render(self, *options):
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json", *options)
+        return json.loads(self.read("s.json"))
+
+    def test_wrong_values(self):
+        for value in ("0", "0%", "-1", "-1%", "inf", "nan", "1e999", "%", "", "1 %", "few"):
+            with self.subTest(value=value):
+                self.expect(2, "render", COURSEWORK, "-o", "a.png", "--error", value, error="--error: must be")
+                self.assertIn(f'is "{value}"', self.errors)
+        self.assertEqual(self.files(), [])
+
+    def test_reached(self):
+        for target in ("2.5%", "0.025"):
+            stats = self.render("--error", target)
+            self.assertEqual((stats["spp"], stats["spp_requested"]), (40, 65536))
+            self.assertEqual((stats["target_error"], stats["target_reached"]), (0.025, True))
+            self.assertEqual([stats[key] for key in KEYS], [0.0125, 0.00625, 0.025] * 2)
+            self.assertRegex(self.output, r"\nerror 1.25% \(0.625% to 2.5%\); target reached after 40 samples\n$")
+
+    def test_not_reached(self):
+        stats = self.render("--error", "2.5%", "--spp", "32")
+        self.assertEqual((stats["spp"], stats["target_reached"]), (32, False))
+        self.assertIn("; target not reached: 3.12% is above 2.5% after 32 samples, raise --spp\n", self.output)
+        stats = self.render("--error", "2.5%", "--spp", "15")
+        self.assertEqual((stats["spp"], stats["target_reached"]), (15, False))
+        self.assertIn("target not reached: unknown error for 2.5% after 15 samples, raise --spp\n", self.output)
+
+    def test_reached_with_the_last_sample(self):
+        self.assertTrue(self.render("--error", "2.5%", "--spp", "40")["target_reached"])
+
+    def test_without_a_target(self):
+        stats = self.render("--spp", "16")
+        self.assertEqual((stats["spp"], stats["target_error"], stats["target_reached"]), (16, None, False))
+        self.assertTrue(self.output.endswith("\nerror 3.12% (1.56% to 6.25%)\n"), self.output)
+        stats = self.render("--spp", "15", "-q")
+        self.assertEqual(self.output, "")
+        self.assertEqual([stats[key] for key in KEYS], [None, 0.0, None] * 2)
+
+    def test_progress_never_falls_and_ends_at_1(self):
+        for target, samples in (("2.5%", 40), ("1%", 100), ("0.00001%", 120)):
+            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--error", target, "--spp", "120",
+                        "--progress", "json", FAKE_PT_SAMPLE_MS=4)
+            lines = [json.loads(line) for line in self.errors.splitlines()]
+            fractions = [line["fraction"] for line in lines]
+            self.assertEqual(fractions, sorted(fractions))
+            self.assertEqual(fractions.count(1.0), 1)
+            self.assertGreater(len(fractions), 1)
+            self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, samples))
+
+    def test_interrupted(self):
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats",
+                             "s.json", "--progress", "json", FAKE_PT_SAMPLE_MS=50)
+        while json.loads(process.stderr.readline())["samples_per_pixel"] < 17:  # not in the first call
+            pass
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertRegex(errors, r"pt: stopped by SIGINT after \d+ of 65536 samples per pixel\n")
+        stats = json.loads(self.read("s.json"))
+        self.assertFalse(stats["target_reached"])
+        self.assertTrue(17 <= stats["spp"] < 100, stats["spp"])
+
+
+class StandardError(CommandLineTest):
+    def test_the_image_is_written_beside_the_picture(self):
+        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "e.exr", "--size", "4x3", "--spp", "16")
+        self.assertEqual(self.files(), ["a.exr", "e.exr"])
+        self.assertTrue(self.output.startswith("wrote a.exr, e.exr: "), self.output)
+        for name, quantity in (("a.exr", b"radiance"), ("e.exr", b"standard error")):
+            self.assertEqual(read_exr_attributes(self.path(name))["pt.quantity"], ("string", quantity))
+
+    def test_refused_names(self):
+        for name in ("e.png", "e", "e.exr.bak"):
+            self.expect(2, "render", COURSEWORK, "-o", "a.png", "--standard-error", name,
+                        error=f"--standard-error {name}: the name must end in .exr")
+        self.expect(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "a.exr", error="the picture too")
+        # A thousand samples of a second: the test would run out of time.
+        self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "none/e.exr", "--spp", "1000",
+                    error="cannot write none/e.exr", FAKE_PT_SAMPLE_MS=1000)
+        self.assertEqual(self.files(), [])
+
+    def test_a_failed_write_leaves_the_old_file_and_the_picture_is_written(self):
+        self.write("e.exr", "old")
+
+        def full_disk():
+            default_signals()
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--standard-error", "e.exr", "--spp", "1"]
+        done = subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=full_disk,
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertIn("pt: cannot write e.exr: File too large", done.stderr)
+        self.assertEqual(self.read("e.exr"), "old")
+        self.assertEqual(self.files(), ["a.png", "e.exr"])
+
+
+class RealDevice(CommandLineTest):
+    program = PT
+
+    def test_target(self):
+        arguments = ["render", COURSEWORK, "--size", "32x16", "--stats", "s.json"]
+        self.expect(0, *arguments, "-o", "a.exr", "--error", "10%", "--standard-error", "e.exr")
+        stats = json.loads(self.read("s.json"))
+        self.assertTrue(stats["target_reached"])
+        self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
+        self.assertTrue(0 < stats["rmse_low"] < stats["rmse"] < stats["rmse_high"])
+        self.assertNotEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("e.exr")))
+
+        # The pixels are those of as many samples in one call, and one look at the error earlier was too early.
+        self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
+        self.assertEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("b.exr")))
+        self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])
+        step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 8
+        self.expect(0, *arguments, "-o", "b.exr", "--error", "10%", "--spp", str(stats["spp"] - step))
+        self.assertFalse(json.loads(self.read("s.json"))["target_reached"])
+
+
+if __name__ == "__main__":
+    main()

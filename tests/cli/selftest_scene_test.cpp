@@ -1,0 +1,100 @@
+// Tests of cli/selftest_scene: the judgement passes what is right and fails what is wrong. Whether the scenes are right
+// is tested where there is a device, by selftest_test.py.
+#include "selftest_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+namespace {
+
+using cli::SelftestScene;
+
+std::vector<float> image_of(const SelftestScene &scene, double radiance) {
+    return std::vector<float>(std::size_t{3} * scene.render.width * scene.render.height, static_cast<float>(radiance));
+}
+
+TEST(SelftestScene, RightImagesPass) {
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        EXPECT_TRUE(scene.judge(image_of(scene, scene.expected)).passed()) << scene.name;
+        if (scene.relative_std > 0.0) { // without noise the bound may be less than a step of float32
+            const double near = scene.expected * (1.0 + 0.8 * scene.bound());
+            EXPECT_TRUE(scene.judge(image_of(scene, near)).passed()) << scene.name;
+        }
+    }
+}
+
+TEST(SelftestScene, WrongImagesFail) {
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        for (const double factor :
+             {1.0 + 1.2 * scene.bound() + 0x1p-22, 1.0 - 1.2 * scene.bound() - 0x1p-22, 0.0, -1.0}) {
+            EXPECT_FALSE(scene.judge(image_of(scene, scene.expected * factor)).passed()) << scene.name << factor;
+        }
+        EXPECT_LT(scene.bound(), 0.02) << scene.name << " judges too mildly";
+    }
+}
+
+TEST(SelftestScene, ASingleNumberThatIsNotFiniteFails) {
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        for (const float wrong : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+            for (const std::size_t place : {std::size_t{0}, image_of(scene, 0.0).size() - 1}) {
+                std::vector<float> radiance = image_of(scene, scene.expected);
+                radiance[place] = wrong;
+                const cli::SelftestCheck check = scene.judge(radiance);
+                EXPECT_FALSE(check.passed()) << scene.name;
+                EXPECT_EQ(check.error, std::numeric_limits<double>::infinity());
+            }
+        }
+    }
+}
+
+TEST(SelftestScene, EveryChannelCounts) {
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            std::vector<float> radiance = image_of(scene, scene.expected);
+            for (std::size_t i = channel; i < radiance.size(); i += 3) {
+                radiance[i] *= 1.03F;
+            }
+            EXPECT_FALSE(scene.judge(radiance).passed()) << scene.name;
+        }
+    }
+}
+
+TEST(SelftestScene, WithoutNoiseEveryPixelCounts) {
+    int scene_count = 0;
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        if (scene.relative_std == 0.0) {
+            ++scene_count;
+            std::vector<float> radiance = image_of(scene, scene.expected);
+            radiance[100] *= 1.00001F;
+            EXPECT_FALSE(scene.judge(radiance).passed()) << scene.name;
+        }
+    }
+    EXPECT_EQ(scene_count, 2);
+}
+
+// The closed form against the integral over time that it stands for, by the midpoint rule.
+TEST(SelftestScene, RecedingLampByQuadrature) {
+    const SelftestScene scene = cli::selftest_scenes().back();
+    ASSERT_EQ(scene.name, "receding lamp");
+    const double side = 2.0 * std::tan(0.5 * scene.camera.vertical_fov);
+    constexpr int steps = 10000;
+    double sum = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double z = scene.spheres[0].center[2] + (i + 0.5) / steps * scene.spheres[0].motion[2];
+        sum += std::numbers::pi / (z * z - 1.0) / (side * side);
+    }
+    EXPECT_NEAR(scene.expected, sum / steps, 1e-8);
+}
+
+TEST(SelftestScene, NamesDiffer) {
+    std::set<std::string> names;
+    for (const SelftestScene &scene : cli::selftest_scenes()) {
+        EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
+    }
+}
+
+} // namespace

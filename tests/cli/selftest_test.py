@@ -1,0 +1,70 @@
+"""Tests of `pt selftest` as its users meet it. Arguments: see command_line.py."""
+
+import json
+
+from command_line import PT, RESULT, CommandLineTest, main
+
+
+class Selftest(CommandLineTest):
+    """The stand-in's image is no answer to any scene; all else of it can be right or wrong."""
+
+    def checks(self, **environment):
+        self.assertEqual(self.run_pt("selftest", "--json", "s.json", **environment), 1, self.errors)
+        self.assertEqual(self.errors, "")
+        report = json.loads(self.read("s.json"))
+        self.assertFalse(report["passed"])
+        failed = sum(not check["passed"] for check in report["checks"])
+        self.assertTrue(self.output.endswith(f"\nFAILED: {failed} of {len(report['checks'])} checks\n"), self.output)
+        self.assertEqual(sum(line.startswith("FAIL  ") for line in self.output.splitlines()), failed)
+        return {check["name"]: check for check in report["checks"]}
+
+    def test_a_wrong_image_fails_every_scene(self):
+        checks = self.checks()
+        scenes = [check for check in checks.values() if check["unit"] == "relative"]
+        self.assertGreaterEqual(len(scenes), 6)
+        self.assertEqual([check["passed"] for check in scenes], [False] * len(scenes))
+        for name in ("fake function", "samples left out", "samples split over calls"):
+            self.assertTrue(checks[name]["passed"], name)
+
+    def test_each_other_check_can_fail(self):
+        for fault, name, error in (("accuracy_bound", "fake function", 5.0), ("rejected", "samples left out", 3.0 * 8),
+                                   ("split", "samples split over calls", None)):
+            check = self.checks(FAKE_PT_FAIL=f"{fault}:1")[name]
+            self.assertFalse(check["passed"])
+            if error is not None:
+                self.assertEqual(check["error"], error)
+
+    def test_errors(self):
+        for function, result, code in (("create", "NO_DEVICE", 4), ("create", "INVALID_ARGUMENT", 2),
+                                       ("accuracy", "SHADER", 4), ("accuracy", "DEVICE_LOST", 5),
+                                       ("accumulate", "DEVICE_LOST", 5), ("readback", "INTERNAL", 1)):
+            with self.subTest(function=function, result=result):
+                self.expect(code, "selftest", "--json", "s.json", error="the reason",
+                            FAKE_PT_FAIL=f"{function}:{RESULT[result]}", FAKE_PT_MESSAGE="the reason")
+                self.assertEqual(self.output, "")
+                self.assertEqual(self.files(), [])
+        self.expect(6, "selftest", "--json", "none/s.json", error="cannot write none/s.json")
+        self.expect(2, "selftest", "--jsn", "s.json", error="see pt selftest --help")
+
+
+class RealDevice(CommandLineTest):
+    program = PT
+
+    def test_selftest(self):
+        self.expect(0, "selftest", "--json", "s.json")
+        report = json.loads(self.read("s.json"))
+        self.assertTrue(report["passed"])
+        for text in (report["version"], *(report["device"][key] for key in ("name", "driver", "kind", "uuid"))):
+            self.assertIn(text, self.output[:self.output.index("check")])
+        for check in report["checks"]:
+            self.assertTrue(check["passed"])
+            self.assertIn("\npass  " + check["name"], self.output)
+        self.assertEqual({check["group"] for check in report["checks"]}, {"function", "scene", "invariance"})
+        self.assertIn(f"\npassed: all {len(report['checks'])} checks\n", self.output)
+
+    def test_an_unknown_device(self):
+        self.expect(4, "selftest", "--device", "no such device")
+
+
+if __name__ == "__main__":
+    main()
