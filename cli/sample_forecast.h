@@ -14,7 +14,11 @@ inline constexpr std::uint32_t first_look = 16;
 
 // From then on it looks at the error every eighth of a power of two; so often the guess can be mended.
 inline std::uint32_t samples_to_next_look(std::uint32_t sample_count) {
-    return sample_count < first_look ? first_look - sample_count : std::bit_floor(sample_count) / 8;
+    if (sample_count < first_look) {
+        return first_look - sample_count;
+    }
+    const std::uint32_t step = std::bit_floor(sample_count) / 8;
+    return step - sample_count % step;
 }
 
 // In all, where `sample_count` samples have the error `error`, which may be infinite. Of independent samples, the error

@@ -163,11 +163,11 @@ std::uint32_t prime_base(std::uint32_t dimension) {
     return primes[dimension];
 }
 
-std::uint32_t radical_inverse(std::uint32_t index, std::uint32_t dimension) {
+std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     // index = sum d_k b^k with K digits; reversed = sum d_k b^(K - 1 - k), so the inverse is reversed / b^K.
     const std::uint64_t base = primes[dimension];
     std::uint64_t reversed = 0;
-    std::uint64_t power = 1; // b^K <= 311 * 2^32: no overflow
+    std::uint64_t power = 1; // b^K <= 311 * 2^35: no overflow
     for (std::uint64_t rest = index; rest != 0; rest /= base) {
         reversed = reversed * base + rest % base;
         power *= base;
@@ -187,7 +187,7 @@ void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32
     }
 }
 
-void write_radical_inverses(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
+void write_radical_inverses(std::uint64_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
     for (std::uint32_t i = 0; i < coordinates.size(); ++i)
         coordinates[i] = radical_inverse(index, first + i);
 }
@@ -198,19 +198,18 @@ std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::span<const st
                                        const PointLayout &layout) {
     std::vector<std::uint32_t> table(indices.size() * layout.row_words());
     std::span<std::uint32_t> rest = table;
-    const auto add = [&](std::uint32_t index, std::uint32_t first, std::uint32_t end) {
+    const auto add = [&](std::uint64_t index, std::uint32_t first, std::uint32_t end) {
         const std::span<std::uint32_t> coordinates = rest.first(end - first);
         if (sampler == PT_SAMPLER_SOBOL)
-            write_sobol(index, first, coordinates);
+            write_sobol(static_cast<std::uint32_t>(index), first, coordinates); // beyond, the kernel changes the seed
         else
             write_radical_inverses(index, first, coordinates);
         rest = rest.subspan(end - first);
     };
     for (const std::uint32_t index : indices) {
         add(index, 0, layout.shared);
-        // Modulo 2^32, which the kernel makes up for (branch_key in sampler.glsl).
         for (std::uint32_t branch = 0; branch < layout.branches; ++branch)
-            add(index * layout.branches + branch, layout.shared, layout.dimensions);
+            add(std::uint64_t{index} * layout.branches + branch, layout.shared, layout.dimensions);
     }
     return table;
 }

@@ -19,8 +19,9 @@ std::uint32_t sobol(std::uint32_t index, std::uint32_t dimension);
 // The dimension-th prime, from 2 on: the base of radical inverses. dimension < sequence_dimensions.
 std::uint32_t prime_base(std::uint32_t dimension);
 
-// Radical inverse of an index in the dimension-th prime base (Halton 1960), as the largest multiple of 2^-32 not above it.
-std::uint32_t radical_inverse(std::uint32_t index, std::uint32_t dimension);
+// Radical inverse of an index below 2^35 in the dimension-th prime base (Halton 1960), as the largest multiple of 2^-32 not
+// above it.
+std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
 // What a row of the point table consists of (gpu_layout.h, row_words).
 struct PointLayout {

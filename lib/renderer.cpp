@@ -115,6 +115,7 @@ void Renderer::prepare_pipelines(const Features &features) {
                                  std::span<const std::uint32_t>{});
     if (traced_features_ == features)
         return;
+    traced_features_.reset(); // of no pipeline, if this one cannot be built
     trace_pipeline_.emplace(device_, pathtrace_spirv, kernel_bindings, sizeof(gpu::FrameConstants),
                             specialization_constants(features));
     traced_features_ = features;
@@ -275,6 +276,10 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, 
         throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
                                                    ": sample indices would pass 2^32 (the next is " +
                                                    std::to_string(first) + ")");
+    if (sample_count > UINT32_MAX - samples_done_)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": a pixel holds at most 2^32 - 1 samples (it has " +
+                                                   std::to_string(samples_done_) + ")");
     prepare_kernel();
 
     const std::uint32_t samples_before = samples_done_;

@@ -14,11 +14,6 @@ bool emits(const Material &material) {
     return material.emission != glm::vec3(0.0F);
 }
 
-// Lamps to which the first vertex sends a ray besides those of its branches: every one of a few.
-std::uint32_t lamps_of_first_vertex(const Features &features) {
-    return features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
-}
-
 // Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
     const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
@@ -67,6 +62,16 @@ std::uint32_t branch_count(const Features &features) {
     return features.max_path_length > 2 && affordable ? branches : 1;
 }
 
+namespace {
+
+// Lamps to which the first vertex sends a ray besides those of its branches, where it samples every lamp.
+std::uint32_t further_lamps(const Features &features) {
+    const std::uint32_t lamps = features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
+    return lamps - std::min(lamps, branch_count(features));
+}
+
+} // namespace
+
 PointLayout point_layout(const Features &features) {
     const std::uint32_t motion = features.motion ? 1 : 0;
     const std::uint32_t shared = gpu::shared_dimensions(motion, features.lamp_count);
@@ -98,18 +103,18 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each lamp of the first vertex,
-    // two walks over the lamps to choose among them, and the branches.
+    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the first
+    // vertex, two walks over the lamps to choose among them, and the branches.
     const std::uint64_t surfaces = features.surface_count();
-    const std::uint64_t first_vertex = lamps_of_first_vertex(features) * (1 + surfaces) + 2 * features.lamp_count;
+    const std::uint64_t first_vertex = further_lamps(features) * (1 + surfaces) + 2 * features.lamp_count;
     return 1 + surfaces + first_vertex + branch_count(features) * loop_trips_per_branch(features);
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
-    // The camera ray, those to lamps from the first vertex, then from each vertex of a branch the next ray and one to a
-    // lamp; an empty scene still costs something.
+    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray and one
+    // to a lamp; an empty scene still costs something.
     const std::uint64_t vertices = branch_count(features) * (features.max_path_length - 1);
-    return std::max<std::uint64_t>(1, features.surface_count()) * (1 + lamps_of_first_vertex(features) + 2 * vertices);
+    return std::max<std::uint64_t>(1, features.surface_count()) * (1 + further_lamps(features) + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

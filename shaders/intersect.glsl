@@ -52,7 +52,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside)
         return !leaving && distance > 0.0 ? distance : NO_HIT;
     }
     float height = leaving ? 0.0 : level.height;
-    bool below = leaving ? inside : height < 0.0;
+    bool below = leaving ? inside : height < 0.0 || (height == 0.0 && slope < 0.0);
     float rise = 2.0 * level.curvature * height;
     vec3 across = level.gradient - slope * direction;
     float discriminant = rise > 1.0 ? 1.0 - dot(across, across) : slope * slope - rise;

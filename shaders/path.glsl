@@ -113,10 +113,10 @@ void leave(inout Path path, Material material, LampLight lamp, LampChoice choice
     ++path.vertex_count;
 
     // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
-    // its throughput, and if it does, is weighted up by it. The floor bounds the weight: random numbers are multiples
-    // of 2^-24, which would be too coarse for tiny probabilities.
+    // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
+    // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
     if (ROULETTE && path.vertex_count >= 4u) {
-        float survival = clamp(strongest, 0.05, 1.0);
+        float survival = clamp(strongest * float(BRANCH_COUNT), 0.05, 1.0);
         path.alive = path.alive && numbers.w < survival;
         path.throughput /= survival;
     }
@@ -180,9 +180,9 @@ vec3 light_from_first_vertex(Vertex vertex, SampleKey key, float time)
             lamp = light_of_chosen_lamp(first, material, choice, time, numbers, directions);
         }
 
-        // The number that chooses the lobe is stratified over the branches.
+        // The number that chooses the lobe is stratified over the branches; the sum may round up to 1.
         vec4 numbers = direction_numbers(branch_numbers, 1u);
-        numbers.z = (numbers.z + float(branch)) * (1.0 / directions);
+        numbers.z = min((numbers.z + float(branch)) / directions, LARGEST_NUMBER);
         Path path = first;
         leave(path, material, lamp, choice, SAMPLE_EVERY_LAMP, time, numbers, directions);
         if (MAX_PATH_LENGTH > 2u && path.alive) {

@@ -17,7 +17,8 @@ struct SampleKey {
 };
 
 // The key of a branch of a sample: in the dimensions beyond the shared ones it is a sample of its own, number B i + b.
-// Where that passes 2^32 the seed changes, so that no branch repeats another's numbers.
+// Where that passes 2^32 the seed changes, and the table goes on with Halton's points, so that no branch repeats
+// another's numbers.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
@@ -58,6 +59,9 @@ uvec4 owen_scrambled(uvec4 reversed, uvec4 seed)
     return bitfieldReverse(v);
 }
 
+const float NUMBER_STEP = 1.0 / 16777216.0;
+const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
+
 // The sample's numbers for count (at most 4) dimensions from first on, one owner's block. Multiples of 2^-24, so that
 // rounding never gives 1. A dimension beyond the table takes hashed random numbers, whatever the sampler.
 vec4 sample_block(SampleKey key, uint first, uint count)
@@ -75,7 +79,7 @@ vec4 sample_block(SampleKey key, uint first, uint count)
             point += hash; // Cranley and Patterson 1976: a rotation, addition modulo 1
         words = in_table ? point : hash;
     }
-    return vec4(words >> 8u) * (1.0 / 16777216.0);
+    return vec4(words >> 8u) * NUMBER_STEP;
 }
 
 #endif

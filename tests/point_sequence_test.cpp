@@ -183,7 +183,7 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
             EXPECT_EQ(*word++, pt::radical_inverse(index, d));
         for (std::uint32_t branch = 0; branch < 4; ++branch)
             for (std::uint32_t d = 3; d < 7; ++d)
-                EXPECT_EQ(*word++, pt::radical_inverse(4 * index + branch, d));
+                EXPECT_EQ(*word++, pt::radical_inverse(std::uint64_t{4} * index + branch, d));
     }
 }
 

@@ -31,6 +31,22 @@ double largest_error(const Image &image, double exact) {
     return std::ldexp(largest, 24);
 }
 
+// The camera lies on the sphere, at its height 0 to the last bit, and looks inwards: each ray meets the far side.
+TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
+    for (const float emission : {0.0F, 0.5F}) {
+        // Behind it another lamp shows what passes through: a lamp and a black sphere are held differently.
+        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0},
+                                         {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+        const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
+        const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        camera.target[2] = -1;
+        for (const float value : image_of(scene, camera, render_of(16, 16, 1), 16).radiance)
+            ASSERT_EQ(value, emission);
+    }
+}
+
 TEST_F(ExactLight, InsideALampIsItsEmission) {
     const cli::SceneFile scene = read_scene("08-inside");
     for (const std::uint32_t length : {1U, 2U, 64U})

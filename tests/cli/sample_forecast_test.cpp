@@ -20,6 +20,7 @@ TEST(SampleForecast, LooksWhenTheLibraryLooks) {
     EXPECT_EQ(looks,
               (std::vector<std::uint32_t>{16, 18, 20, 22, 24, 26, 28, 30, 32, 36, 40, 44, 48, 52, 56, 60, 64, 72}));
     EXPECT_EQ(cli::samples_to_next_look(3), 13U);
+    EXPECT_EQ(cli::samples_to_next_look(17), 1U); // 18, as from 16
     EXPECT_EQ(cli::samples_to_next_look(0x80000000U), 0x10000000U);
 }
 

@@ -182,7 +182,8 @@ typedef struct pt_accumulate_info {
 /* pt_image.quantity */
 enum {
     PT_QUANTITY_RADIANCE = 0, /* mean of the samples */
-    /* standard error of that mean, from two halves of the samples: half the magnitude of the difference of their means.
+    /* standard error of that mean, from two halves of the samples: half the magnitude of the difference of their means
+     * (of halves that differ in size by a sample, nearly so).
      * It has one degree of freedom, so in a single pixel it is a hint and no more: it is below a third of the true one
      * in a quarter of all values. INFINITY where a half has no sample. */
     PT_QUANTITY_STANDARD_ERROR = 1
@@ -209,7 +210,7 @@ typedef struct pt_stats {
     uint32_t sample_count;     /* whole samples in every pixel */
     uint64_t rejected_samples; /* left out of all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /* memory allocated on the device now */
-    uint64_t submit_count;     /* submissions since pt_create */
+    uint64_t submit_count;     /* submissions of pt_accumulate since pt_create */
     double device_seconds;     /* time spent in them */
     uint32_t features;         /* PT_FEATURE_* */
     uint32_t reserved;
@@ -302,7 +303,8 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * (uniform, cosine, light) meet them on surfaces of glossiness beyond 1e5, for which they should not be used. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/* Writes the mean radiance of the samples so far, or its standard error. PT_ERROR_INVALID_STATE if there is none. */
+/* Writes the mean radiance of the samples so far, or its standard error. PT_ERROR_INVALID_STATE if there is none.
+ * What data holds after a failure is undefined. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 /* stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. */
