@@ -16,7 +16,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr std::size_t tile_size = 8; // pixels
+// Pixels of a tile's side: large against what neighbours share, small enough for hundreds of tiles in a small image.
+constexpr std::size_t tile_size = 8;
 
 // Keeps black pixels from counting without bound.
 constexpr double relative_offset = 0.01;

@@ -57,7 +57,7 @@ std::uint32_t scene_word_count(const Features &features) {
 
 std::uint32_t branch_count(const Features &features) {
     constexpr std::uint32_t branches = 4;
-    constexpr std::uint64_t max_trips = 1 << 14;
+    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of what those drivers allow: some samples to a submission
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features.max_path_length > 2 && affordable ? branches : 1;
 }

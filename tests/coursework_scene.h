@@ -2,6 +2,8 @@
 // that render.
 #pragma once
 
+#include "scene_of.h"
+
 #include <pt/pt.h>
 
 #include <array>
@@ -36,17 +38,7 @@ struct CourseworkScene {
             material.specular[0] = material.specular[1] = material.specular[2] = material.glossiness = 0;
     }
 
-    pt_scene scene() const {
-        pt_scene scene{};
-        scene.struct_size = sizeof scene;
-        scene.material_count = static_cast<uint32_t>(materials.size());
-        scene.sphere_count = static_cast<uint32_t>(spheres.size());
-        scene.plane_count = static_cast<uint32_t>(planes.size());
-        scene.materials = materials.data();
-        scene.spheres = spheres.data();
-        scene.planes = planes.data();
-        return scene;
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
     // From (0, 0, 1) towards the origin; the image plane is as far away as it is high.
     static pt_camera camera() {
@@ -56,14 +48,5 @@ struct CourseworkScene {
         camera.up[1] = 1;
         camera.vertical_fov = 2 * std::atan(0.5);
         return camera;
-    }
-
-    static pt_render render(uint32_t width, uint32_t height, uint32_t max_path_length) {
-        pt_render render{};
-        render.struct_size = sizeof render;
-        render.width = width;
-        render.height = height;
-        render.max_path_length = max_path_length;
-        return render;
     }
 };

@@ -72,7 +72,7 @@ protected:
             coursework.make_diffuse();
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
-        pt_render render = CourseworkScene::render(width, height, max_path_length);
+        pt_render render = render_of(width, height, max_path_length);
         render.seed = 5;
         render.sampler = sampler;
         render.first_sample = first_sample;

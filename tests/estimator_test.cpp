@@ -3,6 +3,7 @@
 #include "batch_fixture.h"
 #include "coursework_scene.h"
 #include "floor_radiance.h"
+#include "scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -27,15 +28,7 @@ struct ListedScene {
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
 
-    pt_scene scene() const {
-        return {sizeof(pt_scene),
-                static_cast<uint32_t>(materials.size()),
-                static_cast<uint32_t>(spheres.size()),
-                static_cast<uint32_t>(planes.size()),
-                materials.data(),
-                spheres.data(),
-                planes.data()};
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
 pt_material diffuse(float albedo) {
@@ -104,7 +97,7 @@ class EstimatorMeans : public BatchFixture, public testing::WithParamInterface<u
 TEST_P(EstimatorMeans, AgreeForAllEstimatorsAndSamplers) {
     const ListedScene listed = large_lamp();
     set_up(listed.scene(), CourseworkScene::camera());
-    pt_render render = CourseworkScene::render(16, 8, GetParam());
+    pt_render render = render_of(16, 8, GetParam());
     render.seed = 1000;
     const Means reference = means_of(render_batches(render, mean_batches, 8 * mean_samples));
     const double bound = allowed(mean_batches);
@@ -161,7 +154,7 @@ TEST(EstimatorClosedForm, MatchesTabulatedPixels) {
 TEST_F(Estimator, FindsBothLampsOfRatio1e8) {
     const ListedScene open = floor_under(ratio_1e8);
     set_up(open.scene(), CourseworkScene::camera());
-    pt_render render = CourseworkScene::render(32, 16, 2);
+    pt_render render = render_of(32, 16, 2);
     const Batches batches = render_batches(render, 16, 64);
     for (std::size_t row = 10; row < 16; ++row)
         for (std::size_t column = 0; column < 32; column += 6) { // none under the dim lamp, which shadows the floor
@@ -184,7 +177,7 @@ TEST_F(Estimator, FindsTheDimLampWhereTheBrightOneIsHidden) {
         eclipsed.materials.push_back(diffuse(0));
         eclipsed.spheres.push_back({{0, 5, -6}, 2, {0, 0, 0}, static_cast<uint32_t>(eclipsed.materials.size()) - 1, 0});
         set_up(eclipsed.scene(), CourseworkScene::camera());
-        const pt_render render = CourseworkScene::render(32, 16, 2);
+        const pt_render render = render_of(32, 16, 2);
         const Batches batches = render_batches(render, 16, with_company ? 2048 : 64);
         const std::vector<FloorLamp> lit(lamps.begin() + 1, lamps.end());
         for (const uint32_t column : {16U, 17U}) { // in the umbra: 2.2 about the point under the ball
@@ -205,7 +198,7 @@ TEST_F(Estimator, WeighsManyUnevenLamps) {
                          std::pow(10.0, (i * 29 % 64) * 6.0 / 63.0)});
     const ListedScene listed = floor_under(lamps);
     set_up(listed.scene(), CourseworkScene::camera());
-    const pt_render render = CourseworkScene::render(16, 8, 2);
+    const pt_render render = render_of(16, 8, 2);
     const Batches batches = render_batches(render, 16, 256);
     for (std::size_t row = 5; row < 8; ++row)
         for (std::size_t column = 0; column < 16; ++column) {
@@ -245,7 +238,7 @@ TEST_F(Estimator, RouletteIsUnbiased) {
     constexpr uint32_t batch_count = 32;
     for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_SOBOL})
         for (const uint32_t length : {2U, 3U, 7U, 8U, 10U, 64U}) { // from 8 on with roulette
-            pt_render render = CourseworkScene::render(16, 8, length);
+            pt_render render = render_of(16, 8, length);
             render.sampler = sampler;
             const Estimate estimate = estimate_over(render_batches(render, batch_count, 128), wall);
             EXPECT_LT(std::abs(deviation(estimate, enclosure(length))), allowed(batch_count))

@@ -22,7 +22,7 @@ protected:
         CourseworkScene coursework;
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
-        const pt_render render = CourseworkScene::render(width, height, max_path_length);
+        const pt_render render = render_of(width, height, max_path_length);
         ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
         ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
         ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
@@ -179,7 +179,7 @@ TEST_F(ExactnessTest, FirstSampleContinuesTheSequence) {
     Image halves[2];
     for (uint32_t i = 0; i < 2; ++i) {
         set_up_coursework(context(), 3);
-        pt_render render = CourseworkScene::render(width, height, 3);
+        pt_render render = render_of(width, height, 3);
         render.first_sample = 16 * i;
         ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
         accumulate(16);
@@ -201,7 +201,7 @@ TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
     const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
     const pt_camera camera = CourseworkScene::camera();
-    const pt_render render = CourseworkScene::render(8, 8, 1);
+    const pt_render render = render_of(8, 8, 1);
     ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
     ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());

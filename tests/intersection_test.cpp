@@ -169,6 +169,13 @@ Ball under_the_camera(double radius, double height) {
     return {-(radius + height) * glm::normalize(glm::dvec3(0.1, 1.0, -0.2)), radius};
 }
 
+void expect_within_bounds(const Worst &worst) {
+    EXPECT_EQ(worst.missed, 0);
+    EXPECT_LT(worst.distance, 1.0);
+    EXPECT_LT(worst.position, 1.0);
+    EXPECT_LT(worst.normal, 1.0);
+}
+
 constexpr std::size_t ray_count = 20000;
 
 // A floor seen from above and a dome seen from within, of radii over seven decades: distance, point and normal.
@@ -181,10 +188,7 @@ TEST(Intersection, HugeSpheresAreMetWithinTheRoundingOfTheScene) {
             const Worst worst = compare(ball, rays, follow(ball, rays));
             SCOPED_TRACE(testing::Message() << "radius " << radius << ", camera height " << height);
             EXPECT_GT(worst.compared, 15000);
-            EXPECT_EQ(worst.missed, 0);
-            EXPECT_LT(worst.distance, 1.0);
-            EXPECT_LT(worst.position, 1.0);
-            EXPECT_LT(worst.normal, 1.0);
+            expect_within_bounds(worst);
         }
 }
 
@@ -210,10 +214,7 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     }
     const Worst worst = compare(ball, rays, follow(ball, rays));
     EXPECT_GT(worst.compared, 15000);
-    EXPECT_EQ(worst.missed, 0);
-    EXPECT_LT(worst.distance, 1.0);
-    EXPECT_LT(worst.position, 1.0);
-    EXPECT_LT(worst.normal, 1.0);
+    expect_within_bounds(worst);
 }
 
 // Rays that leave the surface: outside they never meet it again, inside they meet the far wall, whatever the rounding of
@@ -238,10 +239,7 @@ TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
             EXPECT_GT(rays.size(), 1000U);
             const Worst worst = compare(ball, rays, follow(ball, rays));
             SCOPED_TRACE(testing::Message() << "radius " << radius << ", start " << start);
-            EXPECT_EQ(worst.missed, 0);
-            EXPECT_LT(worst.distance, 1.0);
-            EXPECT_LT(worst.position, 1.0);
-            EXPECT_LT(worst.normal, 1.0);
+            expect_within_bounds(worst);
         }
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "coursework_scene.h"
+#include "scene_of.h"
 
 #include <pt/pt.h>
 
@@ -16,15 +17,7 @@ struct InvarianceScene {
     std::vector<pt_plane> planes;
     pt_camera camera = CourseworkScene::camera();
 
-    pt_scene scene() const {
-        return {sizeof(pt_scene),
-                static_cast<uint32_t>(materials.size()),
-                static_cast<uint32_t>(spheres.size()),
-                static_cast<uint32_t>(planes.size()),
-                materials.data(),
-                spheres.data(),
-                planes.data()};
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 
     // Lamps, gloss, planes, and a moving ball. Coordinates are multiples of 1/2, normals are axes.
     static InvarianceScene coursework() {

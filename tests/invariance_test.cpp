@@ -18,7 +18,7 @@ using Image = std::vector<float>;
 
 Image render(pt_context *context, const InvarianceScene &source, uint64_t seed = 0, uint32_t samples = 16) {
     const pt_scene scene = source.scene();
-    pt_render settings = CourseworkScene::render(width, height, 4);
+    pt_render settings = render_of(width, height, 4);
     settings.seed = seed;
     const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0};
     Image image(std::size_t{3} * width * height);

@@ -74,7 +74,7 @@ double worst_coverage(const Batches &batches) {
 TEST_F(Motion, DiscCoversTheExactShare) {
     for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
         set_up_sphere(moving_disc(1), 1, 0);
-        pt_render render = CourseworkScene::render(64, 32, 1);
+        pt_render render = render_of(64, 32, 1);
         render.sampler = sampler;
         const Batches batches = render_batches(render, disc_batches, 512);
         EXPECT_LT(worst_coverage(batches), allowed(disc_batches)) << "sampler " << sampler;
@@ -82,7 +82,7 @@ TEST_F(Motion, DiscCoversTheExactShare) {
     }
     // Negative control: 3% more speed leaves 3% less time in each pixel.
     set_up_sphere(moving_disc(1.03), 1, 0);
-    const Batches batches = render_batches(CourseworkScene::render(64, 32, 1), disc_batches, 512);
+    const Batches batches = render_batches(render_of(64, 32, 1), disc_batches, 512);
     EXPECT_GT(worst_coverage(batches), allowed(disc_batches));
 }
 
@@ -90,7 +90,7 @@ TEST_F(Motion, DiscCoversTheExactShare) {
 // boundary crosses the cells of 4096 points: the random error sqrt(p (1 - p) / n) bounds it from above.
 TEST_F(Motion, HaltonCoversTheExactShare) {
     set_up_sphere(moving_disc(1), 1, 0);
-    pt_render render = CourseworkScene::render(64, 32, 1);
+    pt_render render = render_of(64, 32, 1);
     render.sampler = PT_SAMPLER_HALTON;
     const std::vector<float> image = image_of(render, 4096);
     for (const Covered &pixel : covered) {
@@ -133,7 +133,7 @@ TEST(MotionClosedForm, MatchesTabulatedPixels) {
 TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
     for (const uint32_t estimator : {PT_ESTIMATOR_LIGHT, PT_ESTIMATOR_MIS})
         for (const uint32_t sampler : {PT_SAMPLER_RANDOM, PT_SAMPLER_SOBOL}) {
-            pt_render render = CourseworkScene::render(16, 8, 2);
+            pt_render render = render_of(16, 8, 2);
             render.estimator = estimator;
             render.sampler = sampler;
             set_up_sphere(lamp_sphere(moving_lamp), 50, 0.8F);
@@ -145,7 +145,7 @@ TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
         }
     // Negative control: 3% more speed.
     set_up_sphere(lamp_sphere(moving_lamp, 1.03), 50, 0.8F);
-    const Batches batches = render_batches(CourseworkScene::render(16, 8, 2), lamp_batches, lamp_samples);
+    const Batches batches = render_batches(render_of(16, 8, 2), lamp_batches, lamp_samples);
     double worst = 0.0;
     for (const std::size_t pixel : floor_pixels)
         worst = std::max(worst,
@@ -156,7 +156,7 @@ TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
 // The mean of frozen times is the integral over time by the midpoint rule. With 64 of them its error is below 1e-4 of the
 // value: step^2 / 24 times the second derivative, which is below (6 / 2)^2 * 3 here.
 TEST_F(Motion, LampIsTheMeanOfFrozenTimes) {
-    pt_render render = CourseworkScene::render(16, 8, 2);
+    pt_render render = render_of(16, 8, 2);
     constexpr uint32_t times = 64;
     std::vector<double> frozen(16 * 8);
     std::vector<double> squares(frozen.size());
@@ -185,7 +185,7 @@ TEST_F(Motion, LampIsTheMeanOfFrozenTimes) {
 
 // All numbers are exact in binary, so that even the bits are equal.
 TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {
-    const pt_render render = CourseworkScene::render(64, 32, 2);
+    const pt_render render = render_of(64, 32, 2);
     set_up_sphere({{-2, 0.5, -6}, 0.5, {4, 0.5, 1}, 0, 0}, 1, 0.8F, 0.25, 0.75);
     const std::vector<float> shutter = image_of(render, 64);
     set_up_sphere({{-1, 0.625, -5.75}, 0.5, {2, 0.25, 0.5}, 0, 0}, 1, 0.8F);
@@ -196,7 +196,7 @@ TEST_F(Motion, ShutterIsTheSameAsRebasedMotion) {
 
 TEST_F(Motion, CourseworkMotionRejectsNoSample) {
     CourseworkScene coursework;
-    pt_render render = CourseworkScene::render(64, 32, 6);
+    pt_render render = render_of(64, 32, 6);
     const pt_camera camera = CourseworkScene::camera();
     set_up(coursework.scene(), camera);
     const std::vector<float> still = image_of(render, 64);

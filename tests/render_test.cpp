@@ -123,7 +123,7 @@ protected:
         EXPECT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
         std::vector<Image> batches(batch_count, Image(width * height * 3));
         for (uint32_t b = 0; b < batch_count; ++b) {
-            pt_render render = CourseworkScene::render(width, height, test_case.max_path_length);
+            pt_render render = render_of(width, height, test_case.max_path_length);
             render.seed = b + 1;
             render.sampler = test_case.sampler;
             EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());

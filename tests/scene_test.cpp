@@ -1,6 +1,7 @@
 // The rules of a scene: one broken scene per rule, and the whole message about it.
 #include "error.h"
 #include "scene.h"
+#include "scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -26,13 +27,7 @@ struct Draft {
     std::function<void(pt_scene &)> spoil = [](pt_scene &) {};
 
     pt::Scene validated() const {
-        pt_scene scene{sizeof(pt_scene),
-                       static_cast<uint32_t>(materials.size()),
-                       static_cast<uint32_t>(spheres.size()),
-                       static_cast<uint32_t>(planes.size()),
-                       materials.data(),
-                       spheres.data(),
-                       planes.data()};
+        pt_scene scene = scene_of(materials, spheres, planes);
         spoil(scene);
         return pt::validated_scene(scene);
     }

@@ -65,7 +65,7 @@ protected:
 
     Batches batches_of(const InvarianceScene &scene, uint64_t first_seed) {
         set_up(scene.scene(), scene.camera);
-        pt_render render = CourseworkScene::render(width, height, 3);
+        pt_render render = render_of(width, height, 3);
         render.seed = first_seed;
         return render_batches(render, batch_count, batch_samples);
     }

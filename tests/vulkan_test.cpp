@@ -40,28 +40,6 @@ void collect(void *user, int32_t /*level*/, const char *line) {
     static_cast<std::vector<std::string> *>(user)->push_back(line);
 }
 
-// Sets an environment variable while it lives.
-class EnvironmentVariable {
-public:
-    EnvironmentVariable(const char *name, const char *value) : name_(name) {
-        if (const char *before = std::getenv(name))
-            before_ = before;
-        setenv(name, value, 1);
-    }
-    ~EnvironmentVariable() {
-        if (before_)
-            setenv(name_, before_->c_str(), 1);
-        else
-            unsetenv(name_);
-    }
-    EnvironmentVariable(const EnvironmentVariable &) = delete;
-    EnvironmentVariable &operator=(const EnvironmentVariable &) = delete;
-
-private:
-    const char *name_;
-    std::optional<std::string> before_;
-};
-
 bool validation() {
     return std::getenv("PT_TEST_NO_VALIDATION") == nullptr;
 }
@@ -390,22 +368,6 @@ TEST_F(VulkanTest, TheLayersMessagesReachTheLog) {
     };
     EXPECT_TRUE(std::ranges::any_of(messages_, reported));
     messages_.clear();
-}
-
-TEST(VulkanInstanceTest, WithoutADriverThereIsNoDevice) {
-    const EnvironmentVariable no_driver("VK_DRIVER_FILES", "/nonexistent/driver.json");
-    const pt::Error error = error_of([] { (void)Instance(pt::Log{}, false).physical_devices(); });
-    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
-    EXPECT_TRUE(names(error, "VK_DRIVER_FILES=/nonexistent/driver.json")) << error.what();
-    EXPECT_TRUE(names(error, "ErrorIncompatibleDriver")) << error.what();
-    EXPECT_TRUE(names(error, "mesa-vulkan-drivers")) << error.what();
-}
-
-TEST(VulkanInstanceTest, WithoutTheLayerValidationIsUnsupported) {
-    const EnvironmentVariable no_layers("VK_LAYER_PATH", "/nonexistent");
-    const pt::Error error = error_of([] { Instance(pt::Log{}, true); });
-    EXPECT_EQ(error.code(), PT_ERROR_UNSUPPORTED);
-    EXPECT_TRUE(names(error, "VK_LAYER_KHRONOS_validation")) << error.what();
 }
 
 } // namespace

@@ -7,15 +7,6 @@
 
 namespace analytic {
 
-pt_render AnalyticFixture::render_of(std::uint32_t width, std::uint32_t height, std::uint32_t max_path_length) {
-    pt_render render{};
-    render.struct_size = sizeof render;
-    render.width = width;
-    render.height = height;
-    render.max_path_length = max_path_length;
-    return render;
-}
-
 Image AnalyticFixture::image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render,
                                 std::uint32_t sample_count) {
     Image image{render.width, render.height, std::vector<float>(std::size_t{3} * render.width * render.height)};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "batch_fixture.h"
+#include "scene_of.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +22,6 @@ struct Image {
 
 class AnalyticFixture : public BatchFixture {
 protected:
-    static pt_render render_of(std::uint32_t width, std::uint32_t height, std::uint32_t max_path_length);
-
     Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);
 
     // Prints where it is.
