@@ -10,7 +10,7 @@ function(pt_embed_shader target source)
   file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/shaders)
   add_custom_command(
     OUTPUT ${spirv}
-    COMMAND ${PT_GLSLANG} --quiet -V --target-env vulkan1.2 -I${directory} -I${PROJECT_SOURCE_DIR}/shaders --depfile
+    COMMAND ${PT_GLSLANG} --quiet -g0 -V --target-env vulkan1.2 -I${directory} -I${PROJECT_SOURCE_DIR}/shaders --depfile
             ${spirv}.d -o ${spirv} ${source}
     COMMAND ${PT_SPIRV_VAL} --target-env vulkan1.2 ${spirv}
     DEPENDS ${source}

@@ -35,8 +35,8 @@ double cosine_of_turn(double u) {
 
 // Quarters and eighths of a turn.
 constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
-// 1 - sqrt(1/2), where the exponent taken out of 1 - x changes, and its like.
-constexpr float complements[] = {0.292893219F, 0.5F, 0.646446609F, 0.75F, 0.823223305F, 0.999F};
+// 1/4, where the polynomial ends, and where 1 - x passes powers of two.
+constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
 // Odd multiples of ln(2) / 2, where the power of two changes, and of ln(2).
 constexpr float logarithms[] = {-0.34657359F, -0.693147181F, -1.03972077F, -17.0F, -68.965F};
 constexpr float squares[] = {1.0F, 2.0F, 4.0F};
@@ -51,18 +51,17 @@ constexpr ElementaryFunction functions[] = {
     // an ulp: 3.4. c = 1 + p, |p| <= 0.293, errs by 6.4 u of p, the remainder 0.4 u, and half an ulp: 2.8.
     {"sine (sin_cos_turn)", sine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
-    // s: u for 2 + (m - 1), 5 u for the division. 1 + s^2 / 3 + ...: 1.2 u. The product half an ulp: 7.7 where e = 0.
-    // For e = -1 and y < 1/2, 1 - y is rounded too, u / m absolute; near m = sqrt(2), where e log 2 cancels half of the
-    // sum, that and 7.9 u of log m = 0.35 are 3.5 u, 7 ulp of the result. For e < -1 the result is larger than 1.
-    {"log(1 - x) (log_one_minus)", [](double x) { return std::log1p(-x); }, 8.0, 0x1p-100F, 0x1.fffffep-1F,
+    // Below 1/4: 1 + y tail errs by 1.3 u (half of u for the sum, 0.8 u of at most 0.16 for the rest) and 0.2 u for the
+    // polynomial, the products by u and half an ulp: 3. From 1/4 on log2 errs by 2^-21, which is 5.5 u of the logarithm, and
+    // 1 - y by u / 2, which is 0.7 u: at 1/4, where an ulp is u / 2, 12.5, and half for the product.
+    {"log(1 - x) (log_one_minus)", [](double x) { return std::log1p(-x); }, 13.5, 0x1p-100F, 0x1.fffffep-1F,
      complements},
+    // exp2 of y, |y| <= 99.5, errs by 3 + 2 |y| ulp; y by 1.2 u of itself, for constant and product: 0.85 |y| u.
+    {"exp(x) (exp_negative)", [](double x) { return std::exp(x); }, 290.0, -0x1p-100F, -69.0F, logarithms},
     // r errs by 0.3 u: the sum a quarter, the small half of ln 2 the rest. e = r (1 + w), |w| <= 0.2: 2.2 u of e for w,
-    // the sum and the product; 0.1 u for the remainder. In units of 2^k, 1 + e in [0.7, 1.42] errs by at most 1.4 u
-    // above 1, where an ulp is 2 u, and by 1.1 u below, where it is u. The last sum is half an ulp.
-    {"exp(x) (exp_negative)", [](double x) { return std::exp(x); }, 2.0, -0x1p-100F, -69.0F, logarithms},
-    // k = 0: the result is -e, 1.2 u before and half an ulp for its last product, 0.3 u for the remainder. k = -1 is
-    // worst at r = ln(2) / 2, where the result is 0.29: half of the 1.4 u of e above, and u / 2 is an ulp there: 1.9
-    // with the last rounding. For smaller k the result grows and the share of e falls.
+    // the sum and the product; 0.1 u for the remainder. k = 0: the result is -e, 1.2 u before and half an ulp for its last
+    // product, 0.3 u for the remainder. k = -1 is worst at r = ln(2) / 2, where the result is 0.29: half of the 1.4 u of e
+    // above, and u / 2 is an ulp there: 1.9 with the last rounding. For smaller k the result grows and the share of e falls.
     {"1 - exp(x) (one_minus_exp)", [](double x) { return -std::expm1(x); }, 2.5, -0x1p-100F, -69.0F, logarithms},
     // The specification's bounds themselves: for sqrt the 2 ulp of inversesqrt are at most 4 u, and the division's 2.5.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},

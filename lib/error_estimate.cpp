@@ -69,11 +69,13 @@ HalvesAccuracy accuracy_of_halves(std::uint32_t sampler, const PointLayout &layo
     // how much; its weight is measured, so that of the estimates few are too small and few too large by 2.
     constexpr double uncovered_weight = 0.7;
     std::uint32_t uncovered = 0;
-    for (std::uint32_t d = 0; d < layout.dimensions; ++d) {
-        const std::uint64_t points = std::uint64_t{sample_count} * (d < layout.shared ? 1 : layout.branches);
+    const std::uint32_t dimensions = layout.dimensions();
+    for (std::uint32_t d = 0; d < dimensions; ++d) {
+        const std::uint64_t points =
+            std::uint64_t{sample_count} * (d < layout.shared_dimensions() ? 1 : layout.branches);
         uncovered += points < 4 * std::uint64_t{prime_base(d)} ? 1 : 0;
     }
-    return {std::sqrt(1.0 + uncovered_weight * uncovered / std::max(layout.dimensions, 1U)), exaggerated};
+    return {std::sqrt(1.0 + uncovered_weight * uncovered / std::max(dimensions, 1U)), exaggerated};
 }
 
 double squared_limit(double mean, double standard_error, double median) {

@@ -69,10 +69,6 @@ double standard_error(double sum_a, double a, double sum_b, double b) {
 
 } // namespace
 
-double sum_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]) {
-    return fixed_point_value(wide_of_words(words));
-}
-
 PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
                                const HalfCounts &expected) {
     PixelEstimates estimates;

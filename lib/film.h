@@ -15,9 +15,6 @@
 
 namespace pt {
 
-// An unsigned 128-bit fixed-point sum, words from the least significant, to double; one rounding to 53 bits.
-double sum_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]);
-
 // What the samples say about consecutive pixels, as R, G, B per pixel.
 struct PixelEstimates {
     std::vector<float> radiance;       // mean of all samples; black where all were rejected

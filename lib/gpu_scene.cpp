@@ -2,6 +2,7 @@
 #include "gpu_scene.h"
 
 #include "curved_plane.h"
+#include "mixed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +64,8 @@ public:
 
     void material(std::uint32_t surface, const Material &material) {
         const std::uint32_t count = features_.surface_count();
-        words_[count + surface] = glm::vec4(material.emission, mean(material.emission));
+        // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
+        words_[count + surface] = glm::vec4(material.emission + 0.0F, mean(material.emission));
         words_[2 * count + surface] = glm::vec4(material.diffuse, specular_probability(material));
         if (features_.gloss)
             words_[3 * count + surface] = glm::vec4(material.specular, material.glossiness);
@@ -90,15 +92,6 @@ private:
     std::vector<glm::vec4> &words_;
     const Features &features_;
 };
-
-// One round of splitmix64 (Steele, Lea and Flood, "Fast Splittable Pseudorandom Number Generators", 2014): neighbouring
-// seeds become unrelated words.
-std::uint64_t mixed(std::uint64_t seed) {
-    std::uint64_t z = seed + 0x9e3779b97f4a7c15U;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-    return z ^ (z >> 31);
-}
 
 } // namespace
 

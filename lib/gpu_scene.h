@@ -16,7 +16,7 @@ namespace pt {
 std::vector<glm::vec4> gpu_scene(const Scene &scene, const Camera &camera, const Features &features);
 
 // Power of two that makes one film unit: radiance / unit is what the film sums. It puts the brightest emission into
-// [2^7, 2^8) units, so that samples 2^20 times as bright are still accepted and samples 2^-47 times as bright are exact,
+// [2^7, 2^8) units, so that samples 2^20 times as bright are still accepted and samples 2^-44 times as bright are exact,
 // whatever the scene's unit of light is.
 double film_unit(const Scene &scene);
 

@@ -1,12 +1,15 @@
 // Sobol and Halton points in integer arithmetic; see point_sequence.h.
 #include "point_sequence.h"
 
+#include "mixed.h"
+
 #include <pt/pt.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 
 namespace pt {
 
@@ -118,6 +121,17 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
+// The direction numbers that a bit of the index adds in all dimensions: a point of the table is made of rows of this, many
+// dimensions at a time, which takes a tenth of the time of one coordinate after the other.
+using Row = std::array<std::uint32_t, sequence_dimensions>;
+constexpr std::array<Row, 32> sobol_rows = [] {
+    std::array<Row, 32> rows{};
+    for (std::uint32_t bit = 0; bit < 32; ++bit)
+        for (std::uint32_t dimension = 0; dimension < sequence_dimensions; ++dimension)
+            rows[bit][dimension] = sobol_matrices[dimension][bit];
+    return rows;
+}();
+
 constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x >> 16) | (x << 16);
     x = (x & 0xff00ff00U) >> 8 | (x & 0x00ff00ffU) << 8;
@@ -125,17 +139,6 @@ constexpr std::uint32_t reversed_bits(std::uint32_t x) {
     x = (x & 0xccccccccU) >> 2 | (x & 0x33333333U) << 2;
     return (x & 0xaaaaaaaaU) >> 1 | (x & 0x55555555U) << 1;
 }
-
-// The direction numbers that a bit of the index adds in all dimensions, their bits reversed: a point of the table is made of
-// rows of this, many dimensions at a time, which takes a tenth of the time of one coordinate after the other.
-using Row = std::array<std::uint32_t, sequence_dimensions>;
-constexpr std::array<Row, 32> reversed_rows = [] {
-    std::array<Row, 32> rows{};
-    for (std::uint32_t bit = 0; bit < 32; ++bit)
-        for (std::uint32_t dimension = 0; dimension < sequence_dimensions; ++dimension)
-            rows[bit][dimension] = reversed_bits(sobol_matrices[dimension][bit]);
-    return rows;
-}();
 
 constexpr std::array<std::uint32_t, sequence_dimensions> primes = [] {
     std::array<std::uint32_t, sequence_dimensions> found{};
@@ -176,40 +179,110 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
+// With the digits reversed, those before a digit are its lower bits, which carries of sums and products respect (Laine and
+// Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are those of N. Vegdahl's
+// search for a hash with better avalanche (2021).
+std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
+    std::uint32_t v = reversed_bits(coordinate);
+    v ^= v * 0x3d20adeaU;
+    v += seed;
+    v *= (seed >> 16) | 1U;
+    v ^= v * 0x05526c56U;
+    v ^= v * 0x53a22864U;
+    return reversed_bits(v);
+}
+
+std::uint32_t PointLayout::shared_dimensions() const {
+    return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + shared_blocks, 0U);
+}
+
+std::uint32_t PointLayout::dimensions() const {
+    return std::accumulate(block_dimensions.begin(), block_dimensions.end(), 0U);
+}
+
 namespace {
 
-void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
-    std::ranges::fill(coordinates, 0U);
-    for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // the bits of the index that are set
-        const std::uint32_t *row = &reversed_rows[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
-        for (std::size_t i = 0; i < coordinates.size(); ++i)
-            coordinates[i] ^= row[i];
-    }
+// A point in all dimensions of a layout.
+using Point = std::vector<std::uint32_t>;
+
+// The seeds of Sobol's scrambling, one for each dimension. Indices of 2^32 and more repeat points, with seeds of their own.
+std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
+    std::vector<std::uint32_t> seeds;
+    std::uint64_t state = mixed(seed) + repetition;
+    for (std::uint32_t dimension = 0; dimension < dimensions; ++dimension)
+        seeds.push_back(static_cast<std::uint32_t>(mixed(state = mixed(state)) >> 32));
+    return seeds;
 }
 
-void write_radical_inverses(std::uint64_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
-    for (std::uint32_t i = 0; i < coordinates.size(); ++i)
-        coordinates[i] = radical_inverse(index, first + i);
-}
+// Writes points of one sequence.
+class PointWriter {
+public:
+    PointWriter(std::uint32_t sampler, std::uint64_t seed, std::uint32_t dimensions) :
+        sobol_(sampler == PT_SAMPLER_SOBOL),
+        seed_(seed),
+        point_(dimensions) {}
+
+    // The coordinates of the point with an index in the dimensions [first, end).
+    std::span<const std::uint32_t> coordinates(std::uint64_t index, std::uint32_t first, std::uint32_t end) {
+        const std::span<std::uint32_t> coordinates = std::span(point_).subspan(first, end - first);
+        if (sobol_) {
+            write_sobol(static_cast<std::uint32_t>(index), first, coordinates);
+            scramble(index >> 32, first, coordinates);
+        } else {
+            for (std::uint32_t i = 0; i < coordinates.size(); ++i)
+                coordinates[i] = radical_inverse(index, first + i);
+        }
+        return coordinates;
+    }
+
+private:
+    static void write_sobol(std::uint32_t index, std::uint32_t first, std::span<std::uint32_t> coordinates) {
+        std::ranges::fill(coordinates, 0U);
+        for (std::uint32_t rest = index; rest != 0; rest &= rest - 1) { // the bits of the index that are set
+            const std::uint32_t *row = &sobol_rows[static_cast<std::uint32_t>(std::countr_zero(rest))][first];
+            for (std::size_t i = 0; i < coordinates.size(); ++i)
+                coordinates[i] ^= row[i];
+        }
+    }
+
+    void scramble(std::uint64_t repetition, std::uint32_t first, std::span<std::uint32_t> coordinates) {
+        if (seeds_.empty() || repetition != repetition_) {
+            repetition_ = repetition;
+            seeds_ = scrambling_seeds(seed_, repetition, static_cast<std::uint32_t>(point_.size()));
+        }
+        for (std::size_t i = 0; i < coordinates.size(); ++i)
+            coordinates[i] = owen_scrambled(coordinates[i], seeds_[first + i]);
+    }
+
+    bool sobol_;
+    std::uint64_t seed_;
+    std::uint64_t repetition_ = 0;
+    std::vector<std::uint32_t> seeds_;
+    Point point_;
+};
 
 } // namespace
 
-std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::span<const std::uint32_t> indices,
-                                       const PointLayout &layout) {
-    std::vector<std::uint32_t> table(indices.size() * layout.row_words());
-    std::span<std::uint32_t> rest = table;
-    const auto add = [&](std::uint64_t index, std::uint32_t first, std::uint32_t end) {
-        const std::span<std::uint32_t> coordinates = rest.first(end - first);
-        if (sampler == PT_SAMPLER_SOBOL)
-            write_sobol(static_cast<std::uint32_t>(index), first, coordinates); // beyond, the kernel changes the seed
-        else
-            write_radical_inverses(index, first, coordinates);
-        rest = rest.subspan(end - first);
+std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
+                                    const PointLayout &layout) {
+    std::vector<PointBlock> table;
+    table.reserve(indices.size() * layout.row_blocks());
+    PointWriter writer(sampler, seed, layout.dimensions());
+    const std::span<const std::uint32_t> block_dimensions = layout.block_dimensions;
+    const auto add_blocks = [&](std::span<const std::uint32_t> coordinates, std::span<const std::uint32_t> blocks) {
+        for (const std::uint32_t count : blocks) {
+            PointBlock block{};
+            std::ranges::copy(coordinates.first(count), block.begin());
+            coordinates = coordinates.subspan(count);
+            table.push_back(block);
+        }
     };
+    const std::uint32_t shared = layout.shared_dimensions();
     for (const std::uint32_t index : indices) {
-        add(index, 0, layout.shared);
+        add_blocks(writer.coordinates(index, 0, shared), block_dimensions.first(layout.shared_blocks));
         for (std::uint32_t branch = 0; branch < layout.branches; ++branch)
-            add(std::uint64_t{index} * layout.branches + branch, layout.shared, layout.dimensions);
+            add_blocks(writer.coordinates(std::uint64_t{index} * layout.branches + branch, shared, layout.dimensions()),
+                       block_dimensions.subspan(layout.shared_blocks));
     }
     return table;
 }

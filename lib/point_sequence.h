@@ -3,6 +3,7 @@
 
 #include "gpu_layout.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,18 +24,30 @@ std::uint32_t prime_base(std::uint32_t dimension);
 // above it.
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
-// What a row of the point table consists of (gpu_layout.h, row_words).
+// What a row of the point table consists of (gpu_layout.h, row_blocks): blocks of up to four dimensions, dealt in order.
 struct PointLayout {
-    std::uint32_t dimensions; // in all
-    std::uint32_t shared;     // of them shared by the branches of a sample
+    std::vector<std::uint32_t> block_dimensions; // how many each block has: the shared blocks, then those of a branch
+    std::uint32_t shared_blocks;
     std::uint32_t branches;
 
-    std::uint32_t row_words() const { return gpu::row_words(dimensions, shared, branches); }
+    std::uint32_t block_count() const { return static_cast<std::uint32_t>(block_dimensions.size()); }
+    std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
+
+    // Dimensions of the shared blocks, and of all.
+    std::uint32_t shared_dimensions() const;
+    std::uint32_t dimensions() const;
 };
 
-// The points of samples for a sampler of pt.h that uses a sequence, as the kernel reads them: a row for each index,
-// coordinates of Sobol with their bits reversed.
-std::vector<std::uint32_t> point_table(std::uint32_t sampler, std::span<const std::uint32_t> indices,
-                                       const PointLayout &layout);
+// A coordinate with its binary digits scrambled as Owen does (1995): each digit is flipped or not by a hash of the digits
+// before it and of the seed.
+std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed);
+
+// A block of the table: coordinates as multiples of 2^-32, 0 beyond the block's dimensions.
+using PointBlock = std::array<std::uint32_t, 4>;
+
+// The points of samples for a sampler of pt.h that uses a sequence, as the kernel reads them: a row for each index. Those of
+// Sobol are scrambled by the seed.
+std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, std::span<const std::uint32_t> indices,
+                                    const PointLayout &layout);
 
 } // namespace pt

@@ -2,31 +2,16 @@
 #include "renderer.h"
 
 #include "accuracy.h"
-#include "commit.spv.h"
 #include "error.h"
-#include "gpu_scene.h"
-#include "pathtrace.spv.h"
-#include "point_sequence.h"
 #include "sample_halves.h"
 #include "vulkan/device_choice.h"
 
 #include <algorithm>
-#include <array>
-#include <iterator>
 #include <utility>
 
 namespace pt {
 
 namespace {
-
-constexpr std::array kernel_bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                        vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-                                        vk::DescriptorType::eStorageBuffer};
-
-// Rows of the point table, which bounds the samples of a slice: 4 MiB at the most.
-constexpr std::uint32_t max_table_rows = 4096;
-// The kernel reads blocks of four coordinates, of which a row's last may be beyond it.
-constexpr std::uint32_t table_padding = 3;
 
 // Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
 // measured slices size the rest.
@@ -63,6 +48,7 @@ Renderer::Renderer(const CreateSettings &settings) :
     log_(settings.log),
     instance_(log_, settings.validation),
     device_(instance_, chosen_device(instance_, settings.device)),
+    pipelines_(device_),
     target_seconds_(settings.submit_milliseconds * 1e-3) {}
 
 void Renderer::discard_samples() {
@@ -109,123 +95,21 @@ void Renderer::require_settings() const {
         throw Error(PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
 }
 
-void Renderer::prepare_pipelines(const Features &features) {
-    if (!commit_pipeline_)
-        commit_pipeline_.emplace(device_, commit_spirv, kernel_bindings, sizeof(gpu::FrameConstants),
-                                 std::span<const std::uint32_t>{});
-    if (traced_features_ == features)
-        return;
-    traced_features_.reset(); // of no pipeline, if this one cannot be built
-    trace_pipeline_.emplace(device_, pathtrace_spirv, kernel_bindings, sizeof(gpu::FrameConstants),
-                            specialization_constants(features));
-    traced_features_ = features;
-}
-
 void Renderer::prepare_kernel() {
     if (kernel_)
         return;
-    const Features features = features_of(*scene_, *camera_, *settings_);
-    const std::vector<glm::vec4> words = gpu_scene(*scene_, *camera_, features);
-    const std::uint64_t scene_bytes =
-        std::max<std::uint64_t>(words.size(), gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
-    const vulkan::Limits &limits = device_.limits();
-    if (scene_bytes > limits.max_storage_buffer_range)
-        throw Error(PT_ERROR_UNSUPPORTED, "the scene takes " + std::to_string(scene_bytes) +
-                                              " bytes, more than this device can bind (" +
-                                              std::to_string(limits.max_storage_buffer_range) + ")");
-    const std::uint64_t trips = loop_trips_per_sample(features);
-    if (trips > limits.loop_trip_budget)
-        throw Error(PT_ERROR_UNSUPPORTED, "a sample of this scene takes up to " + std::to_string(trips) +
-                                              " loop trips, and this driver stops a kernel after " +
-                                              std::to_string(limits.loop_trip_budget) +
-                                              ": fewer surfaces or a smaller max_path_length would do");
-
-    const std::uint64_t table_bytes =
-        (std::uint64_t{max_table_rows} * point_layout(features).row_words() + table_padding + 1) *
-        sizeof(std::uint32_t);
-
-    prepare_pipelines(features);
-    const double unit = film_unit(*scene_);
-    ScheduleLimits schedule_limits{};
-    schedule_limits.target_seconds = target_seconds_;
-    schedule_limits.first_slice_paths =
-        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(features));
-    // An invocation takes the samples of one half.
-    const auto max_samples_of_half =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.loop_trip_budget / trips, max_table_rows));
-    schedule_limits.max_samples = std::min(longest_range(max_samples_of_half), max_table_rows);
-    schedule_limits.pixel_granularity = gpu::WORKGROUP_SIZE;
-
-    Kernel kernel{features,
-                  unit,
-                  frame_constants(*camera_, *settings_, unit),
-                  vulkan::Buffer(device_, vulkan::BufferUse::UniformOrStorage, scene_bytes, "scene"),
-                  vulkan::Buffer(device_, vulkan::BufferUse::Storage, table_bytes, "points of a slice"),
-                  {},
-                  {},
-                  Schedule(film_->pixel_count(), schedule_limits)};
-    kernel.scene.upload(std::as_bytes(std::span(words)), 0);
-    for (Film::Strip &strip : film_->strips()) {
-        const std::array buffers = {&kernel.scene, &kernel.scene, &strip.words, &strip.pass, &kernel.points};
-        kernel.trace_sets.push_back(trace_pipeline_->bind(buffers));
-        kernel.commit_sets.push_back(commit_pipeline_->bind(buffers));
-    }
-    kernel_ = std::move(kernel);
+    kernel_.emplace(device_, pipelines_, *film_, *scene_, *camera_, *settings_);
+    ScheduleLimits limits{};
+    limits.target_seconds = target_seconds_;
+    limits.first_slice_paths =
+        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
+    limits.max_samples = kernel_->max_samples();
+    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+    schedule_.emplace(film_->pixel_count(), limits);
 }
 
-// Submits a slice, and with the last slice of a split pass the addition of its samples to the film.
 double Renderer::run(const Slice &slice) {
-    const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-    const bool pass_complete = !slice.whole && slice_end == film_->pixel_count();
-    const std::uint32_t first_sample = settings_->first_sample + samples_done_;
-    gpu::FrameConstants frame = kernel_->frame;
-    frame.split_pass = slice.whole ? 0 : 1;
-
-    // Each half's samples are rows of their own in the table of points.
-    const SampleHalves sample_halves(settings_->sampler);
-    std::array<HalfRange, gpu::FILM_HALVES> halves{};
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
-        halves[half] = sample_halves.range(half, first_sample, slice.sample_count);
-        std::ranges::copy(sample_halves.indices(half, halves[half]), std::back_inserter(indices));
-    }
-    if (const PointLayout layout = point_layout(kernel_->features); layout.dimensions > 0) {
-        const std::vector<std::uint32_t> points = point_table(settings_->sampler, indices, layout);
-        kernel_->points.upload(std::as_bytes(std::span(points)), 0);
-    }
-
-    // Dispatches a kernel over the part of [first, end) in each strip, for each half that has samples.
-    const auto dispatch = [&](const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                              const std::vector<vulkan::DescriptorSet> &sets, std::uint32_t first, std::uint32_t end) {
-        for (std::size_t i = 0; i < sets.size(); ++i) {
-            const Film::Strip &strip = film_->strips()[i];
-            const std::uint32_t strip_first = std::max(first, strip.first_pixel);
-            const std::uint32_t strip_end = std::min(end, strip.first_pixel + strip.pixel_count);
-            if (strip_first >= strip_end)
-                continue;
-            frame.strip_first_pixel = strip.first_pixel;
-            frame.strip_pixel_count = strip.pixel_count;
-            frame.first_pixel = strip_first - strip.first_pixel;
-            frame.pixel_count = strip_end - strip_first;
-            const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
-            frame.first_row = 0;
-            for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
-                frame.film_half = half;
-                frame.first_pair = halves[half].first_pair;
-                frame.sample_count = halves[half].sample_count;
-                if (frame.sample_count > 0)
-                    pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups);
-                frame.first_row += frame.sample_count;
-            }
-        }
-    };
-    const double seconds = device_.submit([&](const vk::raii::CommandBuffer &commands) {
-        dispatch(commands, *trace_pipeline_, kernel_->trace_sets, slice.first_pixel, slice_end);
-        if (pass_complete) {
-            vulkan::barrier_between_dispatches(commands);
-            dispatch(commands, *commit_pipeline_, kernel_->commit_sets, 0, film_->pixel_count());
-        }
-    });
+    const double seconds = kernel_->run(slice, settings_->first_sample + samples_done_);
     ++submit_count_;
     device_seconds_ += seconds;
     return seconds;
@@ -257,10 +141,9 @@ const ErrorEstimate &Renderer::error() {
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
-        film_->read(kernel_->film_unit, half_counts(),
+        film_->read(kernel_->film_unit(), half_counts(),
                     [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
-        error_ =
-            estimator.result(accuracy_of_halves(settings_->sampler, point_layout(kernel_->features), samples_done_));
+        error_ = estimator.result(accuracy_of_halves(settings_->sampler, kernel_->point_layout(), samples_done_));
     }
     return *error_;
 }
@@ -290,8 +173,8 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, 
             return PT_TARGET_REACHED;
         const std::uint32_t end =
             target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted;
-        const Slice slice = kernel_->schedule.next(end - samples_done_, pass_pixels_done_);
-        kernel_->schedule.measured(slice, run(slice));
+        const Slice slice = schedule_->next(end - samples_done_, pass_pixels_done_);
+        schedule_->measured(slice, run(slice));
         advance(slice);
         if (!progress.function)
             continue;
@@ -310,7 +193,7 @@ void Renderer::readback(const Image &image) {
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
-    film_->read(kernel_->film_unit, half_counts(), [&](const PixelEstimates &pixels) {
+    film_->read(kernel_->film_unit(), half_counts(), [&](const PixelEstimates &pixels) {
         const std::vector<float> &values =
             image.quantity == PT_QUANTITY_RADIANCE ? pixels.radiance : pixels.standard_error;
         for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
@@ -327,7 +210,7 @@ pt_stats Renderer::stats(bool with_error) {
     stats.device_bytes = device_.allocated_bytes();
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
-    stats.features = kernel_ ? feature_bits(kernel_->features) : 0;
+    stats.features = kernel_ ? feature_bits(kernel_->features()) : 0;
     stats.rmse = error.rmse.estimate;
     stats.rmse_low = error.rmse.low;
     stats.rmse_high = error.rmse.high;

@@ -5,12 +5,12 @@
 #include "error_estimate.h"
 #include "film.h"
 #include "image.h"
+#include "kernel.h"
 #include "log.h"
 #include "render_settings.h"
 #include "scene.h"
-#include "scene_features.h"
 #include "schedule.h"
-#include "vulkan/compute_pipeline.h"
+#include "trace_pipelines.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"
 
@@ -64,21 +64,8 @@ public:
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    // What the kernel needs besides the film: made from scene, camera and render settings together.
-    struct Kernel {
-        Features features;
-        double film_unit;
-        gpu::FrameConstants frame;
-        vulkan::Buffer scene;
-        vulkan::Buffer points;                         // the point table of a slice
-        std::vector<vulkan::DescriptorSet> trace_sets; // one per strip of the film
-        std::vector<vulkan::DescriptorSet> commit_sets;
-        Schedule schedule;
-    };
-
     void discard_samples();
     void require_settings() const;
-    void prepare_pipelines(const Features &features);
     void prepare_kernel();
     double run(const Slice &slice);
     void advance(const Slice &slice);
@@ -89,15 +76,14 @@ private:
     Log log_;
     vulkan::Instance instance_;
     vulkan::Device device_;
+    TracePipelines pipelines_;
     double target_seconds_;
     std::optional<Scene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;
     std::optional<Film> film_;
-    std::optional<Features> traced_features_; // that trace_pipeline_ is specialised to
-    std::optional<vulkan::ComputePipeline> trace_pipeline_;
-    std::optional<vulkan::ComputePipeline> commit_pipeline_;
     std::optional<Kernel> kernel_;       // empty after a setter
+    std::optional<Schedule> schedule_;   // of the kernel
     std::uint32_t samples_done_ = 0;     // whole samples in every pixel
     std::uint32_t pass_pixels_done_ = 0; // of the split pass under way
     std::optional<ErrorEstimate> error_; // of the whole samples, once it has been asked for

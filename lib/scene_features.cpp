@@ -5,6 +5,7 @@
 #include "point_sequence.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace pt {
 
@@ -12,6 +13,41 @@ namespace {
 
 bool emits(const Material &material) {
     return material.emission != glm::vec3(0.0F);
+}
+
+// Where the centre of a sphere is as the shutter opens and as it closes, relative to the camera; in between on a straight line.
+using Way = std::array<glm::dvec3, 2>;
+
+Way way_of(const Sphere &sphere, const Camera &camera) {
+    return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
+            sphere.center + camera.shutter_close * sphere.motion - camera.position};
+}
+
+// Whether the camera is in a sphere at any time, or so near to it that float32 cannot tell.
+bool is_at_or_in(const Way &way, double radius) {
+    constexpr double margin = 1.0 + 0x1p-16;
+    const glm::dvec3 step = way[1] - way[0];
+    const double length = glm::dot(step, step);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(way[0], step) / length, 0.0, 1.0) : 0.0;
+    return !(glm::length(way[0] + nearest * step) > radius * margin);
+}
+
+std::vector<CurvedPlane> planes_about(const Scene &scene, const Camera &camera) {
+    std::vector<CurvedPlane> planes;
+    for (const Plane &plane : scene.planes)
+        planes.push_back(curved_plane(plane, camera));
+    return planes;
+}
+
+// Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and no plane
+// comes between two points of it.
+bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double radius) {
+    return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
+        const double side = plane.offset < 0.0 ? -1.0 : 1.0;
+        return plane.offset != 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
+                   return side * (glm::dot(plane.normal, centre) + plane.offset) > radius;
+               });
+    });
 }
 
 // Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
@@ -28,6 +64,8 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
     };
     const auto moves = [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); };
 
+    const std::vector<CurvedPlane> planes = planes_about(scene, camera);
+
     Features features{};
     features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
     for (const Sphere &sphere : scene.spheres) {
@@ -36,10 +74,15 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
             ++features.plane_count;
             features.curvature = true;
         } else {
+            const Way way = way_of(sphere, camera);
             ++features.sphere_count;
             features.lamp_count += emits(material) ? 1 : 0;
+            features.inside = features.inside || is_at_or_in(way, sphere.radius);
+            features.planes_block =
+                features.planes_block || (emits(material) && !is_in_region(planes, way, sphere.radius));
         }
     }
+    features.planes_block = features.planes_block || features.curvature; // some may bulge towards the camera
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
@@ -73,16 +116,24 @@ std::uint32_t further_lamps(const Features &features) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t motion = features.motion ? 1 : 0;
-    const std::uint32_t shared = gpu::shared_dimensions(motion, features.lamp_count);
+    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count);
     const std::uint32_t branches = branch_count(features);
     if (features.sampler == PT_SAMPLER_RANDOM)
-        return {0, 0, branches};
-    std::uint32_t count = shared;
-    for (std::uint32_t vertex = 1; vertex < features.max_path_length && count < sequence_dimensions; ++vertex)
-        count += gpu::chosen_lamp_dimensions(vertex, features.lamp_count) +
-                 gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
-    return {std::min(count, sequence_dimensions), shared, branches};
+        return {{}, 0, branches};
+    std::vector<std::uint32_t> blocks(shared, 2); // the place on each lamp
+    blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
+    std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
+    const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
+    for (std::uint32_t vertex = 1; vertex < features.max_path_length; ++vertex) {
+        const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features.lamp_count);
+        if (lamp + direction > left)
+            break;
+        if (lamp > 0)
+            blocks.push_back(lamp);
+        blocks.push_back(direction);
+        left -= lamp + direction;
+    }
+    return {blocks, shared, branches};
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
@@ -95,10 +146,12 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_GLOSS] = features.gloss ? 1 : 0;
     constants[gpu::ID_MOTION] = features.motion ? 1 : 0;
     constants[gpu::ID_SAMPLER] = features.sampler;
-    constants[gpu::ID_TABLE_DIMENSIONS] = point_layout(features).dimensions;
+    constants[gpu::ID_TABLE_BLOCKS] = point_layout(features).block_count();
     constants[gpu::ID_BRANCH_COUNT] = branch_count(features);
     constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
-    constants[gpu::ID_SCENE_IN_UNIFORM] = features.scene_in_uniform ? 1 : 0;
+    constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
+    constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
+    constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
 

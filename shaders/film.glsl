@@ -7,8 +7,9 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
+// What an invocation gathers: sums of windows, then to be added to the film.
 struct FilmPixel {
-    uvec4 sums[3];
+    uvec4 windows[3];
     uint accepted;
     uint rejected;
 };
@@ -26,6 +27,42 @@ FilmPixel empty_film_pixel()
     return FilmPixel(uvec4[3](uvec4(0u), uvec4(0u), uvec4(0u)), 0u, 0u);
 }
 
+// A sum of floats is exact as long as no addition rounds. So each value is cut into four windows, multiples of 2^6,
+// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 1023 of them to sum up in 32 bits (the pre-rounded sums
+// of Demmel and Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013). Adding a bias of three halves (of one,
+// where the value has no sign) of a power of two rounds a number to a multiple of that power's 2^-23 and leaves the
+// multiple in the low bits: no shift, no carry, nothing that depends on the sum so far. Where a value has bits below
+// 2^-60 (2^-37 and more have none), it is rounded to nearest.
+const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
+
+uvec4 windows_of(float value)
+{
+    precise float a = value + WINDOW_BIASES.x;
+    precise float rest_a = value - (a - WINDOW_BIASES.x);
+    precise float b = rest_a + WINDOW_BIASES.y;
+    precise float rest_b = rest_a - (b - WINDOW_BIASES.y);
+    precise float c = rest_b + WINDOW_BIASES.z;
+    precise float rest_c = rest_b - (c - WINDOW_BIASES.z);
+    precise float d = rest_c + WINDOW_BIASES.w;
+    return floatBitsToUint(vec4(a, b, c, d)) - floatBitsToUint(WINDOW_BIASES);
+}
+
+// Adds a sample in film units, or counts it as left out if a component is NaN, infinite, negative or too bright.
+void film_add(inout FilmPixel pixel, vec3 value)
+{
+    // As integers, since Vulkan does not promise how comparisons treat NaN: floats >= 0 are ordered as their bits
+    // are, and negative ones, infinity and NaN lie above.
+    const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
+    uvec3 bits = floatBitsToUint(value);
+    bool accepted = max(max(bits.r, bits.g), bits.b) < limit;
+    vec3 kept = accepted ? value : vec3(0.0);
+    pixel.windows[0] += windows_of(kept.r);
+    pixel.windows[1] += windows_of(kept.g);
+    pixel.windows[2] += windows_of(kept.b);
+    pixel.accepted += accepted ? 1u : 0u;
+    pixel.rejected += accepted ? 0u : 1u;
+}
+
 uvec4 add_with_carry(uvec4 a, uvec4 b)
 {
     uvec4 sum;
@@ -40,41 +77,16 @@ uvec4 add_with_carry(uvec4 a, uvec4 b)
     return sum;
 }
 
-// A float in [0, 2^FILM_MAX_EXPONENT) as fixed point: its 24-bit mantissa m, shifted into place. value = m 2^(e -
-// 150) for the biased exponent e, so m moves left by e - 150 + FILM_FRACTION_BITS. Bits below the fraction are cut
-// off: values below 2^-41 lose some.
-uvec4 fixed_point(float value)
+// Sums of windows as one fixed-point number of 128 bits. The first is not negative; the others are signed, in two's
+// complement.
+uvec4 fixed_point(uvec4 windows)
 {
-    uint bits = floatBitsToUint(value) & 0x7fffffffu;
-    uint biased_exponent = bits >> 23u;
-    uint mantissa = (bits & 0x7fffffu) | 0x800000u;
-    const uint unit_exponent = 150u - FILM_FRACTION_BITS;
-    uint right = biased_exponent < unit_exponent ? min(unit_exponent - biased_exponent, 31u) : 0u;
-    uint left = biased_exponent < unit_exponent ? 0u : biased_exponent - unit_exponent;
-    mantissa >>= right;
-    uint low = mantissa << (left & 31u);
-    uint high = (mantissa >> 1u) >> (31u - (left & 31u)); // two steps: a shift by 32 is undefined
-    uint word = left >> 5u;                               // at most 2, as the value is below 2^28
-    return uvec4(word == 0u ? low : 0u, word == 0u ? high : word == 1u ? low : 0u,
-                 word == 1u ? high : word == 2u ? low : 0u, word == 2u ? high : 0u);
-}
-
-// Adds a sample in film units, or counts it as left out if a component is NaN, infinite, negative or too bright.
-void film_add(inout FilmPixel pixel, vec3 value)
-{
-    // As integers, since Vulkan does not promise how comparisons treat NaN: floats >= 0 are ordered as their bits
-    // are, and negative ones, infinity and NaN lie above. Minus zero is a zero.
-    const uint limit = (127u + FILM_MAX_EXPONENT) << 23u;
-    uvec3 bits = floatBitsToUint(value);
-    bvec3 zero = equal(bits, uvec3(0x80000000u));
-    bvec3 in_range = lessThan(bits, uvec3(limit));
-    bool accepted = (in_range.r || zero.r) && (in_range.g || zero.g) && (in_range.b || zero.b);
-    vec3 kept = accepted ? value : vec3(0.0);
-    pixel.sums[0] = add_with_carry(pixel.sums[0], fixed_point(kept.r));
-    pixel.sums[1] = add_with_carry(pixel.sums[1], fixed_point(kept.g));
-    pixel.sums[2] = add_with_carry(pixel.sums[2], fixed_point(kept.b));
-    pixel.accepted += accepted ? 1u : 0u;
-    pixel.rejected += accepted ? 0u : 1u;
+    uvec3 sign = uvec3(ivec3(windows.yzw) >> 31);
+    uvec4 a = uvec4(0u, 0u, windows.x << 2u, windows.x >> 30u);                               // times 2^66
+    uvec4 b = uvec4(0u, windows.y << 12u, uint(int(windows.y) >> 20), sign.x);                // times 2^44
+    uvec4 c = uvec4(windows.z << 22u, uint(int(windows.z) >> 10), sign.y, sign.y);            // times 2^22
+    uvec4 d = uvec4(windows.w, sign.z, sign.z, sign.z);
+    return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
 // Adds to the sum whose least significant word is words[first], its words lying stride apart. The most significant one
@@ -94,9 +106,9 @@ void film_store_sum(uint first, uint stride, uvec4 sum)
 void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel)
 {
     uint first = film_half * FILM_WORDS * strip_pixel_count + pixel_in_strip;
-    film_store_sum(first, strip_pixel_count, pixel.sums[0]);
-    film_store_sum(first + FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[1]);
-    film_store_sum(first + 2u * FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, pixel.sums[2]);
+    film_store_sum(first, strip_pixel_count, fixed_point(pixel.windows[0]));
+    film_store_sum(first + FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, fixed_point(pixel.windows[1]));
+    film_store_sum(first + 2u * FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, fixed_point(pixel.windows[2]));
     film.words[first + FILM_ACCEPTED * strip_pixel_count] += pixel.accepted;
     if (pixel.rejected != 0u)
         film.words[first + FILM_REJECTED * strip_pixel_count] += pixel.rejected;

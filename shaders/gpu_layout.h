@@ -27,12 +27,22 @@ PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
 PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
 PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
 PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
-PT_CONSTANT ID_SCENE_IN_UNIFORM = 7; // 1: the scene is read from the uniform buffer, 0: from the storage buffer
+PT_CONSTANT ID_SCENE_SOURCE = 7;     // SCENE_IN_*: where the kernel finds the scene
 PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
-PT_CONSTANT ID_TABLE_DIMENSIONS = 9; // dimensions in the point table
+PT_CONSTANT ID_TABLE_BLOCKS = 9;     // blocks of a sample and one of its branches that are in the point table
 PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
 PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
-PT_CONSTANT CONSTANT_COUNT = 12;
+PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
+PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
+PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
+PT_CONSTANT CONSTANT_COUNT = 15;
+// With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
+// CONSTANT_COUNT + 4 w + i.
+PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
+
+PT_CONSTANT SCENE_IN_STORAGE = 0;
+PT_CONSTANT SCENE_IN_UNIFORM = 1;
+PT_CONSTANT SCENE_IN_CONSTANTS = 2;
 
 // The numbers of pt.h's PT_ESTIMATOR_* and PT_SAMPLER_*.
 PT_CONSTANT ESTIMATOR_UNIFORM = 1;
@@ -45,20 +55,18 @@ PT_CONSTANT SAMPLER_HALTON = 2;
 PT_CONSTANT SAMPLER_HALTON_CP = 3;
 PT_CONSTANT SAMPLER_SOBOL = 4;
 
-// ---- Dimensions of a sample: each number that a path consumes has one of its own ------------------------------------
-// First the numbers that all branches of a sample share: the place in the pixel (2), the time (1, with MOTION) and the
-// place on each lamp at the first vertex (2 for each of a few, EVERY_LAMP_LIMIT). Then those of a branch, for each
-// vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are several) unless every lamp has been
-// sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1,
-// for long paths). The low dimensions of a sequence are its best: they go to what makes most of the picture.
+// ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
+// They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
+// and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex (2).
+// Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
+// several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
+// and survival of Russian roulette (1, for long paths). The dimensions of a sequence are dealt to the blocks in this
+// order: the low ones are its best, and go to what makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-PT_FUNCTION uint shared_dimensions(uint motion, uint lamp_count)
-{
-    return camera_dimensions(motion) + (lamp_count <= EVERY_LAMP_LIMIT ? 2 * lamp_count : 0);
-}
+PT_FUNCTION uint shared_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
     return lamp_count == 0 || (vertex == 1 && lamp_count <= EVERY_LAMP_LIMIT) ? 0 : lamp_count == 1 ? 2 : 3;
@@ -67,12 +75,16 @@ PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
 {
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
 }
-
-// Words of a row of the point table, one sample's: the shared dimensions, then for each branch its own. The points of
-// the branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
-PT_FUNCTION uint row_words(uint table_dimensions, uint shared_count, uint branches)
+PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 {
-    return shared_count + branches * (table_dimensions - shared_count);
+    return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
+}
+
+// Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the
+// branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
+PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
+{
+    return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
 }
 
 // ---- Bindings of set 0 ---------------------------------------------------------------------------------------------
@@ -110,10 +122,12 @@ PT_FUNCTION uint half_mask(uint sampling)
 // significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units
 // (FrameConstants.film_scale).
 PT_CONSTANT FILM_SUM_WORDS = 4;
-PT_CONSTANT FILM_FRACTION_BITS = 64;
+PT_CONSTANT FILM_FRACTION_BITS = 60;
 PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
 PT_CONSTANT FILM_REJECTED = 13; // samples left out
 PT_CONSTANT FILM_WORDS = 14;
+// An invocation gathers no more than this many samples (film.glsl).
+PT_CONSTANT FILM_MAX_GATHERED = 1023;
 // A sample is accepted if all its components, in film units, lie in [0, 2^28): 2^32 of them stay below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
 
@@ -131,18 +145,17 @@ struct FrameConstants {
     uint first_pixel; // of this slice, in the strip
     uint pixel_count;
     uint film_half;    // to which the samples of this dispatch belong
-    uint first_pair;   // the first sample is the one of the pair 2k, 2k + 1 in that half, k = first_pair
-    uint first_row;    // of its point in the table; those of further samples, of the pairs after it, follow
+    uint first_pair;   // the first sample is the one of the pair 2k, 2k + 1 in that half, k = first_pair; then the next
     uint sample_count; // >= 1
     uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
 };
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
-static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
+static_assert(sizeof(FrameConstants) == 88 && sizeof(FrameConstants) <= 128);
 static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
-static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 88);
+static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

@@ -23,12 +23,15 @@ struct Start {
 // Whether there is a hit is told by the side and the direction: from outside, a line that meets the sphere does so
 // ahead if it leads inwards, b > 0; and no direction leads out of a sphere but through its surface. It is not told by
 // the sign of the distance, which rounding may turn, by as little as it rounds, for rays that start near the sphere.
+// Spheres are opaque: if the camera is outside all of them, no path ever gets inside.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
     float half_chord = sqrt(max(squared_half_chord, 0.0));
+    if (INSIDE == 0)
+        return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? b - half_chord : NO_HIT;
     bool outside = dot(to_centre, to_centre) > radius * radius;
     float distance = outside ? b - half_chord : b + half_chord;
     bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);
@@ -135,8 +138,9 @@ bool is_blocked(Start start, float time, ShadowRay shadow)
 {
     bool blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
-    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
-             shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin)));
+    if (PLANES_BLOCK == 1)
+        FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
+                 shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin)));
     return blocked;
 }
 
@@ -152,7 +156,8 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
 {
     Level level = level_at(plane, start.origin);
     keep_closer(hit, distance_to_plane(start, direction, plane, level), plane);
-    shade_plane(blocked, start, shadow, plane, level);
+    if (PLANES_BLOCK == 1)
+        shade_plane(blocked, start, shadow, plane, level);
 }
 
 // One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the

@@ -22,7 +22,7 @@ struct LampView {
 // sampled; directions find it instead.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
-    vec4 sphere = sphere_at(lamp, time);
+    vec4 sphere = sphere_among(LAMP_COUNT, lamp, time);
     vec3 to_centre = sphere.xyz - vertex.position;
     float squared_distance = dot(to_centre, to_centre);
     float inverse_distance = inversesqrt(squared_distance);
@@ -36,7 +36,7 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     view.radius = sphere.w;
     // 1 - cos = sin^2 / (1 + cos): no cancellation for small or far lamps.
     view.one_minus_cos = squared_sine / (1.0 + sqrt(1.0 - squared_sine));
-    view.weight = sampled ? emission_of(lamp).a * squared_sine * highest_cosine : 0.0;
+    view.weight = sampled ? emission_of_lamp(lamp).a * squared_sine * highest_cosine : 0.0;
     return view;
 }
 
@@ -89,7 +89,7 @@ struct LampSample {
 LampSample sample_lamp(LampView view, uint lamp, vec2 u)
 {
     float h = u.x * view.one_minus_cos;
-    vec3 direction = direction_about(view.axis, h, u.y);
+    vec3 direction = direction_about(view.axis, narrow_cos_sin(h), u.y);
     float half_chord = sqrt(max(view.radius * view.radius - view.distance * view.distance * h * (2.0 - h), 0.0));
     float distance = view.distance * (1.0 - h) - half_chord;
     float density = cone_density(view);

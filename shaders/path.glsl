@@ -59,7 +59,7 @@ LampLight light_of_lamp(Path path, Material material, LampView view, uint lamp, 
     if (density > 0.0) {
         Reflection towards = reflection(material, path.vertex, found.shadow.direction);
         float weight = lamp_weight_against(density, towards.density * directions) / density;
-        result.light = path.throughput * towards.value * emission_of(lamp).rgb * weight;
+        result.light = path.throughput * towards.value * emission_of_lamp(lamp).rgb * weight;
     }
     return result;
 }

@@ -20,7 +20,7 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= frame.pixel_count)
         return;
-    uint row_length = row_words(TABLE_DIMENSIONS, shared_dimensions(MOTION, LAMP_COUNT), BRANCH_COUNT);
+    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
     uint pixel_in_strip = frame.first_pixel + gl_GlobalInvocationID.x;
     uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
     uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
@@ -30,7 +30,7 @@ void main()
     uint done = 0u;
     do {
         uint sample_index = sample_of_pair(frame.first_pair + done, frame.film_half, half_mask(SAMPLER));
-        SampleKey key = SampleKey(frame.seed, pixel_index, sample_index, (frame.first_row + done) * row_length);
+        SampleKey key = SampleKey(frame.seed, pixel_index, sample_index, done * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;

@@ -69,11 +69,11 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f * cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Direction about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n + 1)),
+// Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n + 1)),
 // taken as its distance from 1.
-vec3 lobe_direction(vec3 r, float n, vec2 u)
+vec2 lobe_cos_sin(float n, float u)
 {
-    return direction_about(r, one_minus_exp(log_one_minus(u.x) / (n + 1.0)), u.y);
+    return narrow_cos_sin(one_minus_exp(log_one_minus(u) / (n + 1.0)));
 }
 
 // The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither
@@ -82,10 +82,13 @@ vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)
         return uniform_hemisphere_direction(vertex.normal, place);
-    vec3 direction = cosine_hemisphere_direction(vertex.normal, place);
-    if (GLOSS == 1u && SAMPLE_LOBES && lobe < material.specular_probability)
-        direction = lobe_direction(reflect(vertex.incoming, vertex.normal), material.glossiness, place);
-    return direction;
+    vec3 axis = vertex.normal;
+    vec2 cos_sin = cosine_hemisphere_cos_sin(place.x);
+    if (GLOSS == 1u && SAMPLE_LOBES && lobe < material.specular_probability) {
+        axis = reflect(vertex.incoming, vertex.normal);
+        cos_sin = lobe_cos_sin(material.glossiness, place.x);
+    }
+    return direction_about(axis, cos_sin, place.y);
 }
 
 #endif

@@ -5,26 +5,25 @@
 
 #include "scene.glsl"
 
-// A row holds the points of a sample: coordinates as multiples of 2^-32, those of Sobol with their bits
-// reversed; gpu_layout.h has their order. The points are the same in every pixel; what differs is made from them below.
-layout(set = 0, binding = BINDING_POINTS) readonly buffer Points { uint words[]; } points;
+// Rows of blocks, the points of a sample: coordinates as multiples of 2^-32, the same in every pixel. A uniform buffer,
+// since all invocations read the same block at a time.
+layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {
     uvec2 seed;
     uint pixel; // index in the image, row by row
     uint sample_index;
-    uint table_word; // where dimension 0 is, or would be, in the point table
+    uint row; // where block 0 is, or would be, in the point table
 };
 
-// The key of a branch of a sample: in the dimensions beyond the shared ones it is a sample of its own, number B i + b.
-// Where that passes 2^32 the seed changes, and the table goes on with Halton's points, so that no branch repeats
-// another's numbers.
+// The key of a branch of a sample: beyond the shared blocks it is a sample of its own, number B i + b. Where that
+// passes 2^32 the seed changes, and with it the table's points, so that no branch repeats another's numbers.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
     umulExtended(key.sample_index, BRANCH_COUNT, high, low);
-    uint branch_words = TABLE_DIMENSIONS - shared_dimensions(MOTION, LAMP_COUNT);
-    return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.table_word + branch * branch_words);
+    uint branch_blocks = TABLE_BLOCKS - shared_blocks(LAMP_COUNT);
+    return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.row + branch * branch_blocks);
 }
 
 // The hash pcg4d of Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 9(3), 2020): four random words of
@@ -44,40 +43,21 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// Owen scrambling in base 2 of a coordinate given with its bits reversed: each bit is flipped or not by a hash of the
-// bits above it (Owen 1995; as a hash, Laine and Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT
-// 9(4), 2020). In reversed order "above" means "less significant", which carries of sums and products respect. The
-// constants are those of N. Vegdahl's search for a hash with better avalanche (2021).
-uvec4 owen_scrambled(uvec4 reversed, uvec4 seed)
-{
-    uvec4 v = reversed;
-    v ^= v * 0x3d20adeau;
-    v += seed;
-    v *= (seed >> 16u) | 1u;
-    v ^= v * 0x05526c56u;
-    v ^= v * 0x53a22864u;
-    return bitfieldReverse(v);
-}
-
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// The sample's numbers for count (at most 4) dimensions from first on, one owner's block. Multiples of 2^-24, so that
-// rounding never gives 1. A dimension beyond the table takes hashed random numbers, whatever the sampler.
-vec4 sample_block(SampleKey key, uint first, uint count)
+// The sample's numbers of a block. Multiples of 2^-24, so that rounding never gives 1. What the points of a pixel are
+// shifted by depends on pixel and block alone, so compilers take it out of loops over samples. Sobol's points are
+// shifted digit by digit in base 2, by exclusive or: the table has them Owen-scrambled (Owen 1995), once for all
+// pixels, and a shift turns one such scrambling into another. So each pixel has its own, and given the table the errors
+// of pixels are independent. Halton's are rotated (Cranley and Patterson 1976) by addition modulo 1.
+vec4 sample_block(SampleKey key, uint block)
 {
-    bool in_table = SAMPLER != SAMPLER_RANDOM && first + count <= TABLE_DIMENSIONS;
-    // One hash serves both: per pixel and dimension the scrambling, per sample as well the random numbers.
-    uvec4 hash = pcg4d(uvec4(key.pixel, in_table ? 0u : key.sample_index, first + key.seed.x, key.seed.y));
-    uvec4 words = hash;
-    if (SAMPLER != SAMPLER_RANDOM) {
-        uint row = in_table ? key.table_word + first : 0u;
-        uvec4 point = uvec4(points.words[row], points.words[row + 1u], points.words[row + 2u], points.words[row + 3u]);
-        if (SAMPLER == SAMPLER_SOBOL)
-            point = owen_scrambled(point, hash ^ (hash >> 16u)); // whose low bits, the first digits, pcg4d mixes least
-        else if (SAMPLER == SAMPLER_HALTON_CP)
-            point += hash; // Cranley and Patterson 1976: a rotation, addition modulo 1
-        words = in_table ? point : hash;
+    bool in_table = SAMPLER != SAMPLER_RANDOM && block < TABLE_BLOCKS;
+    uvec4 words = pcg4d(uvec4(key.pixel, in_table ? 0u : key.sample_index, block + key.seed.x, key.seed.y));
+    if (in_table) {
+        uvec4 point = points.blocks[key.row + block];
+        words = SAMPLER == SAMPLER_SOBOL ? point ^ words : SAMPLER == SAMPLER_HALTON_CP ? point + words : point;
     }
     return vec4(words >> 8u) * NUMBER_STEP;
 }

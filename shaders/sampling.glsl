@@ -48,19 +48,24 @@ vec3 rotate_to_axis(vec3 axis, vec3 v)
     return v.x * tangent + v.y * bitangent + v.z * axis;
 }
 
-// Direction about the unit vector axis with density cos(theta) / pi: a uniform point of the disc, lifted to the sphere
-// (Malley). The height is sqrt(1 - u), not sqrt(1 - x^2 - y^2), which cancels near the horizon.
-vec3 cosine_hemisphere_direction(vec3 axis, vec2 u)
+// Direction at a polar angle, given by cosine and sine, and an azimuth in turns about axis.
+vec3 direction_about(vec3 axis, vec2 cos_sin_polar, float azimuth)
 {
-    return rotate_to_axis(axis, spherical_direction(SphericalAngles(sqrt(1.0 - u.x), sqrt(u.x), u.y)));
+    return rotate_to_axis(axis, spherical_direction(SphericalAngles(cos_sin_polar.x, cos_sin_polar.y, azimuth)));
 }
 
-// Direction in a cone about axis, given the distance one_minus_cos of its polar cosine from 1. With h = 1 - cos,
-// sin = sqrt(h (2 - h)) has no cancellation however narrow the cone.
-vec3 direction_about(vec3 axis, float one_minus_cos, float azimuth)
+// Polar angle of a direction with density cos(theta) / pi on a hemisphere: a uniform point of the disc, lifted to the
+// sphere (Malley). The height is sqrt(1 - u), not sqrt(1 - x^2 - y^2), which cancels near the horizon.
+vec2 cosine_hemisphere_cos_sin(float u)
 {
-    float sin_polar = sqrt(one_minus_cos * (2.0 - one_minus_cos));
-    return rotate_to_axis(axis, spherical_direction(SphericalAngles(1.0 - one_minus_cos, sin_polar, azimuth)));
+    return vec2(sqrt(1.0 - u), sqrt(u));
+}
+
+// Polar angle in a cone, given the distance one_minus_cos of its cosine from 1. With h = 1 - cos,
+// sin = sqrt(h (2 - h)) has no cancellation however narrow the cone.
+vec2 narrow_cos_sin(float one_minus_cos)
+{
+    return vec2(1.0 - one_minus_cos, sqrt(one_minus_cos * (2.0 - one_minus_cos)));
 }
 
 // Weight of a sample of density a in the power heuristic with exponent 2 against a technique of density b (Veach 1997,

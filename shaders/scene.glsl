@@ -4,6 +4,9 @@
 #define SCENE_GLSL
 
 #include "gpu_layout.h"
+#include "scene_constants.glsl"
+
+#extension GL_EXT_control_flow_attributes : require
 
 layout(constant_id = ID_SPHERE_COUNT) const uint SPHERE_COUNT = 1;
 layout(constant_id = ID_PLANE_COUNT) const uint PLANE_COUNT = 0;
@@ -12,11 +15,14 @@ layout(constant_id = ID_MAX_PATH_LENGTH) const uint MAX_PATH_LENGTH = 2;
 layout(constant_id = ID_ESTIMATOR) const uint ESTIMATOR = ESTIMATOR_MIS;
 layout(constant_id = ID_GLOSS) const uint GLOSS = 1;
 layout(constant_id = ID_MOTION) const uint MOTION = 1;
-layout(constant_id = ID_SCENE_IN_UNIFORM) const uint SCENE_IN_UNIFORM = 1;
+layout(constant_id = ID_SCENE_SOURCE) const uint SCENE_SOURCE = SCENE_IN_UNIFORM;
 layout(constant_id = ID_SAMPLER) const uint SAMPLER = SAMPLER_RANDOM;
-layout(constant_id = ID_TABLE_DIMENSIONS) const uint TABLE_DIMENSIONS = 0;
+layout(constant_id = ID_TABLE_BLOCKS) const uint TABLE_BLOCKS = 0;
 layout(constant_id = ID_BRANCH_COUNT) const uint BRANCH_COUNT = 1;
 layout(constant_id = ID_CURVATURE) const uint CURVATURE = 0;
+layout(constant_id = ID_INSIDE) const uint INSIDE = 1;
+layout(constant_id = ID_PLANES_BLOCK) const uint PLANES_BLOCK = 1;
+layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];
@@ -47,30 +53,69 @@ const uint UNROLL_LIMIT = 32u;
         }                                                                                                              \
     }
 
+// Of an index that is a constant, once loops are unrolled.
 vec4 scene_word(uint index)
 {
-    return SCENE_IN_UNIFORM == 1 ? scene_uniform.words[index] : scene_storage.words[index];
+    if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
+        return scene_constants[index];
+    return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// Sphere: centre as the shutter opens and radius. Plane: unit normal and offset.
-vec4 geometry_of(uint surface) { return scene_word(surface); }
+// The word first + index, with an index below count that may differ between invocations: constants have no addresses, so
+// it is selected from all of them. Where all were alike, a compiler would know the result and could take it out of
+// products, which rounds otherwise than a word that is read. An invocation that there never is, which it cannot know,
+// keeps the bits the same, whatever the source.
+vec4 scene_word_among(uint first, uint count, uint index)
+{
+    if (SCENE_SOURCE != SCENE_IN_CONSTANTS)
+        return scene_word(first + index);
+    vec4 word = gl_GlobalInvocationID.x == 0xffffffffu ? vec4(0.0) : scene_word(first);
+    if (count > 1u) {
+        uint i = 1u;
+        [[unroll]] do {
+            word = index == i ? scene_word(first + i) : word;
+            ++i;
+        } while (i < count);
+    }
+    return word;
+}
+
+// Blocks of the scene buffer.
+const uint EMISSION = SURFACE_COUNT;
+const uint DIFFUSE = 2u * SURFACE_COUNT;
+const uint SPECULAR = 3u * SURFACE_COUNT;
+const uint MOTIONS = (3u + GLOSS) * SURFACE_COUNT;
+const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 
 // Radiance and its mean.
-vec4 emission_of(uint surface) { return scene_word(SURFACE_COUNT + surface); }
+vec4 emission_of(uint surface) { return scene_word_among(EMISSION, SURFACE_COUNT, surface); }
+vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
 // Diffuse albedo and the probability of choosing the specular lobe.
-vec4 diffuse_of(uint surface) { return scene_word(2u * SURFACE_COUNT + surface); }
+vec4 diffuse_of(uint surface) { return scene_word_among(DIFFUSE, SURFACE_COUNT, surface); }
 
 // Specular factor and glossiness.
-vec4 specular_of(uint surface) { return GLOSS == 1 ? scene_word(3u * SURFACE_COUNT + surface) : vec4(0.0); }
+vec4 specular_of(uint surface)
+{
+    return GLOSS == 1 ? scene_word_among(SPECULAR, SURFACE_COUNT, surface) : vec4(0.0);
+}
 
-// Centre and radius at a time, from 0 (shutter opens) to 1 (shutter closes): the one function that tracing, lamp
-// sampling and densities share.
+// Centre and radius of a sphere at a time, from 0 (shutter opens) to 1 (shutter closes): tracing, lamp sampling and
+// densities share it. The sphere is a loop's index, ...
 vec4 sphere_at(uint sphere, float time)
 {
-    vec4 centre_radius = geometry_of(sphere);
+    vec4 centre_radius = scene_word(sphere);
     if (MOTION == 1)
-        centre_radius.xyz += time * scene_word((3u + GLOSS) * SURFACE_COUNT + sphere).xyz;
+        centre_radius.xyz += time * scene_word(MOTIONS + sphere).xyz;
+    return centre_radius;
+}
+
+// ... or any of the first count, which may differ between invocations.
+vec4 sphere_among(uint count, uint sphere, float time)
+{
+    vec4 centre_radius = scene_word_among(0u, count, sphere);
+    if (MOTION == 1)
+        centre_radius.xyz += time * scene_word_among(MOTIONS, count, sphere).xyz;
     return centre_radius;
 }
 
@@ -86,18 +131,31 @@ struct Level {
 //     (|x - centre|^2 - R^2) / (2 R) = n . y + k / 2 |y|^2,
 // 0 on the sphere, and its gradient is n + k y. The left side loses 2^-24 R to rounding; the right one, 2^-24 of the
 // distances in the scene. Its limit k = 0 is the plane.
-Level level_at(uint plane, vec3 point)
+Level level_of(vec4 normal_offset, float curvature, vec3 point)
 {
-    vec4 normal_offset = geometry_of(plane);
-    Level level = Level(dot(normal_offset.xyz, point) + normal_offset.w, normal_offset.xyz, 0.0);
+    Level level = Level(dot(normal_offset.xyz, point) + normal_offset.w, normal_offset.xyz, curvature);
     if (CURVATURE == 1) {
-        level.curvature = scene_word((3u + GLOSS) * SURFACE_COUNT + MOTION * SPHERE_COUNT + plane - SPHERE_COUNT).x;
         vec3 from_nearest = point + normal_offset.w * normal_offset.xyz;
-        vec3 bend = level.curvature * from_nearest;
+        vec3 bend = curvature * from_nearest;
         level.height += 0.5 * dot(bend, from_nearest);
         level.gradient += bend;
     }
     return level;
+}
+
+// With respect to a plane that is a loop's index, ...
+Level level_at(uint plane, vec3 point)
+{
+    float curvature = CURVATURE == 1 ? scene_word(CURVATURES + plane - SPHERE_COUNT).x : 0.0;
+    return level_of(scene_word(plane), curvature, point);
+}
+
+// ... or to any plane.
+Level level_among(uint plane, vec3 point)
+{
+    uint index = plane - SPHERE_COUNT;
+    float curvature = CURVATURE == 1 ? scene_word_among(CURVATURES, PLANE_COUNT, index).x : 0.0;
+    return level_of(scene_word_among(SPHERE_COUNT, PLANE_COUNT, index), curvature, point);
 }
 
 #endif

@@ -20,11 +20,11 @@ Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, floa
     vec3 position = origin + distance * direction;
     vec3 normal;
     if (surface < SPHERE_COUNT) {
-        vec4 sphere = sphere_at(surface, time);
+        vec4 sphere = sphere_among(SPHERE_COUNT, surface, time);
         normal = normalize(position - sphere.xyz);
         position = sphere.xyz + sphere.w * normal;
     } else {
-        Level level = level_at(surface, position);
+        Level level = level_among(surface, position);
         normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;
         position -= level.height * normal;
     }

@@ -139,7 +139,9 @@ std::string test_name(std::string name) {
     return "Scene" + name;
 }
 
-// Whole images, not crops: that a pixel lies where it should. Scenes of which the mirror images differ.
+// Whole images, not crops: that a pixel lies where it should. Scenes of which the mirror images differ. With so few
+// samples the first judge stands alone: where none of them finds the light of a dim pixel, the measured noise is
+// none.
 class WholeImage : public PixelFixture, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {
@@ -153,8 +155,8 @@ TEST_P(WholeImage, PixelsAreInTheirPlaces) {
             if (expectation.scene != GetParam())
                 continue;
             const auto agrees_at = [&](std::uint32_t x, std::uint32_t y) {
-                return agrees({batch_count * samples, estimate_of_pixel(batches, std::size_t{y} * whole.width + x), {}},
-                              pixel.exact);
+                const Estimate measured = estimate_of_pixel(batches, std::size_t{y} * whole.width + x);
+                return agrees(measured.mean, pixel.exact, batch_count * samples);
             };
             EXPECT_TRUE(agrees_at(pixel.x, pixel.y)) << pixel.x << ", " << pixel.y;
             misplaced += !agrees_at(whole.width - 1 - pixel.x, pixel.y);

@@ -101,19 +101,20 @@ TEST(SquaredLimit, OfAFireflyIsThatOfItsNeighboursOrItsDarkerHalf) {
 }
 
 TEST(HalvesAccuracy, IsFullForRandomSamples) {
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {0, 0, 1}, 16).unseen, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {0, 0, 1}, 16).exaggerated, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {37, 6, 4}, 16).unseen, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {37, 6, 4}, 16).exaggerated, std::sqrt(3.0));
+    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {{}, 0, 1}, 16).unseen, 1.0);
+    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {{}, 0, 1}, 16).exaggerated, 1.0);
+    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {{2, 2, 2, 3, 3}, 3, 4}, 16).unseen, 1.0);
+    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {{2, 2, 2, 3, 3}, 3, 4}, 16).exaggerated, std::sqrt(3.0));
 }
 
 // 16 samples against 4 * 2, 4 * 3, 4 * 5 and 4 * 7: two of four bases are covered.
 TEST(HalvesAccuracy, OfHaltonCountsTheBasesThatTheSamplesDoNotCover) {
     for (const std::uint32_t sampler : {PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP}) {
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {4, 4, 1}, 16).unseen, std::sqrt(1.35));
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {4, 4, 1}, 28).unseen, 1.0);
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {4, 4, 1}, 7).unseen, std::sqrt(1.7));
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {4, 2, 4}, 7).unseen, std::sqrt(1.35)) << "4 branches cover more";
+        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 16).unseen, std::sqrt(1.35));
+        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 28).unseen, 1.0);
+        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 7).unseen, std::sqrt(1.7));
+        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{2, 2}, 1, 4}, 7).unseen, std::sqrt(1.35))
+            << "4 branches cover more";
     }
 }
 

@@ -23,18 +23,15 @@ __extension__ using Wide = unsigned __int128;
 constexpr std::uint32_t pixels = 1000;
 constexpr std::uint32_t per_pixel = 40;
 
-// A float as a multiple of 2^-64, finer bits cut off: by integer arithmetic on the mantissa that frexp gives.
-Wide multiple_of_2_to_minus_64(float value) {
-    int exponent = 0;
-    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(value, &exponent), 24));
-    const int shift = exponent - 24 + 64;
-    return shift >= 0 ? Wide{mantissa} << shift : shift > -64 ? Wide{mantissa} >> -shift : 0;
+// A float as a multiple of 2^-60, finer bits rounded to nearest, ties to even: in double, where both steps are exact.
+Wide multiple_of_2_to_minus_60(float value) {
+    return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
 }
 
 bool acceptable(const glm::vec4 &sample) {
     bool good = true;
     for (int channel = 0; channel < 3; ++channel)
-        good = good && sample[channel] >= 0.0F && sample[channel] < 0x1p28F;
+        good = good && !std::signbit(sample[channel]) && sample[channel] < 0x1p28F;
     return good;
 }
 
@@ -47,8 +44,9 @@ std::vector<glm::vec4> awkward_samples() {
                              -0.0F,
                              0x1p-149F,
                              0x1p-126F,
-                             0x1p-64F,
-                             0x1p-65F,
+                             0x1p-60F,
+                             0x1p-61F,
+                             0x1.8p-60F,
                              0x1p27F,
                              0x1.fffffep27F,
                              0x1p28F,
@@ -90,7 +88,7 @@ TEST(Film, DeviceSumsAreExact) {
                 continue;
             ++accepted;
             for (int channel = 0; channel < 3; ++channel)
-                sums[channel] += multiple_of_2_to_minus_64(sample[channel]);
+                sums[channel] += multiple_of_2_to_minus_60(sample[channel]);
         }
         ASSERT_EQ(word(film, pt::gpu::FILM_ACCEPTED, pixel), accepted);
         ASSERT_EQ(word(film, pt::gpu::FILM_REJECTED, pixel), per_pixel - accepted);
@@ -98,6 +96,25 @@ TEST(Film, DeviceSumsAreExact) {
             for (std::size_t i = 0; i < 4; ++i)
                 ASSERT_EQ(word(film, 4 * channel + i, pixel), static_cast<std::uint32_t>(sums[channel] >> (32 * i)))
                     << "pixel " << pixel << " channel " << channel << " word " << i;
+    }
+}
+
+// The most samples that an invocation gathers, with windows as full as they can be: the first by the
+// brightest sample, the others by halves of a window's unit that round up or down.
+TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
+    struct {
+        std::uint32_t per_pixel, count, film_half;
+    } push{pt::gpu::FILM_MAX_GATHERED, 4, 0};
+    const float extremes[] = {0x1.fffffep27F, 0x1.fffffp4F, 0x1.00001p5F, 0x1.fffffep-18F};
+    std::vector<glm::vec4> samples;
+    for (const float extreme : extremes)
+        samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
+    const auto film = Probe(film_sums_spirv, sizeof push)
+                          .run<std::uint32_t>(samples, push.count * pt::Film::words_per_pixel, push, push.count);
+    for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
+        const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_EQ(film[i * push.count + pixel], static_cast<std::uint32_t>(sum >> (32 * i))) << extremes[pixel];
     }
 }
 
@@ -118,17 +135,6 @@ TEST(Film, DeviceFindsTheSampleOfEachHalfInAPair) {
     }
 }
 
-TEST(Film, SumOfWordsIsTheFixedPointValue) {
-    const std::uint32_t half[4] = {0, 0x80000000U, 0, 0};
-    const std::uint32_t one[4] = {0, 0, 1, 0};
-    const std::uint32_t large[4] = {0, 0, 0, 0x10000000U};
-    const std::uint32_t smallest[4] = {1, 0, 0, 0};
-    EXPECT_EQ(pt::sum_of_words(half), 0.5);
-    EXPECT_EQ(pt::sum_of_words(one), 1.0);
-    EXPECT_EQ(pt::sum_of_words(large), 0x1p60);
-    EXPECT_EQ(pt::sum_of_words(smallest), 0x1p-64);
-}
-
 // What one half of the film holds of a pixel, with the red sum as a number of units.
 struct Half {
     std::uint32_t red;
@@ -140,7 +146,9 @@ struct Half {
 pt::PixelEstimates estimates(const Half &a, const Half &b, const pt::HalfCounts &expected) {
     std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
     const auto set = [&](const Half &half, std::size_t first) {
-        words[first + 2] = half.red;
+        const std::uint64_t sum = std::uint64_t{half.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
+        words[first + 1] = static_cast<std::uint32_t>(sum);
+        words[first + 2] = static_cast<std::uint32_t>(sum >> 32);
         words[first + pt::gpu::FILM_ACCEPTED] = half.accepted;
         words[first + pt::gpu::FILM_REJECTED] = half.rejected;
     };

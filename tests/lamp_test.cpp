@@ -48,7 +48,8 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
     std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT> constants{};
     constants[pt::gpu::ID_SPHERE_COUNT] = lamp_count;
     constants[pt::gpu::ID_LAMP_COUNT] = lamp_count;
-    constants[pt::gpu::ID_SCENE_IN_UNIFORM] = 1;
+    constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
+    constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
     constants[pt::gpu::ID_SAMPLER] = PT_SAMPLER_RANDOM;
     std::vector<glm::vec4> scene(2 * lamps.size());
     for (std::size_t i = 0; i < lamps.size(); ++i) {

@@ -1,12 +1,20 @@
-// The tables of quasi-random points: radical inverses against exact values, Sobol points against the net properties that
-// define them.
+// Points of quasi-random sequences: radical inverses against exact values, Sobol points against the net properties that
+// define them, and their scrambling against 64-bit arithmetic and the nesting that defines it.
 #include "point_sequence.h"
 
+#include "nets.h"
+#include "statistics.h"
+
 #include <gtest/gtest.h>
-#include <pt/pt.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <random>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -76,29 +84,11 @@ TEST(RadicalInverse, OfTheLastDimensionMatchesItsDigits) {
     }
 }
 
-using Coordinates = std::vector<std::uint32_t>; // multiples of 2^-32
-
 Coordinates sobol_coordinates(std::uint32_t first, std::uint32_t count, std::uint32_t dimension) {
     Coordinates coordinates(count);
     for (std::uint32_t i = 0; i < count; ++i)
         coordinates[i] = pt::sobol(first + i, dimension);
     return coordinates;
-}
-
-// Whether each interval [i, i + 1) / 2^digits holds equally many of the points; there are at least as many points.
-bool fills_intervals(const Coordinates &points, std::uint32_t digits) {
-    std::vector<std::uint32_t> hits(std::size_t{1} << digits);
-    for (const std::uint32_t point : points)
-        ++hits[std::uint64_t{point} >> (32 - digits)];
-    return std::ranges::all_of(hits, [&](std::uint32_t count) { return count == points.size() >> digits; });
-}
-
-// Whether each box of 2^-digits_x by 2^-digits_y holds exactly one of 2^(digits_x + digits_y) points.
-bool fills_boxes(const Coordinates &x, const Coordinates &y, std::uint32_t digits_x, std::uint32_t digits_y) {
-    std::vector<std::uint32_t> hits(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        ++hits[((std::uint64_t{x[i]} >> (32 - digits_x)) << digits_y) + (std::uint64_t{y[i]} >> (32 - digits_y))];
-    return std::ranges::all_of(hits, [](std::uint32_t count) { return count == 1; });
 }
 
 constexpr std::uint32_t net_digits = 10;
@@ -155,36 +145,107 @@ std::uint32_t reversed(std::uint32_t word) {
     return result;
 }
 
-TEST(PointTable, RowsAreThePoints) {
-    constexpr std::uint32_t dimensions = 17;
-    const std::vector<std::uint32_t> indices = {0, 1, 2, 7, 12345, 0xfffffffeU, 0xffffffffU};
-    const pt::PointLayout layout{dimensions, dimensions, 1};
-    const auto sobol = pt::point_table(PT_SAMPLER_SOBOL, indices, layout);
-    const auto halton = pt::point_table(PT_SAMPLER_HALTON, indices, layout);
-    EXPECT_EQ(pt::point_table(PT_SAMPLER_HALTON_CP, indices, layout), halton);
-    ASSERT_EQ(sobol.size(), indices.size() * dimensions);
-    ASSERT_EQ(halton.size(), indices.size() * dimensions);
-    for (std::size_t i = 0; i < indices.size(); ++i)
-        for (std::uint32_t d = 0; d < dimensions; ++d) {
-            EXPECT_EQ(sobol[i * dimensions + d], reversed(pt::sobol(indices[i], d)));
-            EXPECT_EQ(halton[i * dimensions + d], pt::radical_inverse(indices[i], d));
-        }
+// The hash of Vegdahl (2021) on a word with its bits reversed, and the bits put in order again, in 64 bits.
+std::uint32_t scrambled_in_64_bits(std::uint32_t coordinate, std::uint32_t seed) {
+    constexpr std::uint64_t modulus = std::uint64_t{1} << 32;
+    std::uint64_t v = reversed(coordinate);
+    v ^= v * 0x3d20adeaU % modulus;
+    v = (v + seed) % modulus;
+    v = v * (seed / 65536 | 1U) % modulus;
+    v ^= v * 0x05526c56U % modulus;
+    v ^= v * 0x53a22864U % modulus;
+    return reversed(static_cast<std::uint32_t>(v));
 }
 
-TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
-    constexpr pt::PointLayout layout{7, 3, 4};
-    const std::vector<std::uint32_t> indices = {0, 5, 6, 0x40000001U};
-    const auto table = pt::point_table(PT_SAMPLER_HALTON, indices, layout);
-    ASSERT_EQ(layout.row_words(), 3U + 4U * 4U);
-    ASSERT_EQ(table.size(), indices.size() * layout.row_words());
-    const std::uint32_t *word = table.data();
-    for (const std::uint32_t index : indices) {
-        for (std::uint32_t d = 0; d < 3; ++d)
-            EXPECT_EQ(*word++, pt::radical_inverse(index, d));
-        for (std::uint32_t branch = 0; branch < 4; ++branch)
-            for (std::uint32_t d = 3; d < 7; ++d)
-                EXPECT_EQ(*word++, pt::radical_inverse(std::uint64_t{4} * index + branch, d));
+constexpr std::size_t random_count = 1U << 16;
+
+TEST(OwenScrambling, IsExact) {
+    std::mt19937 words(1); // NOLINT: the same numbers each time
+    for (std::size_t i = 0; i < random_count; ++i) {
+        const auto coordinate = static_cast<std::uint32_t>(words());
+        const auto seed = static_cast<std::uint32_t>(words());
+        ASSERT_EQ(pt::owen_scrambled(coordinate, seed), scrambled_in_64_bits(coordinate, seed));
     }
+    for (std::uint32_t a = 0; a < 32; ++a)
+        for (std::uint32_t b = 0; b < 32; ++b)
+            for (const std::uint32_t flip : {0U, 0xffffffffU})
+                EXPECT_EQ(pt::owen_scrambled(1U << a ^ flip, 1U << b), scrambled_in_64_bits(1U << a ^ flip, 1U << b));
+    EXPECT_NE(pt::owen_scrambled(1, 2), scrambled_in_64_bits(1, 3));
+}
+
+// Whether a function keeps how many first digits two coordinates have in common: then the first k digits of a result
+// depend on the first k of the coordinate alone, and no two coordinates become one.
+template <typename Function>
+bool is_nested(const Function &function) {
+    std::mt19937 words(2); // NOLINT: the same numbers each time
+    for (std::size_t i = 0; i < random_count; ++i) {
+        const auto a = static_cast<std::uint32_t>(words());
+        const auto b = a ^ static_cast<std::uint32_t>(words()) >> i % 32; // i mod 32 digits alike, or more
+        if (common_digits(function(a), function(b)) != common_digits(a, b))
+            return false;
+    }
+    return true;
+}
+
+TEST(OwenScrambling, IsNested) {
+    for (const std::uint32_t seed : {0U, 1U, 0x12345678U, 0x9e3779b9U, 0xffffffffU})
+        EXPECT_TRUE(is_nested([=](std::uint32_t x) { return pt::owen_scrambled(x, seed); })) << "seed " << seed;
+    EXPECT_TRUE(is_nested([](std::uint32_t x) { return x ^ 0x12345678U; }));
+    EXPECT_FALSE(is_nested([](std::uint32_t x) { return x + 1; })) << "carries go from the last digits to the first";
+    EXPECT_FALSE(is_nested([](std::uint32_t x) { return x & ~1U; })) << "the last digit is lost";
+}
+
+// Of the scramblings by many seeds: whether they flip each digit as often as not, and alike in no two digits of two
+// coordinates. The deviations of 32 digits, and of their 31 * 16 pairs, with a false alarm in a million for all.
+template <typename Function>
+bool is_fair(const Function &scrambled) {
+    constexpr std::uint32_t seeds = 1U << 14;
+    const double bound = statistics::normal_quantile(1e-6 / (2 * (32 + 31 * 16)));
+    const double allowed = bound * 0.5 * std::sqrt(seeds);
+    std::array<std::uint32_t, 32> flips{};
+    std::array<std::array<std::uint32_t, 32>, 32> alike{};
+    std::mt19937 words(3); // NOLINT: the same numbers each time
+    for (std::uint32_t i = 0; i < seeds; ++i) {
+        const std::uint32_t result = scrambled(0xb7e15162U, static_cast<std::uint32_t>(words()));
+        for (std::size_t a = 0; a < 32; ++a) {
+            flips[a] += result >> a & 1U;
+            for (std::size_t b = 0; b < a; ++b)
+                alike[a][b] += (result >> a ^ result >> b) & 1U;
+        }
+    }
+    const auto off = [&](std::uint32_t count) { return std::abs(count - 0.5 * seeds) > allowed; };
+    bool fair = std::ranges::none_of(flips, off);
+    for (std::size_t a = 0; a < 32; ++a)
+        fair = fair && std::none_of(alike[a].begin(), alike[a].begin() + static_cast<std::ptrdiff_t>(a), off);
+    return fair;
+}
+
+TEST(OwenScrambling, FlipsEachDigitForHalfOfTheSeeds) {
+    EXPECT_TRUE(is_fair(&pt::owen_scrambled));
+    EXPECT_FALSE(is_fair([](std::uint32_t x, std::uint32_t seed) { return x ^ (seed & ~4U); }));
+    EXPECT_FALSE(is_fair([](std::uint32_t x, std::uint32_t seed) { return x ^ (seed << 1 ^ seed >> 31 << 3); }));
+}
+
+// What distinguishes Owen's scrambling from a shift: the same digit is flipped for some of the digits before it, and
+// not for others.
+TEST(OwenScrambling, DependsOnTheDigitsBefore) {
+    std::set<std::uint32_t> shifts;
+    for (std::uint32_t i = 0; i < 256; ++i) {
+        const std::uint32_t coordinate = i << 24;
+        shifts.insert((pt::owen_scrambled(coordinate, 0x12345678U) ^ coordinate) >> 16);
+    }
+    EXPECT_GT(shifts.size(), 128U);
+}
+
+TEST(OwenScrambling, DiffersBetweenSeeds) {
+    std::set<Coordinates> distinct;
+    for (std::uint32_t seed = 0; seed < 4096; ++seed) {
+        Coordinates scrambled;
+        for (std::uint32_t i = 0; i < 4; ++i)
+            scrambled.push_back(pt::owen_scrambled(i << 30, seed * 0x9e3779b9U));
+        distinct.insert(scrambled);
+    }
+    EXPECT_EQ(distinct.size(), 4096U);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <cstring>
@@ -33,13 +34,12 @@ struct SharedDevice {
 
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer};
+                                 vk::DescriptorType::eUniformBuffer};
 
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
 constexpr std::uint32_t workgroup_size = 64;
 constexpr std::size_t scene_bytes = 16384; // what a uniform buffer surely holds
-constexpr std::size_t points_padding = 16; // the kernel reads up to three words past a row, and one if there is none
 
 } // namespace
 
@@ -56,9 +56,10 @@ void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> outp
     using pt::vulkan::Buffer;
     using pt::vulkan::BufferUse;
     pt::vulkan::Device &device = probe_device();
-    Buffer scene(device, BufferUse::UniformOrStorage, scene_bytes, "scene of a probe");
-    Buffer points(device, BufferUse::Storage, points_.size() * sizeof(std::uint32_t) + points_padding,
-                  "points of a probe");
+    ASSERT_LE(points_.size(), probe_point_blocks);
+    Buffer scene(device, BufferUse::UniformOrStorage, std::max(scene_bytes, scene_.size() * sizeof(glm::vec4)),
+                 "scene of a probe");
+    Buffer points(device, BufferUse::Streamed, probe_point_blocks * sizeof(pt::PointBlock), "points of a probe");
     Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
     Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
     out.upload(output, 0);

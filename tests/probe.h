@@ -1,6 +1,7 @@
 // Runs a small kernel that calls the shipped shader functions on the device, for the tests that compare their results.
 #pragma once
 
+#include "point_sequence.h"
 #include "vulkan/compute_pipeline.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"
@@ -15,15 +16,19 @@
 // The device that all probes of a test program share, with the validation layer unless PT_TEST_NO_VALIDATION is set.
 pt::vulkan::Device &probe_device();
 
+// What probes have for the specialization constant ID_POINT_BLOCKS: the 16 KiB that every device offers.
+inline constexpr std::uint32_t probe_point_blocks = 1024;
+
 class Probe {
 public:
     // constants[i] are the bits of the specialization constant with id i; without them the shaders' defaults hold.
     Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes,
           std::span<const std::uint32_t> constants = {});
 
-    // What the following runs find in the scene buffer (bindings 0 and 1) and in the table of points (binding 4).
+    // What the following runs find in the scene buffer (bindings 0 and 1) and in the table of points (binding 4),
+    // which holds up to probe_point_blocks.
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
-    void set_points(std::span<const std::uint32_t> words) { points_.assign(words.begin(), words.end()); }
+    void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
     // Gives the kernel input (binding 3) and push constants, runs one invocation per item of invocations, and returns
     // output_count values (binding 2, zero before). Guard words after the output must survive.
@@ -43,5 +48,5 @@ public:
 private:
     pt::vulkan::ComputePipeline pipeline_;
     std::vector<glm::vec4> scene_;
-    std::vector<std::uint32_t> points_;
+    std::vector<pt::PointBlock> points_;
 };

@@ -1,15 +1,12 @@
-// Tests of lib/vulkan/ on a real device: transfers, kernels, messages, errors, loss. The validation layer watches, and
-// what it says fails the test; not with PT_TEST_NO_VALIDATION set. PT_TEST_DEVICE names another device than the best.
+// Tests of lib/vulkan/ on a real device: transfers, kernels, messages, errors, loss.
 #include "vulkan/buffer.h"
 #include "vulkan/compute_pipeline.h"
 #include "vulkan/device.h"
-#include "vulkan/device_choice.h"
-#include "vulkan/instance.h"
+#include "vulkan_fixture.h"
 
 #include "accuracy.h"
 #include "error.h"
 #include "expected_error.h"
-#include "log.h"
 #include "recurrence.spv.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -34,58 +29,7 @@ using pt::vulkan::ComputePipeline;
 using pt::vulkan::DescriptorSet;
 using pt::vulkan::Device;
 using pt::vulkan::DevicePolicy;
-using pt::vulkan::Instance;
-
-void collect(void *user, int32_t /*level*/, const char *line) {
-    static_cast<std::vector<std::string> *>(user)->push_back(line);
-}
-
-bool validation() {
-    return std::getenv("PT_TEST_NO_VALIDATION") == nullptr;
-}
-
-class VulkanTest : public testing::Test {
-protected:
-    void SetUp() override {
-        log_ = {&collect, &messages_};
-        instance_.emplace(log_, validation());
-    }
-
-    // The layer reports leaks when the device and the instance are destroyed.
-    void TearDown() override {
-        device_.reset();
-        instance_.reset();
-        for (const std::string &line : messages_)
-            ADD_FAILURE() << line;
-    }
-
-    vk::raii::PhysicalDevice physical_device() const {
-        const std::vector<vk::raii::PhysicalDevice> devices = instance_->physical_devices();
-        std::vector<pt_device_info> infos;
-        for (const vk::raii::PhysicalDevice &device : devices)
-            infos.push_back(pt::vulkan::describe(device));
-        const char *wanted = std::getenv("PT_TEST_DEVICE");
-        return devices[pt::vulkan::choose_device(infos, wanted ? wanted : "")];
-    }
-
-    Device &device() {
-        if (!device_)
-            device_.emplace(*instance_, physical_device());
-        return *device_;
-    }
-
-    Device &device_with(const DevicePolicy &policy) {
-        device_.emplace(*instance_, physical_device(), policy);
-        return *device_;
-    }
-
-    std::vector<std::string> messages_;
-
-private:
-    pt::Log log_;
-    std::optional<Instance> instance_;
-    std::optional<Device> device_;
-};
+using VulkanTest = VulkanFixture;
 
 // The kernel recurrence.comp: values[i] becomes what step makes of values[i] + offset, step by step.
 class Recurrence {
@@ -161,7 +105,10 @@ std::vector<std::uint32_t> download(Buffer &buffer, std::size_t first, std::size
 // Both ways of a buffer to the host, on the one device there is.
 class VulkanTransferTest : public VulkanTest, public testing::WithParamInterface<bool> {
 protected:
-    Device &device_under_test() { return device_with({.patience = std::chrono::hours{1}, .share_memory = GetParam()}); }
+    Device &device_under_test() {
+        return device_with(
+            {.patience = std::chrono::hours{1}, .share_memory = GetParam(), .scene_in_constants = false});
+    }
 };
 
 INSTANTIATE_TEST_SUITE_P(, VulkanTransferTest, testing::Values(true, false),
@@ -237,6 +184,9 @@ TEST_F(VulkanTest, DescribesTheDevice) {
     EXPECT_GE(device().limits().max_storage_buffer_range, 1U << 27);
     EXPECT_GE(device().limits().max_allocation_bytes, 1U << 30);
     EXPECT_GE(device().limits().max_workgroup_count, 65535U);
+    EXPECT_GE(device().limits().max_uniform_range, 16384U);
+    EXPECT_LE(device().limits().max_uniform_range, 65536U);
+    EXPECT_EQ(device().limits().max_uniform_range % 256, 0U);
 }
 
 TEST_F(VulkanTest, CountsAllocatedBytes) {
@@ -265,6 +215,34 @@ TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
     device().submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1);
     });
+}
+
+// A streamed buffer holds offsets for dispatches of one submission: each sees the one that its dynamic offset says.
+TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
+    constexpr std::array bindings = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
+    constexpr std::array keep_the_sum = {1U, 0U};
+    const ComputePipeline pipeline(device(), recurrence_spirv, bindings, 4, keep_the_sum);
+    const std::uint32_t range = device().limits().max_uniform_range;
+    Buffer offsets(device(), BufferUse::Streamed, std::uint64_t{3} * range, "offsets");
+    Buffer values(device(), BufferUse::Storage, 64 * 4, "values");
+    const DescriptorSet set = pipeline.bind(std::array{&offsets, &values});
+    const std::uint32_t steps = 1;
+    for (const std::uint32_t round : {0U, 1U}) { // the second writes over what the first has read
+        std::uint32_t expected = 0;
+        for (std::uint32_t part = 0; part < 3; ++part) {
+            const std::array words = {1000 * round + 10 * part + 1, 0U, 0U, 0U};
+            offsets.upload(std::as_bytes(std::span(words)), std::uint64_t{part} * range);
+            expected += part == 1 ? 0 : words[0];
+        }
+        values.clear();
+        device().submit([&](const vk::raii::CommandBuffer &commands) {
+            for (const std::uint32_t part : {2U, 0U}) {
+                pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1, std::array{part * range});
+                pt::vulkan::barrier_between_dispatches(commands);
+            }
+        });
+        EXPECT_EQ(download(values, 0, 64), std::vector<std::uint32_t>(64, expected));
+    }
 }
 
 TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
@@ -316,7 +294,8 @@ TEST_F(VulkanTest, AFailureWhileRecordingLeavesTheDeviceUsable) {
 }
 
 TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
-    Device &device = device_with({.patience = std::chrono::nanoseconds{0}, .share_memory = true});
+    Device &device =
+        device_with({.patience = std::chrono::nanoseconds{0}, .share_memory = true, .scene_in_constants = false});
     Recurrence recurrence(device, 256); // fills no buffer: with no patience at all the first submission is the last
     const pt::Error loss = error_of([&] { recurrence.run(60'000); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
@@ -351,9 +330,11 @@ TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
          {PT_DEVICE_DISCRETE_GPU, PT_DEVICE_INTEGRATED_GPU, PT_DEVICE_VIRTUAL_GPU, PT_DEVICE_OTHER}) {
         info.kind = gpu;
         EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::seconds{10});
+        EXPECT_FALSE(pt::vulkan::default_policy(info).scene_in_constants);
     }
     info.kind = PT_DEVICE_CPU;
     EXPECT_EQ(pt::vulkan::default_policy(info).patience, std::chrono::nanoseconds::max());
+    EXPECT_TRUE(pt::vulkan::default_policy(info).scene_in_constants);
 }
 
 // The negative control of every test here.

@@ -52,6 +52,10 @@ struct Allocation {
 };
 
 Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
+    if (use == BufferUse::Streamed) {
+        constexpr std::array wanted = {Property::eDeviceLocal | host_visible, host_visible};
+        return {device, bytes, Usage::eUniformBuffer, wanted, host_visible};
+    }
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::UniformOrStorage)
         usage |= Usage::eUniformBuffer;

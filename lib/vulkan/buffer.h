@@ -12,8 +12,9 @@
 namespace pt::vulkan {
 
 enum class BufferUse {
-    Storage,         // kernels read and write it
-    UniformOrStorage // kernels read it either way
+    Storage,          // kernels read and write it
+    UniformOrStorage, // kernels read it either way
+    Streamed          // kernels read it as uniform; the host writes it often, and never waits to do so
 };
 
 class Buffer {
@@ -27,7 +28,7 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // All wait for the device; offsets and sizes are multiples of 4 bytes and lie within the buffer.
+    // All wait for the device, but uploads to a streamed buffer; offsets and sizes are multiples of 4 bytes and lie within the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void clear();

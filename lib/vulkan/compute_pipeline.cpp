@@ -80,12 +80,12 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
                            {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]
                        .release();
         for (std::uint32_t i = 0; i < bindings_.size(); ++i) {
-            // A uniform binding sees the 16 KiB that every device offers.
-            constexpr std::uint64_t uniform_range = 16384;
-            const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer;
-            const vk::DescriptorBufferInfo info{
-                .buffer = buffers[i]->handle(),
-                .range = uniform ? std::min<std::uint64_t>(uniform_range, buffers[i]->size()) : VK_WHOLE_SIZE};
+            const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer ||
+                                 bindings_[i] == vk::DescriptorType::eUniformBufferDynamic;
+            const std::uint64_t range =
+                std::min<std::uint64_t>(device_->limits().max_uniform_range, buffers[i]->size());
+            const vk::DescriptorBufferInfo info{.buffer = buffers[i]->handle(),
+                                                .range = uniform ? range : VK_WHOLE_SIZE};
             device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.set_,
                                                                           .dstBinding = i,
                                                                           .descriptorCount = 1,
@@ -98,9 +98,12 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
 }
 
 void ComputePipeline::dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
-                               std::span<const std::byte> push_constants, std::uint32_t group_count) const {
+                               std::span<const std::byte> push_constants, std::uint32_t group_count,
+                               std::span<const std::uint32_t> offsets) const {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(), {});
+    commands.bindDescriptorSets(
+        vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(),
+        vk::ArrayProxy<const std::uint32_t>(static_cast<std::uint32_t>(offsets.size()), offsets.data()));
     if (!push_constants.empty())
         commands.pushConstants<std::byte>(
             *layout_, vk::ShaderStageFlagBits::eCompute, 0,

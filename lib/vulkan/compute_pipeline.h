@@ -31,9 +31,10 @@ public:
     // buffers[i] goes to binding i.
     DescriptorSet bind(std::span<Buffer *const> buffers) const;
 
-    // Records a dispatch of group_count workgroups along x.
+    // Records a dispatch of group_count workgroups along x. offsets: of the dynamic bindings into their buffers, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
-                  std::span<const std::byte> push_constants, std::uint32_t group_count) const;
+                  std::span<const std::byte> push_constants, std::uint32_t group_count,
+                  std::span<const std::uint32_t> offsets = {}) const;
 
 private:
     Device *device_;

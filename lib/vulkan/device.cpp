@@ -18,6 +18,9 @@ namespace {
 // LP_MAX_TGSI_LOOP_ITERATIONS; newer versions do not, and lose little by shorter submissions).
 constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 
+// More would not help, and the offsets of bindings are multiples of at most 256 bytes.
+constexpr std::uint32_t largest_uniform_range = 65'536;
+
 // Submissions aim at a twentieth of a second; a GPU that has not finished one after so long is taken for lost.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
@@ -29,6 +32,7 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
     const bool llvmpipe = chain.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaLlvmpipe;
     return {.max_storage_buffer_range = limits.maxStorageBufferRange,
             .max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
+            .max_uniform_range = std::min(limits.maxUniformBufferRange, largest_uniform_range) / 256 * 256,
             .max_workgroup_count = limits.maxComputeWorkGroupCount[0],
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
@@ -81,7 +85,8 @@ DevicePolicy default_policy(const pt_device_info &info) {
     // host's over a bus, and the host reads a GPU's own uncached.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
-            .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU};
+            .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
+            .scene_in_constants = cpu};
 }
 
 Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device) :

@@ -15,6 +15,7 @@ namespace pt::vulkan {
 struct Limits {
     std::uint64_t max_storage_buffer_range; // bytes that one binding can see
     std::uint64_t max_allocation_bytes;
+    std::uint32_t max_uniform_range;   // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
     std::uint32_t max_workgroup_count; // along x
     std::uint64_t loop_trip_budget;    // loop trips after which the driver stops an invocation, without a word
 };
@@ -23,6 +24,7 @@ struct Limits {
 struct DevicePolicy {
     std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
+    bool scene_in_constants; // kernels run faster with the scene's numbers compiled in than read from a buffer
 };
 
 DevicePolicy default_policy(const pt_device_info &info);

@@ -134,6 +134,7 @@ TEST(AccuracyIntersect, OfDistances) {
     Comparison plane("plane_distance", "of itself");
     const std::vector<Item> all = items();
     std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_INSIDE] = 1;
     constants[pt::gpu::ID_SPHERE_COUNT] = 1;
     Probe probe(distance_items_spirv, sizeof(ItemRange), constants);
     const std::vector<Result> results = evaluate<Result>(probe, all);

@@ -130,7 +130,7 @@ struct AccuracyLights : testing::Test {
         std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
         constants[pt::gpu::ID_SPHERE_COUNT] = lamp_count;
         constants[pt::gpu::ID_LAMP_COUNT] = lamp_count;
-        constants[pt::gpu::ID_SCENE_IN_UNIFORM] = 1;
+        constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
         std::vector<glm::vec4> scene;
         for (const Lamp &lamp : lamps_)
             scene.emplace_back(lamp.centre, lamp.radius);

@@ -66,7 +66,7 @@ protected:
 
 TEST_F(AccuracySampling, OfDirectionsAndWeights) {
     Comparison about("direction_about", "length");
-    Comparison cosine("cosine_hemisphere_direction", "length");
+    Comparison cosine("cosine_hemisphere_cos_sin", "length");
     Comparison hemisphere("uniform_hemisphere_direction", "length");
     Comparison weight("power_heuristic", "ulp");
     for (std::size_t i = 0; i < items_.size(); ++i) {

@@ -19,15 +19,15 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    vec2 u = sample_block(SampleKey(uvec2(seed, 7u), index, 0u, 0u), 0u, 2u).xy;
+    vec2 u = sample_block(SampleKey(uvec2(seed, 7u), index, 0u, 0u), 0u).xy;
     vec3 direction;
     if (kind == UNIFORM_SPHERE)
         direction = spherical_direction(uniform_spherical_angles(u));
     else if (kind == UNIFORM_HEMISPHERE)
         direction = uniform_hemisphere_direction(axis.xyz, u);
     else if (kind == COSINE_HEMISPHERE)
-        direction = cosine_hemisphere_direction(axis.xyz, u);
+        direction = direction_about(axis.xyz, cosine_hemisphere_cos_sin(u.x), u.y);
     else
-        direction = lobe_direction(axis.xyz, glossiness, u);
+        direction = direction_about(axis.xyz, lobe_cos_sin(glossiness, u.x), u.y);
     directions[index] = vec4(direction, 0.0);
 }

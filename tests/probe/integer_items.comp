@@ -1,14 +1,15 @@
-// Evaluates the shipped functions that work on integers: hash, scrambling, fixed point.
+// Evaluates the shipped functions that work on integers: hash, fixed point.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "film.glsl"
 #include "sampler.glsl"
 
 #include "items.glsl"
 
-struct Item { uvec4 words; uvec4 seeds; };
-struct Result { uvec4 hash; uvec4 scrambled; uvec4 units; };
+struct Item { uvec4 words; uvec4 number; };
+struct Result { uvec4 hash; uvec4 units; };
 layout(set = 0, binding = 2) writeonly buffer Output { Result results[]; };
 layout(set = 0, binding = 3) readonly buffer Input { Item items[]; };
 
@@ -17,7 +18,5 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (!is_item(index))
         return;
-    uvec4 words = items[index].words;
-    results[index] = Result(pcg4d(words), owen_scrambled(words, items[index].seeds),
-                            fixed_point(uintBitsToFloat(items[index].seeds.x)));
+    results[index] = Result(pcg4d(items[index].words), fixed_point(windows_of(uintBitsToFloat(items[index].number.x))));
 }

@@ -27,7 +27,7 @@ void main()
         return;
     Vertex vertex = Vertex(position.xyz, normal.xyz, -normal.xyz, surface, false);
     LampChoice choice = lamp_choice(vertex, 0.0);
-    vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u, 3u).xyz;
+    vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u).xyz;
     uint lamp = index < LAMP_COUNT ? index : choose_lamp(vertex, choice, 0.0, u.z);
     LampView view = view_lamp(vertex, lamp, 0.0);
     LampSample taken = sample_lamp(view, lamp, u.xy);

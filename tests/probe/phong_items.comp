@@ -26,6 +26,6 @@ void main()
     // The axis is the incoming direction too; then the lobe is about its mirror image.
     Vertex vertex = Vertex(vec3(0.0), item.normal_specular.xyz, axis, 0u, false);
     Reflection found = reflection(material, vertex, outgoing);
-    results[index] = Result(vec4(lobe_direction(axis, n, item.numbers_probability.xy), 0.0),
+    results[index] = Result(vec4(direction_about(axis, lobe_cos_sin(n, item.numbers_probability.x), item.numbers_probability.y), 0.0),
                             vec4(lobe_power(axis, outgoing, n), found.value.r, found.density, 0.0));
 }

@@ -1,6 +1,7 @@
-// Takes a block of a sample's numbers with the shipped sampler: one block per invocation, pixel by pixel.
+// Takes a block of the numbers of a sample's branch with the shipped sampler: one block per invocation, pixel by pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "sampler.glsl"
 
@@ -11,8 +12,8 @@ layout(push_constant) uniform Push {
     uint pixel_count;
     uint first_sample;
     uint sample_count;
-    uint first_dimension;
-    uint dimension_count;
+    uint block;
+    uint branch;
 };
 layout(set = 0, binding = 2) writeonly buffer Output { vec4 numbers[]; };
 
@@ -22,6 +23,7 @@ void main()
     if (index >= pixel_count * sample_count)
         return;
     uint row = index % sample_count;
-    SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row * TABLE_DIMENSIONS);
-    numbers[index] = sample_block(key, first_dimension, dimension_count);
+    uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
+    SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row * row_length);
+    numbers[index] = sample_block(branch_key(key, branch), block);
 }

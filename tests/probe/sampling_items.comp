@@ -19,8 +19,8 @@ void main()
         return;
     vec3 axis = items[index].axis_height.xyz;
     vec4 numbers = items[index].numbers_densities;
-    results[index] = Result(vec4(direction_about(axis, items[index].axis_height.w, numbers.y), 0.0),
-                            vec4(cosine_hemisphere_direction(axis, numbers.xy), 0.0),
+    results[index] = Result(vec4(direction_about(axis, narrow_cos_sin(items[index].axis_height.w), numbers.y), 0.0),
+                            vec4(direction_about(axis, cosine_hemisphere_cos_sin(numbers.x), numbers.y), 0.0),
                             vec4(uniform_hemisphere_direction(axis, numbers.xy), 0.0),
                             vec4(power_heuristic(numbers.z, numbers.w), 0.0, 0.0, 0.0));
 }

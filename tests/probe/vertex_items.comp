@@ -1,6 +1,7 @@
 // Evaluates the shipped vertex_at.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "vertex.glsl"
 

@@ -1,0 +1,73 @@
+// The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads. Owned by
+// Renderer, which makes a new one when any of them changes.
+#pragma once
+
+#include "camera.h"
+#include "film.h"
+#include "gpu_layout.h"
+#include "point_sequence.h"
+#include "render_settings.h"
+#include "scene.h"
+#include "scene_features.h"
+#include "schedule.h"
+#include "trace_pipelines.h"
+#include "vulkan/compute_pipeline.h"
+#include "vulkan/device.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class Kernel {
+public:
+    // device, pipelines and film must outlive the kernel. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, const Scene &scene, const Camera &camera,
+           const RenderSettings &settings);
+
+    const Features &features() const { return features_; }
+    const PointLayout &point_layout() const { return layout_; }
+    double film_unit() const { return film_unit_; }
+
+    // The samples that one submission may add to a pixel.
+    std::uint32_t max_samples() const;
+
+    // Takes the samples of a slice, of which the first has the index first_sample, and waits for them; with the last slice of
+    // a split pass adds the pass to the film. Returns the seconds it took.
+    double run(const Slice &slice, std::uint32_t first_sample);
+
+private:
+    // Samples of one half that a dispatch takes, and where the table of their points is.
+    struct Batch {
+        std::uint32_t half;
+        std::uint32_t first_pair;
+        std::uint32_t sample_count;
+        std::uint32_t table_offset; // bytes
+    };
+
+    std::vector<std::vector<Batch>> rounds(std::uint32_t first_sample, std::uint32_t sample_count) const;
+    void upload_points(std::span<const Batch> batches);
+    void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
+                  const Batch &batch) const;
+
+    vulkan::Device &device_;
+    TracePipelines &pipelines_;
+    Film &film_;
+    Features features_;
+    PointLayout layout_;
+    std::uint32_t sampler_;
+    std::uint64_t seed_;
+    double film_unit_;
+    gpu::FrameConstants frame_;
+    std::uint32_t table_bytes_;          // of the points that a dispatch sees
+    std::uint32_t max_dispatch_samples_; // per pixel
+    std::vector<glm::vec4> words_;       // the scene
+    vulkan::Buffer scene_;
+    vulkan::Buffer points_;                   // tables of a submission
+    std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
+    double seconds_ = 0.0;                    // of all slices so far
+};
+
+} // namespace pt

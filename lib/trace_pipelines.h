@@ -1,0 +1,46 @@
+// The specialised pipelines of pathtrace.comp and commit.comp, kept from scene to scene. Owned by Renderer, used by Kernel.
+#pragma once
+
+#include "scene_features.h"
+#include "vulkan/compute_pipeline.h"
+#include "vulkan/device.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// Both have the same bindings, so a descriptor set of one does for the other.
+class TracePipelines {
+public:
+    // The device must outlive the pipelines.
+    explicit TracePipelines(vulkan::Device &device) : device_(device) {}
+
+    // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long as many
+    // small images do, so a scene that took the place of one with the same features gets a kernel of its own only after it
+    // has been rendered for a while. Both give the same bits. words: the scene buffer; seconds: for which this scene has
+    // been rendered so far. The reference holds until the next call.
+    const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
+
+    // The kernel that adds a split pass to the film.
+    const vulkan::ComputePipeline &commit();
+
+private:
+    // A pipeline and what it is specialised to.
+    struct Specialised {
+        std::vector<std::uint32_t> constants;
+        vulkan::ComputePipeline pipeline;
+    };
+
+    const vulkan::ComputePipeline &build(std::optional<Specialised> &place, std::vector<std::uint32_t> constants);
+
+    vulkan::Device &device_;
+    std::optional<Features> features_;     // of the scene before
+    std::optional<Specialised> any_scene_; // reads the scene from a buffer
+    std::optional<Specialised> one_scene_; // has the scene's numbers as constants
+    std::optional<vulkan::ComputePipeline> commit_;
+};
+
+} // namespace pt

@@ -1,0 +1,175 @@
+// The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
+// buffer.
+#include "context_fixture.h"
+#include "gpu_scene.h"
+#include "invariance_scene.h"
+#include "pathtrace.spv.h"
+#include "probe.h"
+#include "sample_halves.h"
+#include "scene_constants.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace gpu = pt::gpu;
+
+constexpr std::uint32_t width = 16;
+constexpr std::uint32_t height = 12;
+constexpr std::uint32_t sample_count = 16;
+
+using FilmWords = std::vector<std::uint32_t>;
+
+// The kernel over one half of a film, as lib/kernel.cpp runs it.
+class HalfRender {
+public:
+    HalfRender(const pt::Scene &scene, const pt::Camera &camera) :
+        features_(pt::features_of(scene, camera, settings)),
+        words_(pt::gpu_scene(scene, camera, features_)),
+        frame_(pt::frame_constants(camera, settings, pt::film_unit(scene))) {
+        frame_.strip_pixel_count = frame_.pixel_count = width * height;
+        frame_.sample_count = sample_count;
+        EXPECT_LE(words_.size(), gpu::CONSTANT_SCENE_WORDS);
+    }
+
+    const pt::Features &features() const { return features_; }
+    const std::vector<glm::vec4> &words() const { return words_; } // no more than constants take
+
+    FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
+        const auto constants = pt::specialization_constants(features_);
+        Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
+        set_scene_for(probe, source, words);
+        const std::vector<std::uint32_t> indices = pt::SampleHalves(settings.sampler).indices(0, {0, sample_count});
+        probe.set_points(pt::point_table(settings.sampler, settings.seed, indices, pt::point_layout(features_)));
+        return probe.run<std::uint32_t>({}, std::size_t{gpu::FILM_HALVES} * gpu::FILM_WORDS * width * height, frame_,
+                                        width * height);
+    }
+
+private:
+    static constexpr pt::RenderSettings settings{width, height, 4, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL};
+
+    pt::Features features_;
+    std::vector<glm::vec4> words_;
+    gpu::FrameConstants frame_;
+};
+
+HalfRender render_of_scene(const InvarianceScene &scene) {
+    return {pt::validated_scene(scene.scene()), pt::validated_camera(scene.camera)};
+}
+
+// Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
+// scene.
+struct Comparison {
+    const HalfRender &render;
+    const FilmWords film;
+
+    explicit Comparison(const HalfRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
+        EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * width * height], sample_count);
+    }
+
+    bool holds(std::uint32_t source, const std::vector<glm::vec4> &words) const {
+        return render.film(source, words) == film;
+    }
+};
+
+// A floor, a ball, and lamps: few surfaces, as it is building kernels that takes the time.
+InvarianceScene scene_with_lamps(int lamp_count) {
+    InvarianceScene scene = InvarianceScene::coursework();
+    scene.planes.resize(1);
+    scene.spheres = {{{-2, -2, -12}, 3, {0, 0, 0}, 2, 0}};
+    for (int i = 0; i < lamp_count; ++i)
+        scene.spheres.push_back({{3.0 * i - 8.0, 4, -10.5}, 0.5, {0, 0, 0}, static_cast<uint32_t>(i % 2), 0});
+    return scene;
+}
+
+// At rest, and with so many lamps that one is chosen at each vertex.
+InvarianceScene diffuse_scene() {
+    InvarianceScene scene = scene_with_lamps(gpu::EVERY_LAMP_LIMIT + 1);
+    for (pt_material &material : scene.materials)
+        std::fill_n(material.specular, 3, 0.0F);
+    return scene;
+}
+
+TEST(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
+    const HalfRender render = render_of_scene(diffuse_scene());
+    EXPECT_FALSE(render.features().motion || render.features().gloss || render.features().curvature);
+    EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+
+    // Negative control: one number is off by its last bit.
+    std::vector<glm::vec4> words = render.words();
+    float &radius = words[render.features().lamp_count].w; // of the first ball
+    radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
+}
+
+// With one lamp its radiance, place and size are constants everywhere, which invites compilers to move them about in
+// products.
+TEST(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
+    InvarianceScene scene = scene_with_lamps(1);
+    scene.camera.shutter_close = 1.0;
+    scene.spheres[0].motion[1] = 0.5;
+    scene.spheres[1].motion[0] = 1.5;
+    scene.spheres.push_back({{0, -1002.5, -8}, 1000, {0, 0, 0}, scene.planes[0].material, 0});
+    const HalfRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().motion && render.features().gloss && render.features().curvature);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+}
+
+// With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.
+TEST(SceneSource, KeepsTheBitsOfASingleSurface) {
+    InvarianceScene scene = InvarianceScene::coursework();
+    scene.planes.clear();
+    scene.spheres = {{{1, 2, 3}, 17, {0, 0, 0}, 3, 0}};
+    std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
+    std::fill_n(scene.materials[3].specular, 3, 0.37F);
+    std::fill_n(scene.materials[3].emission, 3, 0.7F);
+    const HalfRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().gloss);
+    EXPECT_EQ(render.features().surface_count(), 1U);
+    EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
+}
+
+// Through pt.h: the second scene of a context takes the place of one with the same features, and there the kernel may
+// read a buffer; in a context of its own it may have constants.
+class SceneSourceTest : public ContextFixture {
+protected:
+    static std::vector<float> image_of(pt_context *on, const InvarianceScene &invariance_scene) {
+        const pt_scene scene = invariance_scene.scene();
+        const pt_render render = ::render_of(width, height, 4);
+        const pt_accumulate_info samples{sizeof samples, sample_count, nullptr, nullptr, 0};
+        std::vector<float> image(std::size_t{3} * width * height);
+        const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_camera(on, &invariance_scene.camera), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        return image;
+    }
+};
+
+TEST_F(SceneSourceTest, TheSceneBeforeDoesNotMatter) {
+    const InvarianceScene before = scene_with_lamps(2);
+    InvarianceScene after = before;
+    after.spheres[0].center[0] += 0.5;
+    const std::vector<float> of_before = image_of(context(), before);
+    const std::vector<float> of_after = image_of(context(), after);
+    const Context fresh = create_context();
+    EXPECT_TRUE(image_of(fresh.get(), after) == of_after);
+    EXPECT_TRUE(image_of(context(), before) == of_before) << "again";
+    EXPECT_FALSE(of_before == of_after);
+}
+
+} // namespace
