@@ -145,7 +145,7 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         const pt_image target = pt::copy_in(image, "image");
         // Before pt_set_render there is no size to check against; the renderer refuses then.
         const bool sized = renderer.width() > 0;
-        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.height()) : pt::Image{});
+        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count()) : pt::Image{});
     });
 }
 

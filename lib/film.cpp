@@ -121,19 +121,62 @@ void Film::clear() {
     }
 }
 
-void Film::read(double unit, const HalfCounts &expected, const std::function<void(const PixelEstimates &)> &receive) {
-    // A piece of a strip at a time, so that a large image is not held twice.
-    constexpr std::uint32_t piece_pixels = 1U << 17;
-    std::vector<std::uint32_t> words;
+void Film::download(std::uint32_t first_pixel, std::uint32_t pixel_count, std::span<std::uint32_t> words) {
+    std::vector<vulkan::BufferPiece> pieces(words_per_pixel);
     for (Strip &strip : strips_) {
-        for (std::uint32_t first = 0; first < strip.pixel_count; first += piece_pixels) {
-            const std::uint32_t count = std::min(piece_pixels, strip.pixel_count - first);
-            words.resize(count * words_per_pixel);
-            for (std::size_t plane = 0; plane < words_per_pixel; ++plane)
-                strip.words.download(std::as_writable_bytes(std::span(words).subspan(plane * count, count)),
-                                     (plane * strip.pixel_count + first) * sizeof(std::uint32_t));
-            receive(pixel_estimates(words, count, unit, expected));
+        const std::uint32_t first = std::max(first_pixel, strip.first_pixel);
+        const std::uint32_t end = std::min(first_pixel + pixel_count, strip.first_pixel + strip.pixel_count);
+        if (first >= end)
+            continue;
+        for (std::size_t plane = 0; plane < words_per_pixel; ++plane)
+            pieces[plane] = {
+                std::as_writable_bytes(words.subspan(plane * pixel_count + (first - first_pixel), end - first)),
+                (plane * strip.pixel_count + (first - strip.first_pixel)) * sizeof(std::uint32_t)};
+        strip.words.download(pieces);
+    }
+}
+
+namespace {
+
+// Adds the words of the same pixels in another film.
+void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> other, std::size_t plane_pixels) {
+    const std::size_t half_words = gpu::FILM_WORDS * plane_pixels;
+    for (std::size_t first = 0; first < words.size(); first += half_words) {
+        for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
+            const auto at = [&](std::size_t plane) { return first + plane * plane_pixels + pixel; };
+            for (std::size_t sum = 0; sum < gpu::FILM_ACCEPTED; sum += gpu::FILM_SUM_WORDS) {
+                std::uint64_t carry = 0;
+                for (std::size_t plane = sum; plane < sum + gpu::FILM_SUM_WORDS; ++plane) {
+                    carry += std::uint64_t{words[at(plane)]} + other[at(plane)];
+                    words[at(plane)] = static_cast<std::uint32_t>(carry);
+                    carry >>= 32;
+                }
+            }
+            words[at(gpu::FILM_ACCEPTED)] += other[at(gpu::FILM_ACCEPTED)];
+            words[at(gpu::FILM_REJECTED)] += other[at(gpu::FILM_REJECTED)];
         }
+    }
+}
+
+} // namespace
+
+void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected,
+                const std::function<void(const PixelEstimates &)> &receive) {
+    // A piece at a time, so that a large image is not held twice.
+    constexpr std::uint32_t piece_pixels = 1U << 17;
+    const std::uint32_t pixel_count = films.front()->pixel_count();
+    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t first = 0; first < pixel_count; first += std::min(piece_pixels, pixel_count - first)) {
+        const std::uint32_t count = std::min(piece_pixels, pixel_count - first);
+        words.resize(count * Film::words_per_pixel);
+        films.front()->download(first, count, words);
+        for (Film *film : films.subspan(1)) {
+            others.resize(words.size());
+            film->download(first, count, others);
+            add_words(words, others, count);
+        }
+        receive(pixel_estimates(words, count, unit, expected));
     }
 }
 

@@ -50,8 +50,8 @@ public:
 
     void clear();
 
-    // Reads the film in pieces of consecutive pixels, the first beginning with pixel 0.
-    void read(double unit, const HalfCounts &expected, const std::function<void(const PixelEstimates &)> &receive);
+    // Reads the words of consecutive pixels, plane after plane of pixel_count words.
+    void download(std::uint32_t first_pixel, std::uint32_t pixel_count, std::span<std::uint32_t> words);
 
     std::uint64_t rejected_samples();
 
@@ -60,6 +60,10 @@ private:
     std::uint32_t height_;
     std::vector<Strip> strips_;
 };
+
+// Reads the sum of films of one size in pieces of consecutive pixels, the first beginning with pixel 0.
+void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected,
+                const std::function<void(const PixelEstimates &)> &receive);
 
 // The largest strip that a device can bind, in pixels.
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

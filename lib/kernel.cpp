@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// Tables of points for one submission: 4 MiB at the most.
+// Tables of points for one slice: 4 MiB at the most.
 constexpr std::uint32_t max_tables = 64;
 
 std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t words) {
@@ -50,6 +50,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     layout_(pt::point_layout(features_)),
     sampler_(settings.sampler),
     seed_(settings.seed),
+    first_pixel_(settings.first_row * settings.width),
     film_unit_(pt::film_unit(scene)),
     frame_(frame_constants(camera, settings, film_unit_)),
     table_bytes_(device.limits().max_uniform_range),
@@ -57,7 +58,8 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     words_(gpu_scene(scene, camera, features_)),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, words_.size()), "scene"),
     points_(device, vulkan::BufferUse::Streamed,
-            std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables : 1), "points of a slice") {
+            std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
+            "points of a slice") {
     scene_.upload(std::as_bytes(std::span(words_)), 0);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, words_, seconds_);
     for (Film::Strip &strip : film_.strips()) {
@@ -71,30 +73,32 @@ std::uint32_t Kernel::max_samples() const {
 }
 
 // The samples of a slice as rounds, each of at most one dispatch for each half: those of a round may run at the same time.
-std::vector<std::vector<Kernel::Batch>> Kernel::rounds(std::uint32_t first_sample, std::uint32_t sample_count) const {
+// Their tables are free: slices end in the order in which they were started, and there is room for all that are under way.
+std::vector<std::vector<Kernel::Batch>> Kernel::next_rounds(std::uint32_t first_sample, std::uint32_t sample_count) {
     std::vector<std::vector<Batch>> rounds;
-    std::uint32_t table = 0;
     for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
         const HalfRange range = SampleHalves(sampler_).range(half, first_sample, sample_count);
         for (std::uint32_t done = 0; done < range.sample_count; done += max_dispatch_samples_) {
             const std::size_t round = done / max_dispatch_samples_;
             rounds.resize(std::max(rounds.size(), round + 1));
             const std::uint32_t count = std::min(max_dispatch_samples_, range.sample_count - done);
-            rounds[round].push_back({half, range.first_pair + done, count, table});
-            table += layout_.row_blocks() > 0 ? table_bytes_ : 0;
+            rounds[round].push_back({half, range.first_pair + done, count, next_table_ * table_bytes_});
+            next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
         }
     }
     return rounds;
 }
 
-void Kernel::upload_points(std::span<const Batch> batches) {
+void Kernel::upload_points(const std::vector<std::vector<Batch>> &rounds) {
     if (layout_.row_blocks() == 0)
         return;
-    for (const Batch &batch : batches) {
-        const std::vector<std::uint32_t> indices =
-            SampleHalves(sampler_).indices(batch.half, {batch.first_pair, batch.sample_count});
-        const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
-        points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
+    for (const std::vector<Batch> &round : rounds) {
+        for (const Batch &batch : round) {
+            const std::vector<std::uint32_t> indices =
+                SampleHalves(sampler_).indices(batch.half, {batch.first_pair, batch.sample_count});
+            const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
+            points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
+        }
     }
 }
 
@@ -113,7 +117,7 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
         const std::uint32_t end = std::min(slice_end, strip.first_pixel + strip.pixel_count);
         if (first >= end)
             continue;
-        frame.strip_first_pixel = strip.first_pixel;
+        frame.strip_first_pixel = first_pixel_ + strip.first_pixel;
         frame.strip_pixel_count = strip.pixel_count;
         frame.first_pixel = first - strip.first_pixel;
         frame.pixel_count = end - first;
@@ -122,13 +126,12 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
-double Kernel::run(const Slice &slice, std::uint32_t first_sample) {
+vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample) {
     const bool pass_complete = !slice.whole && slice.first_pixel + slice.pixel_count == film_.pixel_count();
-    const std::vector<std::vector<Batch>> rounds = this->rounds(first_sample, slice.sample_count);
-    for (const std::vector<Batch> &round : rounds)
-        upload_points(round);
+    const std::vector<std::vector<Batch>> rounds = next_rounds(first_sample, slice.sample_count);
+    upload_points(rounds);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, words_, seconds_);
-    const double seconds = device_.submit([&](const vk::raii::CommandBuffer &commands) {
+    return device_.start([&](const vk::raii::CommandBuffer &commands) {
         for (std::size_t i = 0; i < rounds.size(); ++i) {
             if (i > 0)
                 vulkan::barrier_between_dispatches(commands);
@@ -141,6 +144,10 @@ double Kernel::run(const Slice &slice, std::uint32_t first_sample) {
             dispatch(commands, pipelines_.commit(), whole_pass, rounds[0][0]); // a pass is one sample
         }
     });
+}
+
+double Kernel::finish(vulkan::Device::Ticket ticket) {
+    const double seconds = device_.finish(ticket);
     seconds_ += seconds;
     return seconds;
 }

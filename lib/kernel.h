@@ -34,9 +34,12 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Takes the samples of a slice, of which the first has the index first_sample, and waits for them; with the last slice of
-    // a split pass adds the pass to the film. Returns the seconds it took.
-    double run(const Slice &slice, std::uint32_t first_sample);
+    // Starts to take the samples of a slice, of which the first has the index first_sample; with the last slice of a split
+    // pass adds the pass to the film. At most the device's queue_depth of slices may be under way.
+    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
+
+    // Waits for a slice and returns the seconds it took.
+    double finish(vulkan::Device::Ticket ticket);
 
 private:
     // Samples of one half that a dispatch takes, and where the table of their points is.
@@ -47,8 +50,8 @@ private:
         std::uint32_t table_offset; // bytes
     };
 
-    std::vector<std::vector<Batch>> rounds(std::uint32_t first_sample, std::uint32_t sample_count) const;
-    void upload_points(std::span<const Batch> batches);
+    std::vector<std::vector<Batch>> next_rounds(std::uint32_t first_sample, std::uint32_t sample_count);
+    void upload_points(const std::vector<std::vector<Batch>> &rounds);
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
                   const Batch &batch) const;
 
@@ -59,14 +62,16 @@ private:
     PointLayout layout_;
     std::uint32_t sampler_;
     std::uint64_t seed_;
+    std::uint32_t first_pixel_; // of the film, in the image
     double film_unit_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees
     std::uint32_t max_dispatch_samples_; // per pixel
     std::vector<glm::vec4> words_;       // the scene
     vulkan::Buffer scene_;
-    vulkan::Buffer points_;                   // tables of a submission
+    vulkan::Buffer points_;                   // tables of the slices under way
     std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
+    std::uint32_t next_table_ = 0;            // in points_, which is used in turn
     double seconds_ = 0.0;                    // of all slices so far
 };
 

@@ -3,6 +3,8 @@
 
 #include "rules.h"
 
+#include <algorithm>
+
 namespace pt {
 
 namespace {
@@ -26,6 +28,9 @@ RenderSettings validated_render(const pt_render &source) {
                    "must be a PT_ESTIMATOR_* of pt.h");
     render.require(source.sampler <= PT_SAMPLER_SOBOL, "sampler", source.sampler, "must be a PT_SAMPLER_* of pt.h");
     render.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
+    render.require(source.first_row < std::max(source.height, 1U), "first_row", source.first_row, "must be < height");
+    const std::uint64_t rows_end = std::uint64_t{source.first_row} + source.row_count;
+    render.require(rows_end <= source.height, "first_row + row_count", rows_end, "must be <= height");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {source.width,
             source.height,
@@ -33,7 +38,9 @@ RenderSettings validated_render(const pt_render &source) {
             source.seed,
             source.first_sample,
             source.estimator == PT_ESTIMATOR_BEST ? std::uint32_t{PT_ESTIMATOR_MIS} : source.estimator,
-            source.sampler == PT_SAMPLER_BEST ? std::uint32_t{PT_SAMPLER_SOBOL} : source.sampler};
+            source.sampler == PT_SAMPLER_BEST ? std::uint32_t{PT_SAMPLER_SOBOL} : source.sampler,
+            source.first_row,
+            source.row_count == 0 ? source.height - source.first_row : source.row_count};
 }
 
 } // namespace pt

@@ -15,6 +15,8 @@ struct RenderSettings {
     std::uint32_t first_sample;
     std::uint32_t estimator; // never PT_ESTIMATOR_BEST: the one that it stands for
     std::uint32_t sampler;   // never PT_SAMPLER_BEST
+    std::uint32_t first_row;
+    std::uint32_t row_count; // >= 1; the rows lie in the image
 };
 
 // Takes over settings whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

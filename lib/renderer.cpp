@@ -7,25 +7,13 @@
 #include "vulkan/device_choice.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 namespace pt {
 
 namespace {
-
-// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
-// measured slices size the rest.
-constexpr double assumed_tests_per_second = 2.5e8;
-
-// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
-void require_film_memory(const RenderSettings &settings, const pt_device_info &device) {
-    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.height * Film::bytes_per_pixel;
-    if (bytes > device.memory_bytes)
-        throw Error(PT_ERROR_UNSUPPORTED, "render.width * height = " + std::to_string(settings.width) + " * " +
-                                              std::to_string(settings.height) + ": the film takes " +
-                                              std::to_string(bytes) + " bytes, and the device has " +
-                                              std::to_string(device.memory_bytes));
-}
 
 std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
     std::vector<pt_device_info> devices;
@@ -34,59 +22,60 @@ std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
     return devices;
 }
 
-vk::raii::PhysicalDevice chosen_device(const vulkan::Instance &instance, const std::string &wanted) {
-    return instance.physical_devices()[vulkan::choose_device(describe_all(instance), wanted.c_str())];
-}
-
 } // namespace
 
 std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-Renderer::Renderer(const CreateSettings &settings) :
-    log_(settings.log),
-    instance_(log_, settings.validation),
-    device_(instance_, chosen_device(instance_, settings.device)),
-    pipelines_(device_),
-    target_seconds_(settings.submit_milliseconds * 1e-3) {}
+Renderer::Renderer(const CreateSettings &settings) : log_(settings.log), instance_(log_, settings.validation) {
+    const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
+    for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
+        devices_.push_back(
+            std::make_unique<RenderDevice>(instance_, devices[index], settings.submit_milliseconds * 1e-3));
+}
+
+void Renderer::require_alive() const {
+    for (const auto &device : devices_)
+        device->device().require_alive();
+}
 
 void Renderer::discard_samples() {
-    if (film_)
-        film_->clear();
-    kernel_.reset();
+    for (const auto &device : devices_)
+        device->discard_samples();
     samples_done_ = 0;
-    pass_pixels_done_ = 0;
     error_.reset();
 }
 
 void Renderer::set_scene(Scene scene) {
-    device_.require_alive();
+    require_alive();
     discard_samples();
     scene_ = std::move(scene);
 }
 
 void Renderer::set_camera(const Camera &camera) {
-    device_.require_alive();
+    require_alive();
     discard_samples();
     camera_ = camera;
 }
 
 void Renderer::set_render(const RenderSettings &settings) {
-    device_.require_alive();
-    const bool same_size = settings_ && settings.width == settings_->width && settings.height == settings_->height;
+    require_alive();
+    const bool same_size =
+        settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
     if (!same_size) {
-        require_film_memory(settings, device_.info());
-        Film film(device_, settings.width, settings.height, max_strip_pixels(device_.limits()));
-        kernel_.reset(); // its descriptor sets name the old film
-        film_ = std::move(film);
+        std::vector<Film> films;
+        for (const auto &device : devices_)
+            films.push_back(device->make_film(settings));
+        for (std::size_t i = 0; i < films.size(); ++i)
+            devices_[i]->set_film(std::move(films[i]));
     }
     discard_samples();
     settings_ = settings;
 }
 
 void Renderer::require_settings() const {
-    device_.require_alive();
+    require_alive();
     if (!scene_)
         throw Error(PT_ERROR_INVALID_STATE, "no scene: call pt_set_scene first");
     if (!camera_)
@@ -95,39 +84,18 @@ void Renderer::require_settings() const {
         throw Error(PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
 }
 
-void Renderer::prepare_kernel() {
-    if (kernel_)
-        return;
-    kernel_.emplace(device_, pipelines_, *film_, *scene_, *camera_, *settings_);
-    ScheduleLimits limits{};
-    limits.target_seconds = target_seconds_;
-    limits.first_slice_paths =
-        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
-    limits.max_samples = kernel_->max_samples();
-    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
-    schedule_.emplace(film_->pixel_count(), limits);
+bool Renderer::is_in_pass() const {
+    return std::ranges::any_of(devices_, [](const auto &device) { return device->pass_pixels() > 0; });
 }
 
-double Renderer::run(const Slice &slice) {
-    const double seconds = kernel_->run(slice, settings_->first_sample + samples_done_);
-    ++submit_count_;
-    device_seconds_ += seconds;
-    return seconds;
+std::vector<Film *> Renderer::films() const {
+    std::vector<Film *> films;
+    for (const auto &device : devices_)
+        films.push_back(&device->film());
+    return films;
 }
 
-// Counts what a slice has done.
-void Renderer::advance(const Slice &slice) {
-    const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-    if (slice_end == film_->pixel_count()) {
-        samples_done_ += slice.sample_count;
-        pass_pixels_done_ = 0;
-        error_.reset();
-    } else {
-        pass_pixels_done_ = slice_end;
-    }
-}
-
-// Samples that the film holds.
+// Samples that the films hold.
 HalfCounts Renderer::half_counts() const {
     HalfCounts counts{};
     for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half)
@@ -141,9 +109,9 @@ const ErrorEstimate &Renderer::error() {
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
-        film_->read(kernel_->film_unit(), half_counts(),
-                    [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
-        error_ = estimator.result(accuracy_of_halves(settings_->sampler, kernel_->point_layout(), samples_done_));
+        read_films(films(), kernel().film_unit(), half_counts(),
+                   [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
+        error_ = estimator.result(accuracy_of_halves(settings_->sampler, kernel().point_layout(), samples_done_));
     }
     return *error_;
 }
@@ -163,28 +131,84 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, 
         throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
                                                    ": a pixel holds at most 2^32 - 1 samples (it has " +
                                                    std::to_string(samples_done_) + ")");
-    prepare_kernel();
+    for (const auto &device : devices_)
+        device->prepare(*scene_, *camera_, *settings_);
 
-    const std::uint32_t samples_before = samples_done_;
     const std::uint32_t samples_wanted = samples_done_ + sample_count;
-    const double start = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
+    const std::uint64_t pixel_count = devices_.front()->film().pixel_count();
+    Job job{progress, sample_count * pixel_count - devices_.front()->pass_pixels()};
     while (samples_done_ < samples_wanted) {
-        if (pass_pixels_done_ == 0 && is_on_target(target_error))
+        if (!is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
-        const std::uint32_t end =
-            target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted;
-        const Slice slice = schedule_->next(end - samples_done_, pass_pixels_done_);
-        schedule_->measured(slice, run(slice));
-        advance(slice);
-        if (!progress.function)
-            continue;
-        const double pass = static_cast<double>(pass_pixels_done_) / film_->pixel_count();
-        const double done = samples_done_ - samples_before + pass - start;
-        const bool stop = progress.function(progress.user, done / (sample_count - start)) != 0;
-        if (stop && samples_done_ < samples_wanted)
+        take_samples(target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted, job);
+        if (job.stopped && samples_done_ < samples_wanted)
             return PT_CANCELLED;
     }
     return PT_OK;
+}
+
+// Takes samples up to a number of them. Devices are dealt samples in order, and none is left out once one is begun: what is
+// done in the end is a range without gaps. Only a device that is alone may stop within a pass, and will go on there.
+void Renderer::take_samples(std::uint32_t end, Job &job) {
+    std::uint32_t dealt = samples_done_ + (is_in_pass() ? 1 : 0);
+    const auto deal = [&](RenderDevice &device) {
+        const bool finishes_pass = device.pass_pixels() > 0 && !(job.stopped && devices_.size() == 1);
+        const bool begins = device.pass_pixels() == 0 && !job.stopped && dealt < end;
+        if (!device.has_room() || !(finishes_pass || begins))
+            return false;
+        dealt += device.start(settings_->first_sample + dealt, end - dealt);
+        return true;
+    };
+    const auto take = [&] {
+        do {
+            for (const auto &device : devices_)
+                while (deal(*device)) {
+                }
+        } while (finish_slice(job));
+        samples_done_ = dealt - (is_in_pass() ? 1 : 0);
+        error_.reset();
+    };
+    try {
+        take();
+    } catch (...) {
+        // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are worth nothing.
+        job.stopped = true;
+        try {
+            take();
+        } catch (const Error &) {
+            samples_done_ = 0;
+        }
+        throw;
+    }
+}
+
+// Waits until a device has ended a slice, and tells the caller. False if none is under way.
+bool Renderer::finish_slice(Job &job) {
+    RenderDevice *const device = next_to_finish();
+    if (!device)
+        return false;
+    const auto [slice, seconds] = device->finish();
+    ++submit_count_;
+    device_seconds_ += seconds;
+    job.pixels_done += std::uint64_t{slice.pixel_count} * slice.sample_count;
+    const double share = static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_wanted);
+    if (job.progress.function && !job.stopped)
+        job.stopped = job.progress.function(job.progress.user, std::min(share, 1.0)) != 0;
+    return true;
+}
+
+// The device whose slice ends first, waiting for it only if it is alone: of several it is the first that is seen to be done.
+RenderDevice *Renderer::next_to_finish() {
+    constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
+    if (devices_.size() == 1)
+        return devices_.front()->is_idle() ? nullptr : devices_.front().get();
+    while (std::ranges::any_of(devices_, [](const auto &device) { return !device->is_idle(); })) {
+        for (const auto &device : devices_)
+            if (!device->is_idle() && device->is_done())
+                return device.get();
+        std::this_thread::sleep_for(pause);
+    }
+    return nullptr;
 }
 
 void Renderer::readback(const Image &image) {
@@ -193,7 +217,7 @@ void Renderer::readback(const Image &image) {
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
-    film_->read(kernel_->film_unit(), half_counts(), [&](const PixelEstimates &pixels) {
+    read_films(films(), kernel().film_unit(), half_counts(), [&](const PixelEstimates &pixels) {
         const std::vector<float> &values =
             image.quantity == PT_QUANTITY_RADIANCE ? pixels.radiance : pixels.standard_error;
         for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
@@ -202,15 +226,19 @@ void Renderer::readback(const Image &image) {
 }
 
 pt_stats Renderer::stats(bool with_error) {
-    const bool readable = film_ && !device_.lost();
+    const bool alive = std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
+    const bool readable = settings_ && alive;
     const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
     pt_stats stats{};
     stats.sample_count = samples_done_;
-    stats.rejected_samples = readable ? film_->rejected_samples() : 0;
-    stats.device_bytes = device_.allocated_bytes();
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
-    stats.features = kernel_ ? feature_bits(kernel_->features()) : 0;
+    for (const auto &device : devices_) {
+        stats.rejected_samples += readable ? device->film().rejected_samples() : 0;
+        stats.device_bytes += device->device().allocated_bytes();
+    }
+    stats.features = devices_.front()->kernel() ? feature_bits(kernel().features()) : 0;
+    stats.device_count = static_cast<std::uint32_t>(devices_.size());
     stats.rmse = error.rmse.estimate;
     stats.rmse_low = error.rmse.low;
     stats.rmse_high = error.rmse.high;
@@ -221,7 +249,7 @@ pt_stats Renderer::stats(bool with_error) {
 }
 
 std::vector<pt_function_accuracy> Renderer::accuracy() {
-    return measured_accuracy(device_);
+    return measured_accuracy(devices_.front()->device());
 }
 
 } // namespace pt

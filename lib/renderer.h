@@ -5,16 +5,14 @@
 #include "error_estimate.h"
 #include "film.h"
 #include "image.h"
-#include "kernel.h"
 #include "log.h"
+#include "render_device.h"
 #include "render_settings.h"
 #include "scene.h"
-#include "schedule.h"
-#include "trace_pipelines.h"
-#include "vulkan/device.h"
 #include "vulkan/instance.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,9 +41,11 @@ class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
 
-    const pt_device_info &device() const { return device_.info(); }
+    const pt_device_info &device() const { return devices_.front()->device().info(); }
+
+    // Of what is rendered and read back: the image's columns, and those of its rows that the settings ask for.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
-    std::uint32_t height() const { return settings_ ? settings_->height : 0; }
+    std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
     // Each setter discards the samples so far.
     void set_scene(Scene scene);
@@ -60,33 +60,39 @@ public:
     // Without the error its fields say that nothing is known.
     pt_stats stats(bool with_error);
 
-    // Of the kernel's elementary functions; leaves the samples alone.
+    // Of the kernel's elementary functions on the first device; leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    void discard_samples();
+    // One call of accumulate().
+    struct Job {
+        Progress progress;
+        std::uint64_t pixels_wanted;   // pixels times samples
+        std::uint64_t pixels_done = 0; // of them
+        bool stopped = false;          // by the caller, or by a failure
+    };
+
+    void require_alive() const;
     void require_settings() const;
-    void prepare_kernel();
-    double run(const Slice &slice);
-    void advance(const Slice &slice);
+    void discard_samples();
+    bool is_in_pass() const;
+    const Kernel &kernel() const { return *devices_.front()->kernel(); }
+    std::vector<Film *> films() const;
     HalfCounts half_counts() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
+    void take_samples(std::uint32_t end, Job &job);
+    bool finish_slice(Job &job);
+    RenderDevice *next_to_finish();
 
     Log log_;
     vulkan::Instance instance_;
-    vulkan::Device device_;
-    TracePipelines pipelines_;
-    double target_seconds_;
+    std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
     std::optional<Scene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;
-    std::optional<Film> film_;
-    std::optional<Kernel> kernel_;       // empty after a setter
-    std::optional<Schedule> schedule_;   // of the kernel
-    std::uint32_t samples_done_ = 0;     // whole samples in every pixel
-    std::uint32_t pass_pixels_done_ = 0; // of the split pass under way
-    std::optional<ErrorEstimate> error_; // of the whole samples, once it has been asked for
+    std::optional<RenderSettings> settings_; // the devices have films if it is there
+    std::uint32_t samples_done_ = 0;         // whole samples in every pixel
+    std::optional<ErrorEstimate> error_;     // of them, once it has been asked for
     std::uint64_t submit_count_ = 0;
     double device_seconds_ = 0.0;
 };

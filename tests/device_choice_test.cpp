@@ -94,4 +94,20 @@ TEST(DeviceChoiceTest, ARefusalHasTheReasonAgainstEveryDevice) {
     EXPECT_TRUE(names(error, "GeForce 9800: Vulkan 1.2 is needed")) << error.what();
 }
 
+TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
+    using Indices = std::vector<std::size_t>;
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, ""), (Indices{5}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "all"), (Indices{5, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "ALL"), (Indices{5, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "6,1"), (Indices{6, 1}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "3,16161616-16161616-1616161616161616"), (Indices{3, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "llvm"), (Indices{1}));
+    // What is no list of numbers is a name, commas and all.
+    const std::vector<pt_device_info> with_comma = {invented(PT_DEVICE_CPU, "llvmpipe (LLVM 15, 256 bits)", 0x11)};
+    EXPECT_EQ(pt::vulkan::choose_devices(with_comma, "15, 256"), (Indices{0}));
+    for (const std::string wrong : {"5,7", "5,4", "5,", ",", "5,vega"})
+        EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(workstation, wrong); }).code(), PT_ERROR_NO_DEVICE)
+            << wrong;
+}
+
 } // namespace

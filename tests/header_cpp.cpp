@@ -62,7 +62,7 @@ PT_EXPECT_MEMBER(pt_camera, vertical_fov, 80, 8);
 PT_EXPECT_MEMBER(pt_camera, shutter_open, 88, 8);
 PT_EXPECT_MEMBER(pt_camera, shutter_close, 96, 8);
 
-PT_EXPECT_STRUCT(pt_render, 40);
+PT_EXPECT_STRUCT(pt_render, 48);
 PT_EXPECT_MEMBER(pt_render, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_render, width, 4, 4);
 PT_EXPECT_MEMBER(pt_render, height, 8, 4);
@@ -72,6 +72,8 @@ PT_EXPECT_MEMBER(pt_render, first_sample, 24, 4);
 PT_EXPECT_MEMBER(pt_render, estimator, 28, 4);
 PT_EXPECT_MEMBER(pt_render, sampler, 32, 4);
 PT_EXPECT_MEMBER(pt_render, reserved, 36, 4);
+PT_EXPECT_MEMBER(pt_render, first_row, 40, 4);
+PT_EXPECT_MEMBER(pt_render, row_count, 44, 4);
 
 PT_EXPECT_STRUCT(pt_accumulate_info, 32);
 PT_EXPECT_MEMBER(pt_accumulate_info, struct_size, 0, 4);
@@ -95,7 +97,7 @@ PT_EXPECT_MEMBER(pt_stats, device_bytes, 16, 8);
 PT_EXPECT_MEMBER(pt_stats, submit_count, 24, 8);
 PT_EXPECT_MEMBER(pt_stats, device_seconds, 32, 8);
 PT_EXPECT_MEMBER(pt_stats, features, 40, 4);
-PT_EXPECT_MEMBER(pt_stats, reserved, 44, 4);
+PT_EXPECT_MEMBER(pt_stats, device_count, 44, 4);
 PT_EXPECT_MEMBER(pt_stats, rmse, 48, 8);
 PT_EXPECT_MEMBER(pt_stats, rmse_low, 56, 8);
 PT_EXPECT_MEMBER(pt_stats, rmse_high, 64, 8);

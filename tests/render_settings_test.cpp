@@ -62,6 +62,10 @@ INSTANTIATE_TEST_SUITE_P(
                          "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"},
                     Case{"SamplerUnknown", [](pt_render &r) { r.sampler = 5; },
                          "render.sampler = 5: must be a PT_SAMPLER_* of pt.h"},
+                    Case{"FirstRowBelowTheImage", [](pt_render &r) { r.first_row = 480; },
+                         "render.first_row = 480: must be < height"},
+                    Case{"RowsBelowTheImage", [](pt_render &r) { r.first_row = 479, r.row_count = 2; },
+                         "render.first_row + row_count = 481: must be <= height"},
                     Case{"ReservedUsed", [](pt_render &r) { r.reserved = 1; }, "render.reserved = 1: must be 0"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
@@ -74,11 +78,13 @@ TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {
     EXPECT_EQ(settings.first_sample, 0U);
     EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_MIS});
     EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_SOBOL});
+    EXPECT_EQ(settings.first_row, 0U);
+    EXPECT_EQ(settings.row_count, 480U);
 }
 
 TEST(RenderSettings, TakeWhatIsSet) {
     const pt_render render{sizeof(pt_render), 3, 7, 1, 0x123456789abcdef0U, 4294967295U, PT_ESTIMATOR_UNIFORM,
-                           PT_SAMPLER_HALTON, 0};
+                           PT_SAMPLER_HALTON, 0, 2, 4};
     const pt::RenderSettings settings = pt::validated_render(render);
     EXPECT_EQ(settings.width, 3U);
     EXPECT_EQ(settings.height, 7U);
@@ -87,6 +93,8 @@ TEST(RenderSettings, TakeWhatIsSet) {
     EXPECT_EQ(settings.first_sample, 4294967295U);
     EXPECT_EQ(settings.estimator, uint32_t{PT_ESTIMATOR_UNIFORM});
     EXPECT_EQ(settings.sampler, uint32_t{PT_SAMPLER_HALTON});
+    EXPECT_EQ(settings.first_row, 2U);
+    EXPECT_EQ(settings.row_count, 4U);
 }
 
 TEST(RenderSettings, AcceptExtremes) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <optional>
+#include <vector>
 
 namespace pt::vulkan {
 
@@ -154,6 +156,31 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) {
         state_->device.submit(
             [&](const vk::raii::CommandBuffer &commands) { commands.copyBuffer(handle(), *staging.buffer, copy); });
         std::memcpy(data.data() + first, staging.mapped, length);
+    });
+}
+
+// In one transfer, if the staging buffer holds all pieces.
+void Buffer::download(std::span<const BufferPiece> pieces) {
+    const std::uint64_t staging_bytes = std::min(size(), max_staging_bytes);
+    const bool fit_together =
+        std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0},
+                        [](auto sum, auto &piece) { return sum + piece.data.size(); }) <= staging_bytes;
+    if (state_->allocation.mapped || !fit_together) {
+        for (const BufferPiece &piece : pieces)
+            download(piece.data, piece.offset);
+        return;
+    }
+    std::vector<vk::BufferCopy> copies;
+    std::uint64_t first = 0;
+    for (const BufferPiece &piece : pieces) {
+        copies.push_back({.srcOffset = piece.offset, .dstOffset = first, .size = piece.data.size()});
+        first += piece.data.size();
+    }
+    state_->staged(first, [&](const Allocation &staging, std::uint64_t, std::uint64_t) {
+        state_->device.submit(
+            [&](const vk::raii::CommandBuffer &commands) { commands.copyBuffer(handle(), *staging.buffer, copies); });
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            std::memcpy(pieces[i].data.data(), staging.mapped + copies[i].dstOffset, pieces[i].data.size());
     });
 }
 

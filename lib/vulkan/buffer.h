@@ -17,6 +17,12 @@ enum class BufferUse {
     Streamed          // kernels read it as uniform; the host writes it often, and never waits to do so
 };
 
+// A part of a buffer and where its bytes go.
+struct BufferPiece {
+    std::span<std::byte> data;
+    std::uint64_t offset;
+};
+
 class Buffer {
 public:
     // what names it in error messages. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. The device must outlive the buffer.
@@ -31,6 +37,7 @@ public:
     // All wait for the device, but uploads to a streamed buffer; offsets and sizes are multiples of 4 bytes and lie within the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
+    void download(std::span<const BufferPiece> pieces);
     void clear();
 
 private:

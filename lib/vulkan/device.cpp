@@ -86,7 +86,8 @@ DevicePolicy default_policy(const pt_device_info &info) {
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
-            .scene_in_constants = cpu};
+            .scene_in_constants = cpu,
+            .queue_depth = cpu ? 1U : 2U};
 }
 
 Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device) :
@@ -104,33 +105,42 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
         queue_ = device_.getQueue(family, 0);
         command_pool_ = device_.createCommandPool(
             {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = family});
-        commands_ = std::move(device_.allocateCommandBuffers(
-            {.commandPool = *command_pool_, .level = vk::CommandBufferLevel::ePrimary, .commandBufferCount = 1})[0]);
-        fence_ = device_.createFence({});
+        std::vector<vk::raii::CommandBuffer> commands =
+            device_.allocateCommandBuffers({.commandPool = *command_pool_,
+                                            .level = vk::CommandBufferLevel::ePrimary,
+                                            .commandBufferCount = policy_.queue_depth + 1});
+        for (vk::raii::CommandBuffer &buffer : commands)
+            submissions_.push_back({std::move(buffer), device_.createFence({}), {}, false});
         pipeline_cache_ = device_.createPipelineCache({});
     });
 }
 
 Device::~Device() {
-    if (!pending_ || ended())
+    if (std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); }))
         return;
     // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
     // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
     pipeline_cache_.release();
-    fence_.release();
-    commands_.release();
+    for (Submission &submission : submissions_) {
+        submission.fence.release();
+        submission.commands.release();
+    }
     command_pool_.release();
     device_.release();
     instance_.abandon();
 }
 
-// Whether the last submission has come to an end by now, be it by the loss of the device.
-bool Device::ended() const {
+// Whether a submission has come to an end by now, be it by the loss of the device.
+bool Device::ended(const Submission &submission) const {
     try {
-        return fence_.getStatus() == vk::Result::eSuccess;
+        return !submission.pending || submission.fence.getStatus() == vk::Result::eSuccess;
     } catch (const vk::SystemError &) {
         return true;
     }
+}
+
+bool Device::is_overdue(const Submission &submission) const {
+    return Clock::now() - submission.start > policy_.patience;
 }
 
 void Device::require_alive() const {
@@ -143,45 +153,61 @@ void Device::lose(const std::string &message) {
     throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-double Device::submit(const std::function<void(const vk::raii::CommandBuffer &)> &record) {
+Device::Ticket Device::start(const Record &record) {
     require_alive();
-    translated("recording work", [&] { record_work(record); });
-    const auto start = std::chrono::steady_clock::now();
+    const auto free = std::ranges::find(submissions_, false, &Submission::pending);
+    if (free == submissions_.end())
+        throw Error(PT_ERROR_INTERNAL, "too many submissions under way");
+    translated("recording work", [&] { record_work(free->commands, record); });
+    free->start = Clock::now();
     translated("submitting work", [&] {
-        const vk::CommandBuffer commands = *commands_;
+        const vk::CommandBuffer commands = *free->commands;
         try {
-            queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *fence_);
+            queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
         } catch (const vk::DeviceLostError &error) {
             lose(error.what());
         }
     });
-    pending_ = true;
-    wait(start);
-    pending_ = false;
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    free->pending = true;
+    return static_cast<Ticket>(free - submissions_.begin());
 }
 
-void Device::record_work(const std::function<void(const vk::raii::CommandBuffer &)> &record) {
-    commands_.reset(); // the last recording may have failed half-way
-    commands_.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+bool Device::is_done(Ticket ticket) const {
+    const Submission &submission = submissions_[ticket];
+    return lost() || ended(submission) || is_overdue(submission);
+}
+
+double Device::finish(Ticket ticket) {
+    require_alive();
+    Submission &submission = submissions_[ticket];
+    wait(submission);
+    submission.pending = false;
+    const Clock::time_point begin = std::max(submission.start, last_end_);
+    last_end_ = Clock::now();
+    return std::chrono::duration<double>(last_end_ - begin).count();
+}
+
+void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
+    commands.reset(); // the last recording may have failed half-way
+    commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     // A submission makes visible what the host wrote before it (Vulkan specification, "Host Write Ordering
     // Guarantees"), but not what earlier submissions wrote: their fence makes that available, to nobody in particular.
-    write_barrier(commands_, device_stages, device_accesses);
-    record(commands_);
-    write_barrier(commands_, Stage::eHost, Access::eHostRead | Access::eHostWrite);
-    commands_.end();
+    write_barrier(commands, device_stages, device_accesses);
+    record(commands);
+    write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
+    commands.end();
 }
 
-void Device::wait(std::chrono::steady_clock::time_point start) {
+void Device::wait(const Submission &submission) {
     const std::chrono::nanoseconds step = std::min(wait_step, policy_.patience);
     try {
-        while (device_.waitForFences(*fence_, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
+        while (device_.waitForFences(*submission.fence, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
                vk::Result::eTimeout)
-            if (std::chrono::steady_clock::now() - start > policy_.patience)
+            if (is_overdue(submission))
                 lose("it did not end a submission within " +
                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
                      " ms");
-        device_.resetFences(*fence_);
+        device_.resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
         lose(error.what()); // whatever the error is, nobody knows what became of the work
     }

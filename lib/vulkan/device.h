@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace pt::vulkan {
 
@@ -24,7 +25,8 @@ struct Limits {
 struct DevicePolicy {
     std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
-    bool scene_in_constants; // kernels run faster with the scene's numbers compiled in than read from a buffer
+    bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
+    std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
@@ -47,9 +49,22 @@ public:
     // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, from the moment that the device was lost.
     void require_alive() const;
 
-    // Records commands, submits them, waits, and returns the seconds from submission to completion. What earlier
-    // submissions wrote is visible to the commands, and what they write is visible to the host.
-    double submit(const std::function<void(const vk::raii::CommandBuffer &)> &record);
+    using Record = std::function<void(const vk::raii::CommandBuffer &)>;
+    using Ticket = std::uint32_t;
+
+    // Records commands and submits them. What earlier submissions wrote is visible to the commands, and what they write
+    // is visible to the host after finish(). Submissions run one after the other; as many as queue_depth may be under
+    // way, besides one of submit().
+    Ticket start(const Record &record);
+
+    // Whether finish() would not wait.
+    bool is_done(Ticket ticket) const;
+
+    // Waits and returns the seconds from submission, or from the end of the one before if that was later, to completion.
+    double finish(Ticket ticket);
+
+    // Both at once.
+    double submit(const Record &record) { return finish(start(record)); }
 
     const vk::raii::Device &handle() const { return device_; }
     const vk::raii::PipelineCache &pipeline_cache() const { return pipeline_cache_; }
@@ -58,9 +73,20 @@ public:
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
 
 private:
-    void record_work(const std::function<void(const vk::raii::CommandBuffer &)> &record);
-    void wait(std::chrono::steady_clock::time_point start);
-    bool ended() const;
+    using Clock = std::chrono::steady_clock;
+
+    // Commands that are under way, or may be used again.
+    struct Submission {
+        vk::raii::CommandBuffer commands;
+        vk::raii::Fence fence;
+        Clock::time_point start;
+        bool pending; // its end was not seen
+    };
+
+    void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
+    void wait(const Submission &submission);
+    bool ended(const Submission &submission) const;
+    bool is_overdue(const Submission &submission) const;
     [[noreturn]] void lose(const std::string &message);
 
     Instance &instance_;
@@ -71,12 +97,11 @@ private:
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
     vk::raii::CommandPool command_pool_ = nullptr;
-    vk::raii::CommandBuffer commands_ = nullptr;
-    vk::raii::Fence fence_ = nullptr;
+    std::vector<Submission> submissions_;
+    Clock::time_point last_end_;
     vk::raii::PipelineCache pipeline_cache_ = nullptr;
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_;
-    bool pending_ = false; // the end of a submission was not seen
 };
 
 // Makes what the dispatches before it wrote visible to those after it.

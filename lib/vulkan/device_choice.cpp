@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <ranges>
 
 namespace pt::vulkan {
 
@@ -154,6 +155,43 @@ std::size_t choose_device(std::span<const pt_device_info> devices, const std::st
         throw Error(PT_ERROR_NO_DEVICE,
                     (wanted.empty() ? "no device fits:" : "no device fits \"" + wanted + "\":") + reasons);
     return best;
+}
+
+namespace {
+
+// The items of a list of indices and UUIDs, separated by commas; empty if it is none: names may have commas.
+std::vector<std::string> listed(const std::string &wanted) {
+    std::vector<std::string> items;
+    for (const auto item : std::views::split(wanted, ',')) {
+        const std::string text(item.begin(), item.end());
+        std::string digits = lower_case(text);
+        std::erase(digits, '-');
+        if (!is_index(text) && !is_uuid(digits))
+            return {};
+        items.push_back(text);
+    }
+    return items;
+}
+
+// The best one that fits, and those that are of its kind.
+std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
+    const std::uint32_t kind = devices[choose_device(devices, "")].kind;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (devices[i].suitable && devices[i].kind == kind)
+            chosen.push_back(i);
+    return chosen;
+}
+
+} // namespace
+
+std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices, const std::string &wanted) {
+    if (lower_case(wanted) == "all")
+        return all_of_the_best_kind(devices);
+    std::vector<std::size_t> chosen;
+    for (const std::string &item : listed(wanted))
+        chosen.push_back(choose_device(devices, item));
+    return chosen.empty() ? std::vector{choose_device(devices, wanted)} : chosen;
 }
 
 } // namespace pt::vulkan

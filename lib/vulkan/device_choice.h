@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace pt::vulkan {
 
@@ -16,5 +17,8 @@ pt_device_info describe(const vk::raii::PhysicalDevice &device);
 // Index of the device that pt_create_info.device asks for, "" for the best. Throws PT_ERROR_NO_DEVICE with the reason
 // against each device if none fits.
 std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
+
+// Indices of the devices that pt_create_info.device asks for, one or several, at least one. Throws likewise.
+std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices, const std::string &wanted);
 
 } // namespace pt::vulkan

@@ -53,7 +53,7 @@ enum {
     PT_ERROR_INTERNAL = -10 /* a bug in this library or in the driver */
 };
 
-/* One renderer on one device. */
+/* One renderer, on one device or several. */
 typedef struct pt_context pt_context;
 
 /* ---- Devices ---------------------------------------------------------------------------------------------------- */
@@ -161,10 +161,16 @@ typedef struct pt_render {
     uint32_t estimator;       /* PT_ESTIMATOR_* */
     uint32_t sampler;         /* PT_SAMPLER_* */
     uint32_t reserved;
+    /* The rows [first_row, first_row + row_count) of the image are rendered, and read back as an image of their own: an
+     * image that is too large for a device is rendered piece by piece, with the same bits. row_count 0: all from
+     * first_row on. */
+    uint32_t first_row;
+    uint32_t row_count;
 } pt_render;
 
-/* Called after every submission to the device with the share of this call that is done, in [0, 1], never falling.
- * Return 0 to go on; anything else stops the call within one submission. */
+/* Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
+ * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device at the
+ * most, and with several devices those that complete the samples begun. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
 typedef struct pt_accumulate_info {
@@ -209,11 +215,11 @@ typedef struct pt_stats {
     uint32_t struct_size;
     uint32_t sample_count;     /* whole samples in every pixel */
     uint64_t rejected_samples; /* left out of all pixels: NaN, infinite, negative or too bright */
-    uint64_t device_bytes;     /* memory allocated on the device now */
-    uint64_t submit_count;     /* submissions of pt_accumulate since pt_create */
-    double device_seconds;     /* time spent in them */
+    uint64_t device_bytes;     /* memory allocated on all its devices now */
+    uint64_t submit_count;     /* submissions of pt_accumulate since pt_create, to all devices */
+    double device_seconds;     /* time spent in them, summed over the devices */
     uint32_t features;         /* PT_FEATURE_* */
-    uint32_t reserved;
+    uint32_t device_count;     /* devices that share the samples */
     /* Error of the image, estimated without a reference (shaders/README.md, section 11): the root of the mean of
      * (x - r)^2 over pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01),
      * each with bounds of 95% confidence. Light that no sample has met yet is not in it. With fewer than 16 samples
@@ -255,7 +261,9 @@ typedef struct pt_create_info {
     uint32_t struct_size;
     uint32_t flags; /* PT_CREATE_* */
     /* NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
-     * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case. */
+     * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case.
+     * Several devices share the samples of a context, with the same bits if they are of one kind and driver: "all" are
+     * those of the best kind that there is; or indices or UUIDs separated by commas. */
     const char *device;
     pt_log_fn log; /* may be NULL */
     void *log_user;
@@ -288,7 +296,7 @@ PT_API const char *pt_last_error(const pt_context *context);
 /* Waits for the device and frees everything. NULL is allowed. */
 PT_API void pt_destroy(pt_context *context);
 
-/* What this context runs on. */
+/* What this context runs on; the first of several devices. */
 PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
 
 /* The three setters may be called in any order and again at any time. Each copies what it is given and, on success,

@@ -1,0 +1,86 @@
+// Film, kernel and slices of a device; see render_device.h.
+#include "render_device.h"
+
+#include "error.h"
+#include "gpu_layout.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
+// measured slices size the rest.
+constexpr double assumed_tests_per_second = 2.5e8;
+
+} // namespace
+
+RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
+                           double target_seconds) :
+    device_(instance, physical_device),
+    pipelines_(device_),
+    target_seconds_(target_seconds) {}
+
+// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
+Film RenderDevice::make_film(const RenderSettings &settings) {
+    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * Film::bytes_per_pixel;
+    const std::uint64_t memory_bytes = device_.info().memory_bytes;
+    if (bytes > memory_bytes)
+        throw Error(PT_ERROR_UNSUPPORTED, "render.width * rows = " + std::to_string(settings.width) + " * " +
+                                              std::to_string(settings.row_count) + ": the film takes " +
+                                              std::to_string(bytes) + " bytes, and the device has " +
+                                              std::to_string(memory_bytes) +
+                                              ": render fewer rows at a time (render.first_row, render.row_count)");
+    return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits())};
+}
+
+void RenderDevice::set_film(Film film) {
+    kernel_.reset(); // its descriptor sets name the old film
+    film_ = std::move(film);
+}
+
+void RenderDevice::discard_samples() {
+    if (film_)
+        film_->clear();
+    kernel_.reset();
+    pass_pixels_ = 0;
+}
+
+void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
+    if (kernel_)
+        return;
+    kernel_.emplace(device_, pipelines_, *film_, scene, camera, settings);
+    ScheduleLimits limits{};
+    limits.target_seconds = target_seconds_;
+    limits.first_slice_paths =
+        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
+    limits.max_samples = kernel_->max_samples();
+    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+    schedule_.emplace(film_->pixel_count(), limits);
+}
+
+std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remaining) {
+    const bool in_pass = pass_pixels_ > 0;
+    const Slice slice = schedule_->next(std::max(remaining, 1U), pass_pixels_);
+    const std::uint32_t first_sample = in_pass ? pass_sample_ : next_sample;
+    under_way_.push_back({slice, kernel_->start(slice, first_sample)});
+    if (!slice.whole) {
+        const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
+        pass_pixels_ = slice_end == film_->pixel_count() ? 0 : slice_end;
+        pass_sample_ = first_sample;
+    }
+    return in_pass ? 0 : slice.sample_count;
+}
+
+RenderDevice::Finished RenderDevice::finish() {
+    const Work work = under_way_.front();
+    const double seconds = kernel_->finish(work.ticket);
+    under_way_.pop_front();
+    schedule_->measured(work.slice, seconds);
+    return {work.slice, seconds};
+}
+
+} // namespace pt

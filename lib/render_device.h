@@ -1,0 +1,78 @@
+// One device's share of the rendering: its film, its kernel, and the slices that it has under way. Owned by Renderer, which
+// deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
+#pragma once
+
+#include "camera.h"
+#include "film.h"
+#include "kernel.h"
+#include "render_settings.h"
+#include "scene.h"
+#include "schedule.h"
+#include "trace_pipelines.h"
+#include "vulkan/device.h"
+#include "vulkan/instance.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+namespace pt {
+
+class RenderDevice {
+public:
+    // The instance must outlive it. target_seconds: aim for the time of a slice.
+    RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device, double target_seconds);
+
+    vulkan::Device &device() { return device_; }
+    const vulkan::Device &device() const { return device_; }
+    Film &film() { return *film_; }
+
+    // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
+    Film make_film(const RenderSettings &settings);
+    void set_film(Film film);
+
+    // Empties the film. The kernel has to be prepared anew.
+    void discard_samples();
+
+    // Makes the kernel, unless it is there. After set_film.
+    void prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings);
+    const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
+
+    // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
+    std::uint32_t pass_pixels() const { return pass_pixels_; }
+
+    bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
+    bool is_idle() const { return under_way_.empty(); }
+
+    // Starts a slice: the next of the pass under way, or one of at most remaining samples, of which the first has the index
+    // next_sample. Returns how many samples it has begun: 0 within a pass. has_room() must hold.
+    std::uint32_t start(std::uint32_t next_sample, std::uint32_t remaining);
+
+    // Whether finish() would not wait. Not idle.
+    bool is_done() const { return device_.is_done(under_way_.front().ticket); }
+
+    // Waits for the slice that was started first.
+    struct Finished {
+        Slice slice;
+        double seconds;
+    };
+    Finished finish();
+
+private:
+    struct Work {
+        Slice slice;
+        vulkan::Device::Ticket ticket;
+    };
+
+    vulkan::Device device_;
+    TracePipelines pipelines_;
+    double target_seconds_;
+    std::optional<Film> film_;
+    std::optional<Kernel> kernel_;
+    std::optional<Schedule> schedule_; // of the kernel
+    std::deque<Work> under_way_;
+    std::uint32_t pass_pixels_ = 0;
+    std::uint32_t pass_sample_ = 0; // index of the pass's sample
+};
+
+} // namespace pt
