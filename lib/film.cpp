@@ -138,22 +138,18 @@ void Film::download(std::uint32_t first_pixel, std::uint32_t pixel_count, std::s
 
 namespace {
 
-// Adds the words of the same pixels in another film.
+// Adds the words of the same pixels in another film, plane by plane: a sum's carries go from each word to the next.
 void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> other, std::size_t plane_pixels) {
-    const std::size_t half_words = gpu::FILM_WORDS * plane_pixels;
-    for (std::size_t first = 0; first < words.size(); first += half_words) {
+    std::vector<std::uint32_t> carries(plane_pixels);
+    for (std::size_t plane = 0; plane < Film::words_per_pixel; ++plane) {
+        const std::size_t plane_of_half = plane % gpu::FILM_WORDS;
+        if (plane_of_half >= gpu::FILM_ACCEPTED || plane_of_half % gpu::FILM_SUM_WORDS == 0)
+            std::ranges::fill(carries, 0U);
         for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
-            const auto at = [&](std::size_t plane) { return first + plane * plane_pixels + pixel; };
-            for (std::size_t sum = 0; sum < gpu::FILM_ACCEPTED; sum += gpu::FILM_SUM_WORDS) {
-                std::uint64_t carry = 0;
-                for (std::size_t plane = sum; plane < sum + gpu::FILM_SUM_WORDS; ++plane) {
-                    carry += std::uint64_t{words[at(plane)]} + other[at(plane)];
-                    words[at(plane)] = static_cast<std::uint32_t>(carry);
-                    carry >>= 32;
-                }
-            }
-            words[at(gpu::FILM_ACCEPTED)] += other[at(gpu::FILM_ACCEPTED)];
-            words[at(gpu::FILM_REJECTED)] += other[at(gpu::FILM_REJECTED)];
+            std::uint32_t &word = words[plane * plane_pixels + pixel];
+            const std::uint64_t sum = std::uint64_t{word} + other[plane * plane_pixels + pixel] + carries[pixel];
+            word = static_cast<std::uint32_t>(sum);
+            carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
         }
     }
 }
@@ -162,8 +158,9 @@ void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> ot
 
 void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected,
                 const std::function<void(const PixelEstimates &)> &receive) {
-    // A piece at a time, so that a large image is not held twice.
-    constexpr std::uint32_t piece_pixels = 1U << 17;
+    // A piece at a time, so that a large image is not held twice. Were planes a power of two apart, the words of a pixel
+    // would contend for one set of the processor's cache.
+    constexpr std::uint32_t piece_pixels = 130'000;
     const std::uint32_t pixel_count = films.front()->pixel_count();
     std::vector<std::uint32_t> words;
     std::vector<std::uint32_t> others;

@@ -48,7 +48,8 @@ pt::Scene small_scene() {
 TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
     const pt::Camera camera = camera_at({0, 0, 1});
     const pt::Scene scene = small_scene();
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     EXPECT_EQ(features.sphere_count, 2U);
     EXPECT_EQ(features.plane_count, 1U);
     EXPECT_EQ(features.lamp_count, 1U);
@@ -82,7 +83,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     scene.materials[1].specular = {0, 0, 0};
     scene.spheres[0].motion = {0, 0, 0};
     const pt::Features features =
-        pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+        pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     EXPECT_FALSE(features.gloss);
     EXPECT_FALSE(features.motion);
     EXPECT_EQ(pt::scene_word_count(features), 9U);
@@ -94,7 +95,8 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
     const glm::dvec3 shift{0x1p30, -0x1p30, 0x1p29};
     pt::Scene scene = small_scene();
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto expected = pt::gpu_scene(scene, camera, features);
     for (pt::Sphere &sphere : scene.spheres)
         sphere.center += shift;
@@ -109,7 +111,8 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
     scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     EXPECT_EQ(features.sphere_count, 2U);
     EXPECT_EQ(features.plane_count, 3U);
     EXPECT_EQ(features.lamp_count, 1U);

@@ -47,7 +47,8 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? 1e-30 : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    const pt::Features features = pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
     Probe probe(intersection_spirv, sizeof count, pt::specialization_constants(features));
     probe.set_scene(pt::gpu_scene(scene, camera, features));

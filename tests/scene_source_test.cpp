@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    static constexpr pt::RenderSettings settings{width, height, 4, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL};
+    static constexpr pt::RenderSettings settings{width, height, 4, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height};
 
     pt::Features features_;
     std::vector<glm::vec4> words_;

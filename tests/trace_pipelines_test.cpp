@@ -34,8 +34,10 @@ const Words other_ball = {{0, 0, -5, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 class TracePipelinesTest : public VulkanFixture {
 protected:
     pt::TracePipelines pipelines_with(bool scene_in_constants) {
-        return pt::TracePipelines(device_with(
-            {.patience = std::chrono::hours{1}, .share_memory = true, .scene_in_constants = scene_in_constants}));
+        return pt::TracePipelines(device_with({.patience = std::chrono::hours{1},
+                                               .share_memory = true,
+                                               .scene_in_constants = scene_in_constants,
+                                               .queue_depth = 1}));
     }
 };
 
