@@ -2,9 +2,12 @@
 #include "context_fixture.h"
 #include "coursework_scene.h"
 #include "error_estimate.h"
+#include "probe.h"
+#include "scene_features.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -43,6 +46,100 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_EQ(image_of(std::vector<uint32_t>(64, 1)), at_once);
     EXPECT_EQ(image_of({7, 19, 38}), at_once);
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
+}
+
+// A dispatch gathers so many samples of a half before it adds them to the film, and the table of a sequence's points
+// has room for so many: where the samples of a call reach that, pass it, or pass it by far, they are those of many
+// calls.
+class GatheringTest : public ExactnessTest {
+protected:
+    // How paths are made.
+    struct Paths {
+        uint32_t sampler;
+        uint32_t max_length;
+    };
+
+    Image small_image_of(const Paths &paths, const std::vector<uint32_t> &calls) {
+        CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        pt_render render = render_of(3, 1, paths.max_length);
+        render.sampler = paths.sampler;
+        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        for (const uint32_t samples : calls)
+            accumulate(samples);
+        EXPECT_EQ(stats().rejected_samples, 0U);
+        Image image(std::size_t{3} * 3);
+        readback(image);
+        return image;
+    }
+
+    // Samples of a half that a dispatch can take at most.
+    uint32_t most_of_a_half(const Paths &paths) {
+        CourseworkScene coursework;
+        const pt::Features features =
+            pt::features_of(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
+                            {3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler});
+        const uint32_t row_blocks = pt::point_layout(features).row_blocks();
+        const pt::vulkan::Limits &limits = probe_device().limits();
+        uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,
+                                           limits.loop_trip_budget / pt::loop_trips_per_sample(features));
+        if (row_blocks > 0)
+            most = std::min<uint64_t>(most, limits.max_uniform_range / sizeof(pt::PointBlock) / row_blocks);
+        return static_cast<uint32_t>(most);
+    }
+
+    // So many samples at once, in one submission, against pieces, none of which fills a dispatch.
+    void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
+        const uint64_t submissions = stats().submit_count;
+        const Image at_once = small_image_of(paths, {sample_count});
+        EXPECT_EQ(stats().submit_count, submissions + 1) << sample_count << " samples";
+        std::vector<uint32_t> pieces;
+        for (uint32_t left = sample_count; left > 0; left -= pieces.back())
+            pieces.push_back(std::min(left, 211U));
+        EXPECT_EQ(small_image_of(paths, pieces), at_once) << sample_count << " samples";
+        pieces.back() -= 1;
+        EXPECT_NE(small_image_of(paths, pieces), at_once) << "a missing sample must show";
+    }
+};
+
+TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
+    constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
+    ASSERT_EQ(most_of_a_half(paths), pt::gpu::FILM_MAX_GATHERED);
+    constexpr uint32_t most = 2 * pt::gpu::FILM_MAX_GATHERED;
+    for (const uint32_t sample_count : {most / 2, most / 2 + 1, most, most + 1, most + 2, 2 * most + 3})
+        expect_same_in_pieces(paths, sample_count);
+}
+
+TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
+    constexpr Paths paths{PT_SAMPLER_SOBOL, 3};
+    const uint32_t most = 2 * most_of_a_half(paths);
+    ASSERT_LT(most, 2 * pt::gpu::FILM_MAX_GATHERED);
+    ASSERT_GT(most, 211U);
+    for (const uint32_t sample_count : {most, most + 1, most + 2, 3 * most + 1})
+        expect_same_in_pieces(paths, sample_count);
+}
+
+// A sphere about the camera that emits 160 film units, 2 * 2^6 and half of 2^6: 2^21 times what the second window of an
+// exact sum counts, the most that it may hold of a sample (film.glsl). A dispatch that gathered one sample more than it
+// may would overflow it.
+TEST_F(GatheringTest, OfTheFullestWindowIsExact) {
+    const pt_material material{{0, 0, 0}, {0, 0, 0}, {160, 160, 160}, 0};
+    const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
+    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+    const pt_camera camera = CourseworkScene::camera();
+    const pt_render render = render_of(8, 8, 1);
+    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+    for (const uint32_t sample_count : {2046U, 2047U, 2048U, 5000U}) {
+        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        accumulate(sample_count);
+        Image image(std::size_t{8} * 8 * 3);
+        readback(image);
+        EXPECT_EQ(image, Image(image.size(), 160.0F)) << sample_count << " samples";
+    }
 }
 
 // Submissions of 1 ms split a pass over pixels; of 1 s, they hold many samples.

@@ -1,67 +1,25 @@
 // The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
 // buffer.
 #include "context_fixture.h"
-#include "gpu_scene.h"
+#include "half_render.h"
 #include "invariance_scene.h"
-#include "pathtrace.spv.h"
-#include "probe.h"
-#include "sample_halves.h"
-#include "scene_constants.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <vector>
 
 namespace {
 
 namespace gpu = pt::gpu;
 
-constexpr std::uint32_t width = 16;
-constexpr std::uint32_t height = 12;
-constexpr std::uint32_t sample_count = 16;
+using FilmWords = HalfRender::FilmWords;
 
-using FilmWords = std::vector<std::uint32_t>;
-
-// The kernel over one half of a film, as lib/kernel.cpp runs it.
-class HalfRender {
-public:
-    HalfRender(const pt::Scene &scene, const pt::Camera &camera) :
-        features_(pt::features_of(scene, camera, settings)),
-        words_(pt::gpu_scene(scene, camera, features_)),
-        frame_(pt::frame_constants(camera, settings, pt::film_unit(scene))) {
-        frame_.strip_pixel_count = frame_.pixel_count = width * height;
-        frame_.sample_count = sample_count;
-        EXPECT_LE(words_.size(), gpu::CONSTANT_SCENE_WORDS);
-    }
-
-    const pt::Features &features() const { return features_; }
-    const std::vector<glm::vec4> &words() const { return words_; } // no more than constants take
-
-    FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
-        const auto constants = pt::specialization_constants(features_);
-        Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
-        set_scene_for(probe, source, words);
-        const std::vector<std::uint32_t> indices = pt::SampleHalves(settings.sampler).indices(0, {0, sample_count});
-        probe.set_points(pt::point_table(settings.sampler, settings.seed, indices, pt::point_layout(features_)));
-        return probe.run<std::uint32_t>({}, std::size_t{gpu::FILM_HALVES} * gpu::FILM_WORDS * width * height, frame_,
-                                        width * height);
-    }
-
-private:
-    static constexpr pt::RenderSettings settings{width, height, 4, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height};
-
-    pt::Features features_;
-    std::vector<glm::vec4> words_;
-    gpu::FrameConstants frame_;
-};
-
-HalfRender render_of_scene(const InvarianceScene &scene) {
-    return {pt::validated_scene(scene.scene()), pt::validated_camera(scene.camera)};
-}
+constexpr std::uint32_t width = HalfRender::width;
+constexpr std::uint32_t height = HalfRender::height;
+constexpr std::uint32_t sample_count = HalfRender::sample_count;
 
 // Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
 // scene.
@@ -70,6 +28,7 @@ struct Comparison {
     const FilmWords film;
 
     explicit Comparison(const HalfRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
+        EXPECT_LE(of.words().size(), gpu::CONSTANT_SCENE_WORDS);
         EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * width * height], sample_count);
     }
 
@@ -125,6 +84,39 @@ TEST(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+}
+
+// With two lamps that are alike but for their places, what is selected among their radiances is the same for both.
+TEST(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
+    InvarianceScene scene = scene_with_lamps(2);
+    scene.spheres[2].material = scene.spheres[1].material;
+    const HalfRender render = render_of_scene(scene);
+    EXPECT_EQ(render.features().lamp_count, 2U);
+    EXPECT_EQ(render.words()[render.features().surface_count()], render.words()[render.features().surface_count() + 1]);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+
+    // Negative control: the last bit of the radiance of one of them.
+    std::vector<glm::vec4> words = render.words();
+    float &red = words[render.features().surface_count() + 1].r;
+    red = std::nextafter(red, 0.0F);
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
+}
+
+// Balls and planes of one glossy material that shines: all that the scene says of a surface but its place is the same.
+TEST(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
+    InvarianceScene scene = scene_with_lamps(2);
+    std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
+    std::fill_n(scene.materials[3].specular, 3, 0.37F);
+    std::fill_n(scene.materials[3].emission, 3, 0.7F);
+    for (pt_sphere &sphere : scene.spheres)
+        sphere.material = 3;
+    for (pt_plane &plane : scene.planes)
+        plane.material = 3;
+    const HalfRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().gloss);
+    EXPECT_EQ(render.features().surface_count(), 4U);
+    EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
 // With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.
