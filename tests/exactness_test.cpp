@@ -81,7 +81,7 @@ protected:
         CourseworkScene coursework;
         const pt::Features features =
             pt::features_of(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
-                            {3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler});
+                            {3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1});
         const uint32_t row_blocks = pt::point_layout(features).row_blocks();
         const pt::vulkan::Limits &limits = probe_device().limits();
         uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,
