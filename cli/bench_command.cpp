@@ -14,6 +14,7 @@
 #include "render_settings.h"
 #include "scene_file.h"
 #include "scene_setup.h"
+#include "vector_width.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,6 +132,7 @@ void check_outputs(const BenchOptions &options) {
 
 int run_bench(const BenchOptions &options) {
     const SceneFile file = read_scene_file(options.scene);
+    choose_vector_width(file.surface_count()); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);
     check_outputs(options);
 

@@ -4,6 +4,7 @@
 
 #include "device_text.h"
 #include "exit_code.h"
+#include "vector_width.h"
 
 #include <pt/pt.h>
 
@@ -84,6 +85,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
 } // namespace
 
 int run_devices(bool as_json) {
+    choose_vector_width(0); // the name of llvmpipe tells it
     const std::vector<pt_device_info> devices = list_devices();
     if (as_json) {
         print_json(devices);

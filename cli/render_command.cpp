@@ -14,6 +14,7 @@
 #include "render_settings.h"
 #include "scene_file.h"
 #include "scene_setup.h"
+#include "vector_width.h"
 
 #include <chrono>
 #include <csignal>
@@ -141,6 +142,7 @@ int run_render(const RenderOptions &options) {
     const RenderSettings settings = merge_settings(options, file);
     check_outputs(options, settings);
     catch_interrupts();
+    choose_vector_width(file.surface_count());
 
     ValidationLog log;
     const ExitCode code = render(options, file, settings, log, start);

@@ -4,6 +4,7 @@
 
 #include <pt/pt.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct SceneFile {
     std::optional<std::uint32_t> estimator;
 
     pt_scene scene() const; // points into this object
+    std::size_t surface_count() const { return spheres.size() + planes.size(); }
 
     // The library's lines "materials[1].glossiness = -1: must be >= 0", with the file and the material's name added.
     std::string explain(const std::string &message) const;

@@ -8,6 +8,7 @@
 #include "exit_code.h"
 #include "selftest_report.h"
 #include "selftest_run.h"
+#include "vector_width.h"
 
 #include <iostream>
 
@@ -28,6 +29,7 @@ int run_selftest(const SelftestOptions &options) {
     if (!options.json.empty()) {
         AtomicFile::check_writable(options.json);
     }
+    choose_vector_width(0); // all its scenes are small
     pt_create_info info{};
     info.struct_size = sizeof(pt_create_info);
     info.device = options.device.empty() ? nullptr : options.device.c_str();

@@ -1,0 +1,54 @@
+// Tests of cli/vector_width: which variables are added to which environment.
+#include "vector_width.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using cli::Environment;
+using cli::wide_vectors;
+
+const Environment home{{"HOME", "/home/someone"}, {"LANG", "C"}};
+
+Environment with(Environment environment, const std::string &name, const std::string &value) {
+    environment[name] = value;
+    return environment;
+}
+
+TEST(VectorWidth, IsWideWithACacheOfItsOwn) {
+    EXPECT_EQ(wide_vectors(home, 8), (Environment{{"LP_NATIVE_VECTOR_WIDTH", "512"},
+                                                  {"MESA_SHADER_CACHE_DIR", "/home/someone/.cache/pt/shaders-512"}}));
+}
+
+TEST(VectorWidth, CacheIsWhereTheUserKeepsCaches) {
+    const auto folder = [](const Environment &environment) {
+        return wide_vectors(environment, 8).at("MESA_SHADER_CACHE_DIR");
+    };
+    EXPECT_EQ(folder(with(home, "XDG_CACHE_HOME", "/var/x")), "/var/x/pt/shaders-512");
+    EXPECT_EQ(folder({{"XDG_CACHE_HOME", "/var/x"}}), "/var/x/pt/shaders-512");
+    EXPECT_EQ(folder(with(home, "XDG_CACHE_HOME", "")), "/home/someone/.cache/pt/shaders-512");
+    EXPECT_EQ(folder(with(home, "XDG_CACHE_HOME", "x")), "/home/someone/.cache/pt/shaders-512");
+}
+
+TEST(VectorWidth, IsLeftAloneWithoutAPlaceForACache) {
+    EXPECT_EQ(wide_vectors({}, 8), Environment());
+    EXPECT_EQ(wide_vectors({{"HOME", ""}}, 8), Environment());
+}
+
+TEST(VectorWidth, IsTheUsersChoice) {
+    for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE",
+                             "MESA_GLSL_CACHE_DIR", "MESA_GLSL_CACHE_DISABLE"}) {
+        for (const char *value : {"256", "512", "true", ""}) {
+            EXPECT_EQ(wide_vectors(with(home, name, value), 8), Environment()) << name << '=' << value;
+        }
+    }
+}
+
+// Five words a surface at most, 64 words in constants.
+TEST(VectorWidth, IsLeftAloneForLargeScenes) {
+    EXPECT_EQ(wide_vectors(home, 12).size(), 2);
+    EXPECT_EQ(wide_vectors(home, 13), Environment());
+    EXPECT_EQ(wide_vectors(home, 100'000), Environment());
+}
+
+} // namespace

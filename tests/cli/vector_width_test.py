@@ -1,0 +1,74 @@
+"""Tests of the width of vectors that the program asks of Mesa's llvmpipe, on machines that have wide ones.
+
+Arguments: see command_line.py.
+"""
+
+import json
+import os
+import platform
+import unittest
+
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_blocks
+
+FEATURES = {"avx512f", "avx512bw", "avx512dq", "avx512vl"}
+CHOICES = ("LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
+           "MESA_GLSL_CACHE_DISABLE")
+
+
+def has_wide_vectors():
+    if platform.machine() != "x86_64" or not os.path.exists("/proc/cpuinfo"):
+        return False
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        return any(FEATURES <= set(line.split()) for line in file if line.startswith("flags"))
+
+
+@unittest.skipUnless(has_wide_vectors(), "this processor has no AVX-512")
+class RealDeviceWidth(CommandLineTest):
+    program = PT
+
+    def setUp(self):
+        super().setUp()
+        saved = {name: os.environ.pop(name) for name in CHOICES if name in os.environ}
+        self.addCleanup(os.environ.update, saved)
+        self.expect(0, "devices", "--json", XDG_CACHE_HOME=self.path("cache"))
+        self.device = next((device["uuid"] for device in json.loads(self.output)
+                            if device["name"].startswith("llvmpipe")), None)
+        if self.device is None:
+            self.skipTest("there is no llvmpipe")
+
+    def render(self, name, scene=COURSEWORK, seed=0, **environment):
+        """The device's name, in which llvmpipe tells its width."""
+        self.expect(0, "render", scene, "-o", name, "--size", "64x32", "--spp", "4", "--max-path-length", "6",
+                    "--seed", str(seed), "--device", self.device, XDG_CACHE_HOME=self.path("cache"), **environment)
+        return read_exr_attributes(self.path(name))["pt.device"][1].decode()
+
+    def test_wide_unless_the_user_has_chosen(self):
+        self.assertIn("512 bits", self.render("a.exr"))
+        self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
+        self.assertIn("256 bits", self.render("a.exr", LP_NATIVE_VECTOR_WIDTH=256))
+        self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DIR=self.path("mine")))
+        self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DISABLE="true"))
+
+    def test_not_for_scenes_beyond_constants(self):
+        ball = {"center": [0, 0, -5], "radius": 1, "material": "m"}
+        self.write("s.json", json.dumps({"materials": {"m": {"diffuse": 0.5}}, "spheres": [ball] * 13}))
+        self.assertIn("256 bits", self.render("a.exr", scene="s.json"))
+
+    def test_not_where_no_cache_can_be(self):
+        self.write("file", "")
+        self.expect(0, "devices", "--json", XDG_CACHE_HOME=self.path("file"))
+        self.assertIn("256 bits", self.output)
+
+    def test_the_picture_is_the_same(self):
+        for seed in (1, 2):
+            for width in (256, 512):  # without a cache, which would hold code for the other width
+                name = self.render(f"{width}-{seed}.exr", seed=seed, LP_NATIVE_VECTOR_WIDTH=width,
+                                   MESA_SHADER_CACHE_DISABLE="true")
+                self.assertIn(f"{width} bits", name)
+            self.assertEqual(read_exr_blocks(self.path(f"256-{seed}.exr")),
+                             read_exr_blocks(self.path(f"512-{seed}.exr")))
+        self.assertNotEqual(read_exr_blocks(self.path("512-1.exr")), read_exr_blocks(self.path("512-2.exr")))
+
+
+if __name__ == "__main__":
+    main()
