@@ -1,9 +1,10 @@
-// Owns the writing and reading of images: which formats there are, and the module that encodes and decodes them.
+// Owns the writing and reading of images: which formats there are, and the module that encodes all but PNG and decodes.
 // Called by render_command and bench_command.
 #include "image_file.h"
 
 #include "atomic_file.h"
 #include "exit_code.h"
+#include "png_encoder.h"
 
 #include <algorithm>
 #include <array>
@@ -34,15 +35,7 @@ Function load_function(const std::filesystem::path &path, const char *name) {
 }
 
 const char *module_extension(ImageFormat format) {
-    switch (format) {
-    case ImageFormat::exr:
-        return "exr";
-    case ImageFormat::png:
-        return "png";
-    case ImageFormat::jpeg:
-        break;
-    }
-    return "jpg";
+    return format == ImageFormat::exr ? "exr" : "jpg";
 }
 
 // What became of writing the encoded bytes. The sink runs under the module's C frame, which no exception may cross.
@@ -118,7 +111,7 @@ RadianceImage read_radiance(const std::string &path) {
     return std::move(sink.image);
 }
 
-ImageWriter::ImageWriter() {
+void ImageWriter::load_module() {
     const std::filesystem::path path = module_path();
     if (access(path.c_str(), R_OK) != 0) {
         throw Failure(ExitCode::internal, "the image module is missing: " + path.string());
@@ -152,13 +145,37 @@ void ImageWriter::write_bytes(const std::string &path, std::uint32_t width, std:
 }
 
 void ImageWriter::write(const std::string &path, pt_image_data image, std::span<const pt_image_attribute> attributes) {
+    const ImageFormat format = image_format(path).value();
+    image.attributes = attributes.data();
+    image.attribute_count = attributes.size();
+    if (format == ImageFormat::png) {
+        write_png(path, image);
+    } else {
+        image.extension = module_extension(format);
+        write_by_module(path, image);
+    }
+}
+
+void ImageWriter::write_png(const std::string &path, const pt_image_data &image) {
+    AtomicFile file(path);
+    std::vector<std::byte> bytes;
+    try {
+        bytes = encode_png(image);
+    } catch (const std::runtime_error &error) {
+        throw Failure(ExitCode::file, "cannot write " + path + ": " + error.what());
+    }
+    file.write(bytes);
+    file.commit();
+}
+
+void ImageWriter::write_by_module(const std::string &path, const pt_image_data &image) {
+    if (!encode_.valid()) {
+        load_module();
+    }
     const pt_encode_image_fn encode = encode_.get();
     AtomicFile file(path);
     Sink sink{file, nullptr};
     std::array<char, 512> message{};
-    image.extension = module_extension(image_format(path).value());
-    image.attributes = attributes.data();
-    image.attribute_count = attributes.size();
     if (encode(&image, &Sink::receive, &sink, message.data(), message.size()) != 0) {
         throw Failure(ExitCode::file, "cannot write " + path + ": " + message.data());
     }

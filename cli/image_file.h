@@ -1,4 +1,4 @@
-// Owns the writing and reading of images: which formats there are, and the module that encodes and decodes them.
+// Owns the writing and reading of images: which formats there are, and the module that encodes all but PNG and decodes.
 // Called by render_command and bench_command.
 #pragma once
 
@@ -36,17 +36,22 @@ struct RadianceImage {
 // Throws Failure: ExitCode::file if it cannot be read or has other channels, ExitCode::internal without the module.
 RadianceImage read_radiance(const std::string &path);
 
-// Encodes and writes images. The module is loaded in the background from construction on.
+// Encodes and writes images: PNG itself, all others by the module.
 class ImageWriter {
 public:
-    // Throws Failure(ExitCode::internal) at once if the module is not there.
-    ImageWriter();
+    // In the background, so that it is there when the first image is to be written; otherwise it is loaded then. Throws
+    // Failure(ExitCode::internal) at once if the module is not there.
+    void load_module();
 
     // The module turned out to be unusable: a long rendering may as well stop.
     bool failed() const { return failed_; }
 
-    // Until the module is loaded. Throws Failure(ExitCode::internal) if it cannot be.
-    void wait() const { encode_.get(); }
+    // Until the module is loaded, if it was to be. Throws Failure(ExitCode::internal) if it cannot be.
+    void wait() const {
+        if (encode_.valid()) {
+            encode_.get();
+        }
+    }
 
     // Both throw Failure(ExitCode::file) and leave an existing file as it was. Three components to a pixel.
     void write_radiance(const std::string &path, std::uint32_t width, std::uint32_t height,
@@ -56,6 +61,8 @@ public:
 
 private:
     void write(const std::string &path, pt_image_data image, std::span<const pt_image_attribute> attributes);
+    void write_png(const std::string &path, const pt_image_data &image);
+    void write_by_module(const std::string &path, const pt_image_data &image);
 
     std::atomic<bool> failed_ = false;
     std::shared_future<pt_encode_image_fn> encode_; // destroyed first: the thread uses failed_

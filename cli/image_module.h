@@ -1,6 +1,6 @@
 // Owns the interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261
-// shared objects and 0.2 s are paid only when an image is written or read. Called by image_file.cpp, implemented by
-// image_module.cpp. Plain C types, no exceptions across it.
+// shared objects and 0.2 s are paid only when an image is read, or written in another format than PNG. Called by
+// image_file.cpp, implemented by image_module.cpp. Plain C types, no exceptions across it.
 #pragma once
 
 #include <stddef.h>
@@ -17,7 +17,7 @@ struct pt_image_attribute {
 };
 
 struct pt_image_data {
-    const char *extension; // "exr", "png" or "jpg"
+    const char *extension; // "exr" or "jpg"
     uint32_t width;
     uint32_t height;
     const float *radiance; // R, G, B triples for "exr", else NULL

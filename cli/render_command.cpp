@@ -112,6 +112,9 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
 
     // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
     ImageWriter writer;
+    if (needs_module(options)) {
+        writer.load_module();
+    }
     const Clock::time_point accumulate_start = Clock::now();
     take_samples_with_progress(context, options, settings, writer);
     report.accumulate_seconds = seconds_since(accumulate_start);

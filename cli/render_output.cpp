@@ -75,6 +75,11 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
     return written;
 }
 
+bool needs_module(const RenderOptions &options) {
+    const auto is_png = [](const std::string &path) { return image_format(path) == ImageFormat::png; };
+    return !options.standard_error.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_png);
+}
+
 std::size_t output_count(const RenderOptions &options) {
     return options.outputs.size() + (options.standard_error.empty() ? 0 : 1);
 }

@@ -25,6 +25,9 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
                                       std::span<const float> radiance, std::span<const float> standard_error);
 
+// Whether any output is in a format that the image module encodes.
+bool needs_module(const RenderOptions &options);
+
 std::size_t output_count(const RenderOptions &options);
 
 void write_stats(const std::string &path, const RenderReport &report);

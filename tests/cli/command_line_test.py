@@ -70,6 +70,19 @@ class Start(CommandLineTest):
         self.assertTrue(needs_openimageio(module))
         self.assertFalse(needs_openimageio(PT))
 
+    def test_image_libraries_are_loaded_for_other_formats_than_png(self):
+        def loads_the_module(name):
+            self.expect(0, "render", COURSEWORK, "-o", name, "--spp", "1", "--size", "2x2", LD_DEBUG="files",
+                        LD_DEBUG_OUTPUT=self.path("loaded"))
+            log, = glob.glob(self.path("loaded.*"))
+            with open(log, encoding="utf-8", errors="replace") as file:
+                found = "libpt-image-file.so" in file.read()
+            os.remove(log)
+            return found
+
+        self.assertFalse(loads_the_module("a.png"))
+        self.assertTrue(loads_the_module("a.exr"))
+
 
 class SceneErrors(CommandLineTest):
     def test_scene_files(self):

@@ -7,8 +7,10 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <random>
 
 namespace {
 
@@ -100,6 +102,25 @@ TEST(ImageFile, PngKeepsEveryByte) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes{0, 1, 2, 127, 128, 129, 253, 254, 255};
     ImageWriter().write_bytes(folder.file("a.png"), 3, 1, bytes, attributes);
+    EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
+}
+
+TEST(ImageFile, PngHasMetadata) {
+    const TemporaryFolder folder;
+    ImageWriter().write_bytes(folder.file("a.png"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    const auto input = OIIO::ImageInput::open(folder.file("a.png"));
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->spec().nchannels, 3);
+    EXPECT_EQ(input->spec().get_string_attribute("pt.seed"), "18446744073709551615");
+}
+
+// Several megabytes of noise, which is not compressed: libpng hands it over in many parts.
+TEST(ImageFile, PngKeepsALargePicture) {
+    const TemporaryFolder folder;
+    std::vector<std::uint8_t> bytes(std::size_t{1000} * 700 * 3);
+    std::minstd_rand random(1);
+    std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() >> 16); });
+    ImageWriter().write_bytes(folder.file("a.png"), 1000, 700, bytes, attributes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
