@@ -1,0 +1,284 @@
+"""Renders the coursework scene with Mitsuba 3 and with pt in turn, and compares their speeds and errors.
+
+    python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
+    DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/peer_mitsuba.py --pt build/bin/pt --json peer.json
+
+Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library (Debian: libllvm19; with libllvm15 Mitsuba 3.9.1 ends
+with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU. The scene is the same: planes are
+rectangles of half size 300, pt's material is phong_bsdf.py, the path integrator has no roulette, and the means of both
+programs' images are checked against the references, which Mitsuba made too.
+
+A sample is one camera ray. A path is one way from the camera to its last vertex: a sample of Mitsuba's is one path; in
+pt, beyond path length 2, the first vertex of a sample is left by 4. Both rates are given.
+
+Measured in rounds, each of both programs, medians over them. The cost is in CPU seconds of all threads (on a GPU in wall
+seconds) of rendering alone, without start-up, compilation and files, at several sample counts. relMSE is the mean over
+pixels and channels of (x - r)^2 / (r^2 + 0.01) against the reference r. The cost of an error lies on the line between two
+sample counts, both axes logarithmic; "~" marks those beyond the counts measured, found with the slope -1.
+"""
+
+import argparse
+import json
+import math
+import os
+import resource
+import statistics
+import subprocess
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+HALF_SIZE = 300  # of the rectangles that stand for planes
+PATH_LENGTHS = {
+    2: {"pt": [1, 4, 16, 64, 256], "mitsuba": [16, 64, 256, 1024], "errors": [1e-2, 1e-3, 1e-4]},
+    6: {"pt": [4, 16, 64, 256], "mitsuba": [16, 64, 256, 400], "errors": [5e-3]},
+}
+PT_SAMPLERS = {"multijitter": "sobol", "independent": "random"}  # what stands beside which sampler of Mitsuba's
+BRANCHES = {2: 1, 6: 4}  # paths of pt's from the first vertex of a sample
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--pt", default="build/bin/pt", help="the program (default: build/bin/pt)")
+    parser.add_argument("--device", help="pt's device, as for pt bench")
+    parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--lengths", type=int, nargs="+", choices=PATH_LENGTHS, default=list(PATH_LENGTHS))
+    parser.add_argument("--samplers", nargs="+", choices=PT_SAMPLERS, default=list(PT_SAMPLERS), help="of Mitsuba")
+    parser.add_argument("--json", metavar="FILE", help="write all figures")
+    return parser.parse_args()
+
+
+def rgb(value):
+    return {"type": "rgb", "value": value if isinstance(value, list) else [value] * 3}
+
+
+class Mitsuba:
+    """The scene of a scene file in Mitsuba, and renderings of it."""
+
+    def __init__(self, variant, scene):
+        import mitsuba
+        mitsuba.set_variant(variant)
+        import drjit
+        import numpy
+        import phong_bsdf
+        phong_bsdf.register()
+        self.mi, self.dr, self.np = mitsuba, drjit, numpy
+        self.on_gpu = variant.startswith("cuda")
+        self.scene = mitsuba.load_dict(self.describe(scene))
+        self.sensors = {sampler: mitsuba.load_dict(self.sensor(scene, sampler)) for sampler in PT_SAMPLERS}
+        self.integrators = {length: mitsuba.load_dict({"type": "path", "max_depth": length, "rr_depth": 1000})
+                            for length in PATH_LENGTHS}
+
+    def describe(self, scene):
+        shapes = {}
+        for i, sphere in enumerate(scene["spheres"]):
+            material = scene["materials"][sphere["material"]]
+            shapes[f"sphere{i}"] = {"type": "sphere", "center": sphere["center"], "radius": sphere["radius"],
+                                    "bsdf": self.bsdf(material), **self.emitter(material)}
+        for i, plane in enumerate(scene["planes"]):
+            shapes[f"plane{i}"] = {"type": "rectangle", "to_world": self.frame(plane),
+                                   "bsdf": self.bsdf(scene["materials"][plane["material"]])}
+        return {"type": "scene", **shapes}
+
+    @staticmethod
+    def bsdf(material):
+        diffuse, specular = rgb(material.get("diffuse", 0)), rgb(material.get("specular", 0))
+        if "specular" not in material:
+            return {"type": "diffuse", "reflectance": diffuse}
+        return {"type": "pt_phong", "diffuse": diffuse, "specular": specular, "glossiness": material["glossiness"]}
+
+    @staticmethod
+    def emitter(material):
+        if "emission" not in material:
+            return {}
+        return {"emitter": {"type": "area", "radiance": rgb(material["emission"])}}
+
+    def frame(self, plane):
+        """normal . x + offset = 0; the rectangle's centre is the point nearest to the origin."""
+        normal = plane["normal"]
+        centre = [-plane["offset"] * n for n in normal]
+        up = [0, 0, 1] if abs(normal[2]) < 0.9 else [0, 1, 0]
+        transform = self.mi.ScalarTransform4f
+        return transform().look_at(origin=centre, target=[c + n for c, n in zip(centre, normal)],
+                                   up=up) @ transform().scale(HALF_SIZE)
+
+    def sensor(self, scene, sampler):
+        camera, film = scene["camera"], scene["film"]
+        return {"type": "perspective", "fov_axis": "y", "fov": camera["vertical_fov"],
+                "to_world": self.mi.ScalarTransform4f().look_at(origin=camera["position"], target=camera["look_at"],
+                                                                 up=camera["up"]),
+                "sampler": {"type": sampler},
+                "film": {"type": "hdrfilm", "width": film["width"], "height": film["height"], "pixel_format": "rgb",
+                         "component_format": "float32", "rfilter": {"type": "box"}}}
+
+    def cost(self):
+        if self.on_gpu:
+            return time.perf_counter()
+        usage = resource.getrusage(resource.RUSAGE_SELF)
+        return usage.ru_utime + usage.ru_stime
+
+    def render(self, length, sampler, spp, seed):
+        """The cost and the image."""
+        start = self.cost()
+        image = self.np.array(self.mi.render(self.scene, sensor=self.sensors[sampler],
+                                             integrator=self.integrators[length], seed=seed, spp=spp))
+        return self.cost() - start, image
+
+    def read(self, path):
+        return self.np.array(self.mi.Bitmap(path))[:, :, :3]
+
+
+def run_pt(options, scene, reference, length, round_number):
+    """One round: sampler -> sample count -> (cost, relMSE)."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "bench.json")
+        samplers = [PT_SAMPLERS[sampler] for sampler in options.samplers]
+        command = [options.pt, "bench", scene, "--reference", reference, "--max-path-length", str(length),
+                   "--samplers", ",".join(samplers), "--spp", ",".join(map(str, PATH_LENGTHS[length]["pt"])),
+                   "--rounds", "1", "--seed", str(1000 * round_number), "--json", path, "--quiet"]
+        subprocess.run(command + (["--device", options.device] if options.device else []), check=True)
+        with open(path, encoding="utf-8") as file:
+            bench = json.load(file)
+    unit = "seconds" if options.variant.startswith("cuda") else "processor_seconds"
+    points = {sampler: {} for sampler in samplers}
+    for cell in bench["cells"]:
+        points[cell["sampler"]][cell["spp"]] = (cell[unit], cell["rel_mse"])
+    return points, bench["device"]["name"]
+
+
+def pt_mean(options, scene, mitsuba, length):
+    """The mean of an image of pt's, like those of Mitsuba."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "image.exr")
+        command = [options.pt, "render", scene, "--max-path-length", str(length), "--spp", "256", "-o", path, "--quiet"]
+        subprocess.run(command + (["--device", options.device] if options.device else []), check=True)
+        return mitsuba.read(path).mean((0, 1))
+
+
+def run_mitsuba(options, mitsuba, reference, length, seed):
+    """One round, like run_pt, and the mean of the images with most samples."""
+    points, means = {}, []
+    for sampler in options.samplers:
+        points[sampler] = {}
+        for spp in PATH_LENGTHS[length]["mitsuba"]:
+            cost, image = mitsuba.render(length, sampler, spp, seed)
+            points[sampler][spp] = (cost, float(((image - reference) ** 2 / (reference ** 2 + 0.01)).mean()))
+        means.append(image.mean((0, 1)))
+    return points, sum(means) / len(means)
+
+
+def check_means(name, mean, reference):
+    expected = reference.mean((0, 1))
+    deviation = float(abs(mean / expected - 1).max())
+    print(f"mean of {name}: {', '.join(f'{x:.4f}' for x in mean)}; of the reference: "
+          f"{', '.join(f'{x:.4f}' for x in expected)}")
+    if deviation > 0.005:
+        raise SystemExit(f"{name} does not show the scene of the reference: the mean differs by {deviation:.2%}")
+
+
+def medians(rounds):
+    """Rounds of sampler -> spp -> (cost, relMSE) -> the same with medians."""
+    return {sampler: {spp: tuple(statistics.median(one[sampler][spp][i] for one in rounds) for i in (0, 1))
+                      for spp in rounds[0][sampler]} for sampler in rounds[0]}
+
+
+def rate(points, pixel_count):
+    """Samples a second, from the difference of the largest and the smallest count: constant costs fall out."""
+    low, high = min(points), max(points)
+    return (high - low) * pixel_count / (points[high][0] - points[low][0])
+
+
+def cost_of_error(points, error):
+    """The cost at which relMSE has fallen to this, and whether it lies within the counts measured."""
+    line = [(math.log(cost), math.log(rel_mse)) for cost, rel_mse in (points[spp] for spp in sorted(points))]
+    wanted = math.log(error)
+    for (cost, value), (next_cost, next_value) in zip(line, line[1:]):
+        if value >= wanted >= next_value:
+            return math.exp(cost + (next_cost - cost) * (value - wanted) / (value - next_value)), True
+    cost, value = line[0] if wanted > line[0][1] else line[-1]
+    return math.exp(cost + value - wanted), False
+
+
+def summary(points, length, pixel_count, branches):
+    """What the table and the JSON say of one program and sampler."""
+    samples = rate(points, pixel_count)
+    return {"samples_per_second": samples, "paths_per_second": branches * samples,
+            "points": [{"spp": spp, "seconds": points[spp][0], "rel_mse": points[spp][1]} for spp in sorted(points)],
+            "cost_of_error": {f"{error:g}": cost_of_error(points, error) for error in PATH_LENGTHS[length]["errors"]}}
+
+
+def measure(options, mitsuba, scene_path, scene, length):
+    reference_path = os.path.join(ROOT, f"tests/reference/coursework_L{length}.exr")
+    reference = mitsuba.read(reference_path)
+    run_mitsuba(options, mitsuba, reference, length, 1)  # compiles
+    pt_rounds, mitsuba_rounds, means = [], [], []
+    for number in range(options.rounds):
+        points, device = run_pt(options, scene_path, reference_path, length, number)
+        pt_rounds.append(points)
+        points, mean = run_mitsuba(options, mitsuba, reference, length, 2 + number)
+        mitsuba_rounds.append(points)
+        means.append(mean)
+    check_means("Mitsuba", sum(means) / len(means), reference)
+    check_means("pt", pt_mean(options, scene_path, mitsuba, length), reference)
+    pixel_count = scene["film"]["width"] * scene["film"]["height"]
+    ours = {sampler: summary(points, length, pixel_count, BRANCHES[length])
+            for sampler, points in medians(pt_rounds).items()}
+    theirs = {sampler: summary(points, length, pixel_count, 1) for sampler, points in medians(mitsuba_rounds).items()}
+    return {"device": device, "pt": ours, "mitsuba": theirs,
+            "ratios": {sampler: ratios(ours[PT_SAMPLERS[sampler]], theirs[sampler]) for sampler in theirs}}
+
+
+def ratios(ours, theirs):
+    """How many times as fast pt is."""
+    return {**{rate: ours[rate] / theirs[rate] for rate in ("samples_per_second", "paths_per_second")},
+            "cost_of_error": {error: theirs["cost_of_error"][error][0] / ours["cost_of_error"][error][0]
+                              for error in ours["cost_of_error"]}}
+
+
+def row(program, sampler, figures):
+    costs = [("" if within else "~") + f"{cost:.3g}" for cost, within in figures["cost_of_error"].values()]
+    errors = " ".join(f"{point['spp']}: {point['rel_mse']:.2g}" for point in figures["points"])
+    return [program, sampler, f"{figures['samples_per_second'] / 1e6:.3g}", f"{figures['paths_per_second'] / 1e6:.3g}",
+            *costs, errors]
+
+
+def ratio_row(ratio):
+    return ["ratio", "", *(f"{value:.3g}" for value in (ratio["samples_per_second"], ratio["paths_per_second"],
+                                                       *ratio["cost_of_error"].values())), ""]
+
+
+def print_table(length, result):
+    rows = [["program", "sampler", "M samples/s", "M paths/s",
+             *(f"s to {error:g}" for error in PATH_LENGTHS[length]["errors"]), "relMSE at samples per pixel"]]
+    for sampler, theirs in result["mitsuba"].items():
+        ours = result["pt"][PT_SAMPLERS[sampler]]
+        rows += [row("pt", PT_SAMPLERS[sampler], ours), row("Mitsuba", sampler, theirs),
+                 ratio_row(result["ratios"][sampler])]
+    print(f"\nPath length {length}, pt on {result['device']}")
+    widths = [max(len(cells[i]) for cells in rows) for i in range(len(rows[0]))]
+    for cells in rows:
+        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |")
+        if cells is rows[0]:
+            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+
+
+def main():
+    options = parse_arguments()
+    scene_path = os.path.join(ROOT, "cli/scenes/coursework.json")
+    with open(scene_path, encoding="utf-8") as file:
+        scene = json.load(file)
+    mitsuba = Mitsuba(options.variant, scene)
+    report = {"mitsuba": mitsuba.mi.__version__, "variant": options.variant, "rounds": options.rounds,
+              "unit": "wall seconds" if mitsuba.on_gpu else "CPU seconds", "lengths": {}}
+    for length in options.lengths:
+        report["lengths"][length] = measure(options, mitsuba, scene_path, scene, length)
+        print_table(length, report["lengths"][length])
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(report, file, indent=2)
+            file.write("\n")
+
+
+if __name__ == "__main__":
+    main()
