@@ -36,7 +36,8 @@ CLI::Option *add_seed(CLI::App &command, std::optional<std::uint64_t> &seed) {
 CLI::Option *add_device(CLI::App &command, std::string &device) {
     return command
         .add_option("--device", device,
-                    "Index or UUID from `pt devices`, part of a name, gpu or cpu (default: the best one)")
+                    "Index or UUID from `pt devices`, or several (0,1), part of a name, gpu, cpu or all (default: the "
+                    "best one)")
         ->type_name("D");
 }
 

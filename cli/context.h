@@ -43,16 +43,22 @@ public:
         return stats;
     }
 
-    // Three components to a pixel. quantity: PT_QUANTITY_*.
-    std::vector<float> read_image(const pt_render &render, std::uint32_t quantity = PT_QUANTITY_RADIANCE) const {
+    // Three components to a pixel.
+    std::vector<float> read_image(const pt_render &render) const {
         std::vector<float> values(std::size_t{3} * render.width * render.height);
+        read_image(render, PT_QUANTITY_RADIANCE, values.data());
+        return values;
+    }
+
+    // The rows that the settings ask for. quantity: PT_QUANTITY_*.
+    void read_image(const pt_render &render, std::uint32_t quantity, float *values) const {
         pt_image image{};
         image.struct_size = sizeof(pt_image);
         image.quantity = quantity;
-        image.data = values.data();
-        image.size_bytes = values.size() * sizeof(float);
+        image.data = values;
+        const std::uint32_t rows = render.row_count == 0 ? render.height - render.first_row : render.row_count;
+        image.size_bytes = std::uint64_t{3} * render.width * rows * sizeof(float);
         require(pt_readback(context_, &image));
-        return values;
     }
 
 private:

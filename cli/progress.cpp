@@ -58,8 +58,11 @@ void Progress::update(double fraction, Clock::time_point now) {
     update_samples(fraction * static_cast<double>(sample_count_), now);
 }
 
-void Progress::update_samples(double sample_count, Clock::time_point now) {
-    fraction_ = std::max(fraction_, sample_count / static_cast<double>(sample_count_));
+void Progress::update_samples(double samples_of_part, Clock::time_point now) {
+    const double share = samples_of_part / static_cast<double>(sample_count_);
+    const double whole_share = part_begin_ + (part_end_ - part_begin_) * share;
+    const double sample_count = whole_share * static_cast<double>(sample_count_);
+    fraction_ = std::max(fraction_, whole_share);
     if (style_ == ProgressStyle::none || sample_count <= 0.0 || (now < next_update_ && fraction_ < 1.0)) {
         return;
     }

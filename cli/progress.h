@@ -25,6 +25,12 @@ public:
     // The share that is done, in [0, 1]. Prints at most ten times a second, and at the end.
     void update(double fraction, Clock::time_point now);
 
+    // What is told from now on is the share of a part of the work, from begin to end of the whole, in [0, 1].
+    void enter_part(double begin, double end) {
+        part_begin_ = begin;
+        part_end_ = end;
+    }
+
     // The same by the samples that are done. The share that is told never falls, whatever is expected in between.
     void update_samples(double sample_count, Clock::time_point now);
 
@@ -39,7 +45,9 @@ private:
     ProgressStyle style_;
     double pixel_count_;
     std::uint64_t sample_count_;
-    double fraction_ = 0.0; // the largest told
+    double part_begin_ = 0.0;
+    double part_end_ = 1.0;
+    double fraction_ = 0.0; // of the whole, the largest told
     Clock::time_point start_;
     Clock::time_point next_update_;
 };

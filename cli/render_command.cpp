@@ -3,14 +3,15 @@
 #include "render_command.h"
 
 #include "context.h"
+#include "device_text.h"
 #include "exit_code.h"
 #include "image_file.h"
 #include "interrupt.h"
 #include "message.h"
+#include "piecewise_render.h"
 #include "progress.h"
 #include "render_output.h"
 #include "render_report.h"
-#include "render_samples.h"
 #include "render_settings.h"
 #include "scene_file.h"
 #include "scene_setup.h"
@@ -55,12 +56,21 @@ pt_create_info create_info(const RenderOptions &options, ValidationLog &log) {
     return info;
 }
 
-void take_samples_with_progress(const Context &context, const RenderOptions &options, const RenderSettings &settings,
-                                const ImageWriter &writer) {
+PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options,
+                                    const RenderSettings &settings, std::uint32_t rows, const ImageWriter &writer) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
     Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
                       pixel_count, settings.sample_count, Clock::now());
-    take_samples(context, settings, writer, progress);
+    return render_pieces(context, settings, rows, !options.standard_error.empty(), writer, progress);
+}
+
+// What an image in pieces takes of memory, before it is rendered.
+void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
+    const std::uint64_t values = std::uint64_t{3} * render.width * render.height;
+    const std::uint64_t host_bytes = values * sizeof(float) * (options.standard_error.empty() ? 1 : 2);
+    print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
+                  " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
+                  memory_text(host_bytes) + " for the image");
 }
 
 void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
@@ -89,10 +99,15 @@ ExitCode write_outputs(ImageWriter &writer, const RenderOptions &options, Render
     return written.size() == output_count(options) ? ExitCode::done : ExitCode::file;
 }
 
-void print_interruption(std::uint32_t done, std::uint32_t wanted) {
+void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
     const std::string signal = interrupt_signal() == SIGINT ? "SIGINT" : "SIGTERM";
-    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " + std::to_string(wanted) +
-                  " samples per pixel" + (done == 0 ? "; nothing was written" : ""));
+    const bool whole = rows_done == settings.render.height;
+    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
+    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " +
+                  std::to_string(settings.sample_count) + " samples per pixel" +
+                  (done == 0 ? "; nothing was written"
+                   : whole   ? ""
+                             : " in " + rows + "; the others are black"));
 }
 
 ExitCode render(const RenderOptions &options, const SceneFile &file, const RenderSettings &settings, ValidationLog &log,
@@ -107,7 +122,11 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
     const pt_create_info info = create_info(options, log);
     const Context context(info);
     context.require(pt_get_context_device(context.get(), &report.device));
-    describe(context, file, settings);
+    describe_scene(context, file);
+    const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
+    if (rows < settings.render.height && !options.quiet) {
+        print_pieces(context, options, settings.render, rows);
+    }
     report.create_seconds = seconds_since(create_start);
 
     // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
@@ -116,24 +135,19 @@ ExitCode render(const RenderOptions &options, const SceneFile &file, const Rende
         writer.load_module();
     }
     const Clock::time_point accumulate_start = Clock::now();
-    take_samples_with_progress(context, options, settings, writer);
+    const PiecewiseImage image = render_with_progress(context, options, settings, rows, writer);
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(start);
 
-    report.stats = context.read_stats();
+    report.stats = image.stats;
     if (interrupt_signal() != 0) {
-        print_interruption(report.stats.sample_count, settings.sample_count);
+        print_interruption(settings, report.stats.sample_count, image.rows_done);
         if (report.stats.sample_count == 0) {
             return ExitCode::done; // as far as this function is concerned
         }
     }
     writer.wait();
-    const std::vector<float> radiance = context.read_image(settings.render);
-    std::vector<float> standard_error;
-    if (!options.standard_error.empty()) {
-        standard_error = context.read_image(settings.render, PT_QUANTITY_STANDARD_ERROR);
-    }
-    return write_outputs(writer, options, report, radiance, standard_error, start);
+    return write_outputs(writer, options, report, image.radiance, image.standard_error, start);
 }
 
 } // namespace

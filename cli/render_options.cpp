@@ -79,6 +79,11 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
     add_whole_number<std::uint32_t>(command, "--submit-ms", options.submit_milliseconds, 1,
                                     "Aim for the length of one submission to the device (default: 50)")
         ->group(group);
+    add_whole_number<std::uint32_t>(
+        command, "--piece-rows", options.piece_rows, 1,
+        "Render the image in pieces of so many rows, for less memory on the device (default: "
+        "the whole, or what its memory holds)")
+        ->group(group);
     command
         .add_flag("--validation", options.validation,
                   "Run with the Khronos validation layer; any message of it makes the exit code 1")

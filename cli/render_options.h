@@ -34,6 +34,7 @@ struct RenderOptions {
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default
+    std::uint32_t piece_rows = 0;          // 0: as many as the device has memory for
     bool validation = false;
 
     std::string progress = "auto";

@@ -15,6 +15,8 @@ void require_scene(const Context &context, const SceneFile &file, pt_result resu
     }
 }
 
+} // namespace
+
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
     if (result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_UNSUPPORTED) {
         const std::string message = context.last_error();
@@ -24,12 +26,14 @@ void require_render(const Context &context, const SceneFile &file, const RenderS
     context.require(result);
 }
 
-} // namespace
-
-void describe(const Context &context, const SceneFile &file, const RenderSettings &settings) {
+void describe_scene(const Context &context, const SceneFile &file) {
     const pt_scene scene = file.scene();
     require_scene(context, file, pt_set_scene(context.get(), &scene));
     require_scene(context, file, pt_set_camera(context.get(), &file.camera));
+}
+
+void describe(const Context &context, const SceneFile &file, const RenderSettings &settings) {
+    describe_scene(context, file);
     require_render(context, file, settings, pt_set_render(context.get(), &settings.render));
 }
 

@@ -8,7 +8,11 @@
 
 namespace cli {
 
-// Throws Failure: a rule that the scene file breaks is explained in the file's words.
+// All throw Failure: a rule that the scene file breaks is explained in the file's words.
+void describe_scene(const Context &context, const SceneFile &file); // and camera
+void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
+
+// Scene, camera and render settings.
 void describe(const Context &context, const SceneFile &file, const RenderSettings &settings);
 
 } // namespace cli

@@ -65,6 +65,10 @@ double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
+std::uint32_t rows_of(const pt_render &render) {
+    return render.row_count == 0 ? render.height - render.first_row : render.row_count;
+}
+
 } // namespace
 
 std::uint32_t pt_version() {
@@ -128,6 +132,11 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->render = *render;
     context->sample_count = 0;
     context->call_count = 0;
+    const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // more do not fit into the device
+    if (!max_rows.empty() && rows_of(*render) > std::stoul(max_rows)) {
+        context->error = "render.width * rows: more than the device has";
+        return PT_ERROR_UNSUPPORTED;
+    }
     return call(context, "set_render");
 }
 
@@ -162,7 +171,7 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
     float *value = image->data;
-    for (std::uint32_t y = 0; y < render.height; ++y) {
+    for (std::uint32_t y = render.first_row; y < render.first_row + rows_of(render); ++y) {
         for (std::uint32_t x = 0; x < render.width; ++x) {
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
             *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);

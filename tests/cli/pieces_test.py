@@ -1,0 +1,84 @@
+"""Tests of images that are rendered in pieces of rows, and of samples shared by several devices.
+
+Arguments: see command_line.py.
+"""
+
+import json
+import signal
+
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_png
+
+SIZE = ("--size", "40x33")
+
+
+class Pieces(CommandLineTest):
+    def pixels(self, *options, **environment):
+        self.expect(0, "render", COURSEWORK, *SIZE, "--spp", "2", "-o", "a.png", *options, **environment)
+        return read_png(self.path("a.png"))
+
+    def test_rows_are_in_their_places(self):
+        whole = self.pixels()
+        self.assertEqual(self.errors, "")
+        for rows, count in ((1, 33), (10, 4), (32, 2)):
+            with self.subTest(rows=rows):
+                self.assertEqual(self.pixels("--piece-rows", str(rows)), whole)
+                self.assertIn(f"{count} pieces of up to {rows} rows: ", self.errors)
+        self.assertEqual(self.pixels("--piece-rows", "34"), whole)
+        self.assertEqual(self.errors, "")
+
+    def test_a_device_that_is_too_small_gets_pieces(self):
+        whole = self.pixels()
+        self.assertEqual(self.pixels(FAKE_PT_MAX_ROWS=9), whole)
+        self.assertIn("4 pieces of up to 9 rows: ", self.errors)  # 33, 17, 9
+        self.expect(2, "render", COURSEWORK, *SIZE, "-o", "a.png", error="more than the device has", FAKE_PT_MAX_ROWS=0)
+
+    def test_statistics_are_those_of_all_pieces(self):
+        self.pixels("--stats", "s.json", "--piece-rows", "10", FAKE_PT_FAIL="rejected:1")
+        stats = json.loads(self.read("s.json"))
+        self.assertEqual((stats["height"], stats["spp"], stats["rejected_samples"]), (33, 2, 4 * 3))
+
+    def test_what_is_left_of_an_interruption_is_black(self):
+        process = self.start("render", COURSEWORK, *SIZE, "--spp", "4", "--progress", "json", "-o", "a.png",
+                             "--piece-rows", "11", FAKE_PT_SAMPLE_MS=500)
+        shares = [0.0]
+        while shares[-1] < 0.4:  # in the second of three pieces, of two seconds each
+            line = process.stderr.readline()
+            shares += [json.loads(line)["fraction"]] if line.startswith("{") else []
+        process.send_signal(signal.SIGINT)
+        errors = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(shares, sorted(shares))
+        self.assertRegex(errors, r"stopped by SIGINT after [1-3] of 4 samples per pixel in 22 of 33 rows; "
+                                 "the others are black")
+        width, height, *_ = read_png(self.path("a.png"))
+        self.assertEqual((width, height), (40, 33))
+
+
+class RealDevice(CommandLineTest):
+    program = PT
+
+    def pixels(self, *options, samples=17):
+        self.expect(0, "render", COURSEWORK, *SIZE, "--spp", str(samples), "-q", "-o", "a.png", *options)
+        return read_png(self.path("a.png"))
+
+    def test_neither_pieces_nor_devices_change_a_bit(self):
+        whole = self.pixels()
+        for option, value in (("--piece-rows", "10"), ("--piece-rows", "33"), ("--device", "0,0"), ("--device", "all")):
+            with self.subTest(option=option, value=value):
+                self.assertEqual(self.pixels(option, value), whole)
+        self.assertNotEqual(self.pixels(samples=16), whole)
+
+    def test_errors_of_pieces_are_joined(self):
+        def stats(*options):
+            self.pixels("--stats", "s.json", *options)
+            return json.loads(self.read("s.json"))
+
+        whole, pieces = stats(), stats("--piece-rows", "8")
+        self.assertLess(pieces["device_bytes"], whole["device_bytes"])
+        self.assertAlmostEqual(pieces["rmse"], whole["rmse"], delta=1e-6 * whole["rmse"])
+        # The estimate asks a pixel's neighbours, of which there are fewer at a cut.
+        self.assertAlmostEqual(pieces["relative_rmse"], whole["relative_rmse"], delta=0.2 * whole["relative_rmse"])
+
+
+if __name__ == "__main__":
+    main()
