@@ -20,9 +20,9 @@ constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
 constexpr std::array choices{width_name, cache_name, "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
                              "MESA_GLSL_CACHE_DISABLE"};
 
-// The kernel of a scene of up to 64 words holds it in constants, and gains a third to a half from vectors of 512 bits.
-// A surface takes at most five words: four, and one for its motion or curvature. Kernels that read the scene from a
-// buffer gain nothing for sure: measured from 0.83 to 1.18 times the speed.
+// The kernel of a scene of up to 64 words holds it in constants, and gains a quarter to a half from vectors of 512
+// bits. A surface takes at most five words: four, and one for its motion or curvature. Kernels that read the scene
+// from a buffer gain nothing for sure: measured from 0.83 to 1.18 times the speed.
 constexpr std::size_t most_surfaces = 64 / 5;
 
 bool has_avx512() {
