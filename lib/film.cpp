@@ -22,8 +22,9 @@ Wide wide_of_words(const std::uint32_t words[gpu::FILM_SUM_WORDS]) {
 }
 
 double fixed_point_value(Wide sum) {
-    // unsigned __int128 to double rounds once, to nearest.
-    return std::ldexp(static_cast<double>(sum), -static_cast<int>(gpu::FILM_FRACTION_BITS));
+    // unsigned __int128 to double rounds once, to nearest; a power of two does not round again.
+    constexpr double last_place = 1.0 / static_cast<double>(Wide{1} << gpu::FILM_FRACTION_BITS);
+    return static_cast<double>(sum) * last_place;
 }
 
 // The words of one pixel in one half of the film.
@@ -70,10 +71,10 @@ double standard_error(double sum_a, double a, double sum_b, double b) {
 } // namespace
 
 PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
-                               const HalfCounts &expected) {
+                               const HalfCounts &expected, bool with_standard_error) {
     PixelEstimates estimates;
     estimates.radiance.reserve(3 * plane_pixels);
-    estimates.standard_error.reserve(3 * plane_pixels);
+    estimates.standard_error.reserve(with_standard_error ? 3 * plane_pixels : 0);
     for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
         const HalfPixel a(words, plane_pixels, 0, pixel);
         const HalfPixel b(words, plane_pixels, 1, pixel);
@@ -84,9 +85,11 @@ PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t
             const Wide sum_a = a.sum(channel);
             const Wide sum_b = b.sum(channel);
             const double mean = accepted > 0 ? fixed_point_value(sum_a + sum_b) / accepted : 0.0;
+            estimates.radiance.push_back(static_cast<float>(mean * unit));
+            if (!with_standard_error)
+                continue;
             const double error =
                 standard_error(fixed_point_value(sum_a), a.accepted(), fixed_point_value(sum_b), b.accepted());
-            estimates.radiance.push_back(static_cast<float>(mean * unit));
             estimates.standard_error.push_back(static_cast<float>(error * unit));
         }
     }
@@ -156,7 +159,7 @@ void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> ot
 
 } // namespace
 
-void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected,
+void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected, bool with_standard_error,
                 const std::function<void(const PixelEstimates &)> &receive) {
     // A piece at a time, so that a large image is not held twice. Were planes a power of two apart, the words of a pixel
     // would contend for one set of the processor's cache.
@@ -173,7 +176,7 @@ void read_films(std::span<Film *const> films, double unit, const HalfCounts &exp
             film->download(first, count, others);
             add_words(words, others, count);
         }
-        receive(pixel_estimates(words, count, unit, expected));
+        receive(pixel_estimates(words, count, unit, expected, with_standard_error));
     }
 }
 

@@ -18,7 +18,8 @@ namespace pt {
 // What the samples say about consecutive pixels, as R, G, B per pixel.
 struct PixelEstimates {
     std::vector<float> radiance;       // mean of all samples; black where all were rejected
-    std::vector<float> standard_error; // of that mean, from the difference of its halves; infinity where one is empty
+    std::vector<float> standard_error; // of that mean, from the difference of its halves; infinity where one is empty;
+                                       // nothing if it was not asked for
 };
 
 // How many samples, accepted or rejected, each half of a pixel holds.
@@ -27,7 +28,7 @@ using HalfCounts = std::array<std::uint32_t, gpu::FILM_HALVES>;
 // Reads the film words of consecutive pixels (both halves, planes of plane_pixels words, gpu_layout.h). A pixel that does
 // not hold the expected samples is PT_ERROR_INTERNAL, which tells that a driver lost work.
 PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
-                               const HalfCounts &expected);
+                               const HalfCounts &expected, bool with_standard_error);
 
 class Film {
 public:
@@ -62,7 +63,7 @@ private:
 };
 
 // Reads the sum of films of one size in pieces of consecutive pixels, the first beginning with pixel 0.
-void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected,
+void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected, bool with_standard_error,
                 const std::function<void(const PixelEstimates &)> &receive);
 
 // The largest strip that a device can bind, in pixels.

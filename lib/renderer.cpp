@@ -109,7 +109,7 @@ const ErrorEstimate &Renderer::error() {
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
-        read_films(films(), kernel().film_unit(), half_counts(),
+        read_films(films(), kernel().film_unit(), half_counts(), true,
                    [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
         error_ = estimator.result(accuracy_of_halves(settings_->sampler, kernel().point_layout(), samples_done_));
     }
@@ -217,9 +217,9 @@ void Renderer::readback(const Image &image) {
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
-    read_films(films(), kernel().film_unit(), half_counts(), [&](const PixelEstimates &pixels) {
-        const std::vector<float> &values =
-            image.quantity == PT_QUANTITY_RADIANCE ? pixels.radiance : pixels.standard_error;
+    const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
+    read_films(films(), kernel().film_unit(), half_counts(), is_error, [&](const PixelEstimates &pixels) {
+        const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;
         for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
             std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);
     });

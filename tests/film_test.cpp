@@ -154,7 +154,7 @@ pt::PixelEstimates estimates(const Half &a, const Half &b, const pt::HalfCounts 
     };
     set(a, 0);
     set(b, pt::gpu::FILM_WORDS);
-    return pt::pixel_estimates(words, 1, 0.25, expected);
+    return pt::pixel_estimates(words, 1, 0.25, expected, true);
 }
 
 TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {

@@ -56,7 +56,7 @@ public:
 
     // What the film shows. Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
-        return pt::pixel_estimates(film, width * height, film_unit_, {sample_count, 0}).radiance;
+        return pt::pixel_estimates(film, width * height, film_unit_, {sample_count, 0}, false).radiance;
     }
 
 private:
