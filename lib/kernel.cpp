@@ -39,6 +39,12 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
+// Invocations that share a pixel's samples, so that a small image keeps the device busy.
+std::uint32_t sharers_of_pixel(const vulkan::Device &device, std::uint32_t pixel_count) {
+    constexpr std::uint32_t most = 8; // each adds to the film, and needs some samples to make that worth it
+    return std::clamp(device.policy().invocations / pixel_count, 1U, most);
+}
+
 } // namespace
 
 Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, const Scene &scene, const Camera &camera,
@@ -54,6 +60,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     film_unit_(pt::film_unit(scene)),
     frame_(frame_constants(camera, settings, film_unit_)),
     table_bytes_(device.limits().max_uniform_range),
+    sharers_(sharers_of_pixel(device, film.pixel_count())),
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     words_(gpu_scene(scene, camera, features_)),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, words_.size()), "scene"),
@@ -61,7 +68,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice") {
     scene_.upload(std::as_bytes(std::span(words_)), 0);
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, words_, seconds_);
+    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
     for (Film::Strip &strip : film_.strips()) {
         const std::array buffers = {&scene_, &scene_, &strip.words, &strip.pass, &points_};
         sets_.push_back(trace.bind(buffers));
@@ -104,7 +111,7 @@ void Kernel::upload_points(const std::vector<std::vector<Batch>> &rounds) {
 
 // Records a kernel over the part of a range of pixels that lies in each strip.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                      const Slice &slice, const Batch &batch) const {
+                      const Slice &slice, const Batch &batch, std::uint32_t invocations_per_pixel) const {
     gpu::FrameConstants frame = frame_;
     frame.split_pass = slice.whole ? 0 : 1;
     frame.film_half = batch.half;
@@ -122,7 +129,8 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
         frame.first_pixel = first - strip.first_pixel;
         frame.pixel_count = end - first;
         const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
-        pipeline.dispatch(commands, sets_[i], std::as_bytes(std::span(&frame, 1)), groups, {{batch.table_offset}});
+        pipeline.dispatch(commands, sets_[i], std::as_bytes(std::span(&frame, 1)), groups, {{batch.table_offset}},
+                          invocations_per_pixel);
     }
 }
 
@@ -130,18 +138,18 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
     const bool pass_complete = !slice.whole && slice.first_pixel + slice.pixel_count == film_.pixel_count();
     const std::vector<std::vector<Batch>> rounds = next_rounds(first_sample, slice.sample_count);
     upload_points(rounds);
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, words_, seconds_);
+    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
     return device_.start([&](const vk::raii::CommandBuffer &commands) {
         for (std::size_t i = 0; i < rounds.size(); ++i) {
             if (i > 0)
                 vulkan::barrier_between_dispatches(commands);
             for (const Batch &batch : rounds[i])
-                dispatch(commands, trace, slice, batch);
+                dispatch(commands, trace, slice, batch, sharers_);
         }
         if (pass_complete) {
             const Slice whole_pass{0, film_.pixel_count(), 1, false};
             vulkan::barrier_between_dispatches(commands);
-            dispatch(commands, pipelines_.commit(), whole_pass, rounds[0][0]); // a pass is one sample
+            dispatch(commands, pipelines_.commit(), whole_pass, rounds[0][0], 1); // a pass is one sample
         }
     });
 }

@@ -53,7 +53,7 @@ private:
     std::vector<std::vector<Batch>> next_rounds(std::uint32_t first_sample, std::uint32_t sample_count);
     void upload_points(const std::vector<std::vector<Batch>> &rounds);
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
-                  const Batch &batch) const;
+                  const Batch &batch, std::uint32_t invocations_per_pixel) const;
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;
@@ -66,6 +66,7 @@ private:
     double film_unit_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees
+    std::uint32_t sharers_;              // invocations to a pixel
     std::uint32_t max_dispatch_samples_; // per pixel
     std::vector<glm::vec4> words_;       // the scene
     vulkan::Buffer scene_;

@@ -21,10 +21,12 @@ constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::Descrip
 // paid for itself. Waiting for just that long costs at most twice of what knowing the future would (the ski rental problem).
 constexpr double seconds_before_own_kernel = 1.0;
 
-std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features) {
+std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
+                                                 std::uint32_t sharers) {
     const auto constants = specialization_constants(features);
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
-    result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / sizeof(glm::uvec4);
+    result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
+    result[gpu::ID_SHARERS] = sharers;
     return result;
 }
 
@@ -45,11 +47,11 @@ const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> 
     return place.emplace(std::move(constants), std::move(pipeline)).pipeline;
 }
 
-const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::span<const glm::vec4> words,
-                                                     double seconds) {
+const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,
+                                                     std::span<const glm::vec4> words, double seconds) {
     const bool same_features = features_ == features;
     features_ = features;
-    std::vector<std::uint32_t> constants = constants_of_features(device_, features);
+    std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
     if (device_.policy().scene_in_constants && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
         if (one_scene_ && one_scene_->constants == own)

@@ -20,9 +20,10 @@ public:
 
     // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long as many
     // small images do, so a scene that took the place of one with the same features gets a kernel of its own only after it
-    // has been rendered for a while. Both give the same bits. words: the scene buffer; seconds: for which this scene has
+    // has been rendered for a while. Both give the same bits. sharers: invocations to a pixel; words: the scene buffer; seconds: for which this scene has
     // been rendered so far. The reference holds until the next call.
-    const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
+    const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
+                                         std::span<const glm::vec4> words, double seconds);
 
     // The kernel that adds a split pass to the film.
     const vulkan::ComputePipeline &commit();

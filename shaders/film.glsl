@@ -3,6 +3,8 @@
 #ifndef FILM_GLSL
 #define FILM_GLSL
 
+#extension GL_EXT_control_flow_attributes : require
+
 #include "gpu_layout.h"
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
@@ -102,16 +104,45 @@ void film_store_sum(uint first, uint stride, uvec4 sum)
         film.words[first + 3u * stride] += new.w;
 }
 
-// Adds what an invocation has gathered to its pixel of the strip, in one half of the film.
-void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel)
+// The same where several invocations add to a pixel: each word takes its addend and the carry of the word before at
+// once, in whatever order. That a word has overflowed is seen by exactly one of those who add to it.
+void film_store_shared_sum(uint first, uint stride, uvec4 sum)
+{
+    uint carry = 0u;
+    [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i) {
+        uint addend = sum[i] + carry; // 0, with a carry, where that overflows
+        carry = addend < carry ? 1u : 0u;
+        if (addend != 0u) {
+            uint old = atomicAdd(film.words[first + i * stride], addend);
+            carry += old + addend < addend ? 1u : 0u;
+        }
+    }
+}
+
+// Adds what an invocation has gathered to its pixel of the strip, in one half of the film. shared_pixel: other invocations
+// may do so at the same time.
+void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel)
 {
     uint first = film_half * FILM_WORDS * strip_pixel_count + pixel_in_strip;
-    film_store_sum(first, strip_pixel_count, fixed_point(pixel.windows[0]));
-    film_store_sum(first + FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, fixed_point(pixel.windows[1]));
-    film_store_sum(first + 2u * FILM_SUM_WORDS * strip_pixel_count, strip_pixel_count, fixed_point(pixel.windows[2]));
-    film.words[first + FILM_ACCEPTED * strip_pixel_count] += pixel.accepted;
-    if (pixel.rejected != 0u)
-        film.words[first + FILM_REJECTED * strip_pixel_count] += pixel.rejected;
+    uint accepted = first + FILM_ACCEPTED * strip_pixel_count;
+    uint rejected = first + FILM_REJECTED * strip_pixel_count;
+    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
+        uint first_of_channel = first + channel * FILM_SUM_WORDS * strip_pixel_count;
+        uvec4 sum = fixed_point(pixel.windows[channel]);
+        if (shared_pixel)
+            film_store_shared_sum(first_of_channel, strip_pixel_count, sum);
+        else
+            film_store_sum(first_of_channel, strip_pixel_count, sum);
+    }
+    if (shared_pixel) {
+        atomicAdd(film.words[accepted], pixel.accepted);
+        if (pixel.rejected != 0u)
+            atomicAdd(film.words[rejected], pixel.rejected);
+    } else {
+        film.words[accepted] += pixel.accepted;
+        if (pixel.rejected != 0u)
+            film.words[rejected] += pixel.rejected;
+    }
 }
 
 #endif

@@ -35,7 +35,8 @@ PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
 PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
 PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT CONSTANT_COUNT = 15;
+PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
+PT_CONSTANT CONSTANT_COUNT = 16;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;

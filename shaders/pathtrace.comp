@@ -1,5 +1,5 @@
-// The path tracer's kernel: each invocation takes the samples of a slice that belong to one half of the film, in one
-// pixel.
+// The path tracer's kernel: each invocation takes samples of a slice that belong to one half of the film, in one pixel;
+// SHARERS of them, along y, share those of a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -25,19 +25,24 @@ void main()
     uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
     uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
 
+    // Its samples of the slice: a range of its own.
+    uint done = gl_GlobalInvocationID.y * frame.sample_count / SHARERS;
+    uint end = (gl_GlobalInvocationID.y + 1u) * frame.sample_count / SHARERS;
+    if (SHARERS > 1u && done == end)
+        return;
+
     FilmPixel gathered = empty_film_pixel();
     vec3 value;
-    uint done = 0u;
     do {
         uint sample_index = sample_of_pair(frame.first_pair + done, frame.film_half, half_mask(SAMPLER));
         SampleKey key = SampleKey(frame.seed, pixel_index, sample_index, done * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;
-    } while (done < frame.sample_count);
+    } while (done < end);
 
     if (frame.split_pass == 1u)
         split_pass.samples[pixel_in_strip] = vec4(value, 1.0);
     else
-        film_store(frame.film_half, pixel_in_strip, frame.strip_pixel_count, gathered);
+        film_store(frame.film_half, pixel_in_strip, frame.strip_pixel_count, gathered, SHARERS > 1u);
 }

@@ -109,6 +109,7 @@ protected:
         return device_with({.patience = std::chrono::hours{1},
                             .share_memory = GetParam(),
                             .scene_in_constants = false,
+                            .invocations = 0,
                             .queue_depth = 1});
     }
 };
@@ -296,8 +297,11 @@ TEST_F(VulkanTest, AFailureWhileRecordingLeavesTheDeviceUsable) {
 }
 
 TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
-    Device &device = device_with(
-        {.patience = std::chrono::nanoseconds{0}, .share_memory = true, .scene_in_constants = false, .queue_depth = 1});
+    Device &device = device_with({.patience = std::chrono::nanoseconds{0},
+                                  .share_memory = true,
+                                  .scene_in_constants = false,
+                                  .invocations = 0,
+                                  .queue_depth = 1});
     Recurrence recurrence(device, 256); // fills no buffer: with no patience at all the first submission is the last
     const pt::Error loss = error_of([&] { recurrence.run(60'000); });
     EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);

@@ -99,7 +99,7 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
 
 void ComputePipeline::dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                                std::span<const std::byte> push_constants, std::uint32_t group_count,
-                               std::span<const std::uint32_t> offsets) const {
+                               std::span<const std::uint32_t> offsets, std::uint32_t rows) const {
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
     commands.bindDescriptorSets(
         vk::PipelineBindPoint::eCompute, *layout_, 0, set.handle(),
@@ -108,7 +108,7 @@ void ComputePipeline::dispatch(const vk::raii::CommandBuffer &commands, const De
         commands.pushConstants<std::byte>(
             *layout_, vk::ShaderStageFlagBits::eCompute, 0,
             vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(push_constants.size()), push_constants.data()));
-    commands.dispatch(group_count, 1, 1);
+    commands.dispatch(group_count, rows, 1);
 }
 
 } // namespace pt::vulkan

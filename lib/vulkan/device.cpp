@@ -21,6 +21,10 @@ constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 // More would not help, and the offsets of bindings are multiples of at most 256 bytes.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
+// A large GPU holds 100,000 invocations of a kernel like this at a time; with a few times as many, the last of them to
+// end leave little of it idle.
+constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
+
 // Submissions aim at a twentieth of a second; a GPU that has not finished one after so long is taken for lost.
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
@@ -87,6 +91,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
             .scene_in_constants = cpu,
+            .invocations = cpu ? 0U : busy_gpu_invocations,
             .queue_depth = cpu ? 1U : 2U};
 }
 

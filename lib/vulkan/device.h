@@ -26,6 +26,7 @@ struct DevicePolicy {
     std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
+    std::uint32_t invocations; // that keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
 };
 

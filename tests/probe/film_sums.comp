@@ -19,5 +19,5 @@ void main()
         film_add(gathered, samples[pixel * per_pixel + i].rgb);
         ++i;
     } while (i < per_pixel);
-    film_store(film_half, pixel, count, gathered);
+    film_store(film_half, pixel, count, gathered, false);
 }
