@@ -161,8 +161,8 @@ void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> ot
 
 void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected, bool with_standard_error,
                 const std::function<void(const PixelEstimates &)> &receive) {
-    // A piece at a time, so that a large image is not held twice. Were planes a power of two apart, the words of a pixel
-    // would contend for one set of the processor's cache.
+    // A piece at a time, so that a large image is not held twice. Were planes a power of two apart, the words of a
+    // pixel would contend for one set of the processor's cache.
     constexpr std::uint32_t piece_pixels = 130'000;
     const std::uint32_t pixel_count = films.front()->pixel_count();
     std::vector<std::uint32_t> words;

@@ -79,8 +79,9 @@ std::uint32_t Kernel::max_samples() const {
     return longest_range(max_dispatch_samples_ * (max_tables / gpu::FILM_HALVES));
 }
 
-// The samples of a slice as rounds, each of at most one dispatch for each half: those of a round may run at the same time.
-// Their tables are free: slices end in the order in which they were started, and there is room for all that are under way.
+// The samples of a slice as rounds, each of at most one dispatch for each half: those of a round may run at the same
+// time. Their tables are free: slices end in the order in which they were started, and there is room for all that are
+// under way.
 std::vector<std::vector<Kernel::Batch>> Kernel::next_rounds(std::uint32_t first_sample, std::uint32_t sample_count) {
     std::vector<std::vector<Batch>> rounds;
     for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {

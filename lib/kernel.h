@@ -1,5 +1,5 @@
-// The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads. Owned by
-// Renderer, which makes a new one when any of them changes.
+// The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads.
+// Owned by Renderer, which makes a new one when any of them changes.
 #pragma once
 
 #include "camera.h"
@@ -34,8 +34,8 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Starts to take the samples of a slice, of which the first has the index first_sample; with the last slice of a split
-    // pass adds the pass to the film. At most the device's queue_depth of slices may be under way.
+    // Starts to take the samples of a slice, of which the first has the index first_sample; with the last slice of a
+    // split pass adds the pass to the film. At most the device's queue_depth of slices may be under way.
     vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
 
     // Waits for a slice and returns the seconds it took.

@@ -12,8 +12,8 @@ namespace pt {
 
 namespace {
 
-// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by it;
-// measured slices size the rest.
+// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by
+// it; measured slices size the rest.
 constexpr double assumed_tests_per_second = 2.5e8;
 
 } // namespace

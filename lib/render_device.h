@@ -1,5 +1,5 @@
-// One device's share of the rendering: its film, its kernel, and the slices that it has under way. Owned by Renderer, which
-// deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
+// One device's share of the rendering: its film, its kernel, and the slices that it has under way. Owned by Renderer,
+// which deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
 #pragma once
 
 #include "camera.h"
@@ -44,8 +44,8 @@ public:
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
     bool is_idle() const { return under_way_.empty(); }
 
-    // Starts a slice: the next of the pass under way, or one of at most remaining samples, of which the first has the index
-    // next_sample. Returns how many samples it has begun: 0 within a pass. has_room() must hold.
+    // Starts a slice: the next of the pass under way, or one of at most remaining samples, of which the first has the
+    // index next_sample. Returns how many samples it has begun: 0 within a pass. has_room() must hold.
     std::uint32_t start(std::uint32_t next_sample, std::uint32_t remaining);
 
     // Whether finish() would not wait. Not idle.

@@ -17,8 +17,9 @@ constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::Descrip
                                  vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eUniformBufferDynamic};
 
-// A kernel of a scene's own takes about 0.3 s to build and then saves about a third of the time: after a second it would have
-// paid for itself. Waiting for just that long costs at most twice of what knowing the future would (the ski rental problem).
+// A kernel of a scene's own takes about 0.3 s to build and then saves about a third of the time: after a second it
+// would have paid for itself. Waiting for just that long costs at most twice of what knowing the future would (the ski
+// rental problem).
 constexpr double seconds_before_own_kernel = 1.0;
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,

@@ -1,4 +1,5 @@
-// The specialised pipelines of pathtrace.comp and commit.comp, kept from scene to scene. Owned by Renderer, used by Kernel.
+// The specialised pipelines of pathtrace.comp and commit.comp, kept from scene to scene. Owned by Renderer, used by
+// Kernel.
 #pragma once
 
 #include "scene_features.h"
@@ -18,10 +19,10 @@ public:
     // The device must outlive the pipelines.
     explicit TracePipelines(vulkan::Device &device) : device_(device) {}
 
-    // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long as many
-    // small images do, so a scene that took the place of one with the same features gets a kernel of its own only after it
-    // has been rendered for a while. Both give the same bits. sharers: invocations to a pixel; words: the scene buffer; seconds: for which this scene has
-    // been rendered so far. The reference holds until the next call.
+    // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long
+    // as many small images do, so a scene that took the place of one with the same features gets a kernel of its own
+    // only after it has been rendered for a while. Both give the same bits. sharers: invocations to a pixel; words: the
+    // scene buffer; seconds: for which this scene has been rendered so far. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
                                          std::span<const glm::vec4> words, double seconds);
 

@@ -30,11 +30,11 @@ FilmPixel empty_film_pixel()
 }
 
 // A sum of floats is exact as long as no addition rounds. So each value is cut into four windows, multiples of 2^6,
-// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 1023 of them to sum up in 32 bits (the pre-rounded sums
-// of Demmel and Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013). Adding a bias of three halves (of one,
-// where the value has no sign) of a power of two rounds a number to a multiple of that power's 2^-23 and leaves the
-// multiple in the low bits: no shift, no carry, nothing that depends on the sum so far. Where a value has bits below
-// 2^-60 (2^-37 and more have none), it is rounded to nearest.
+// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 1023 of them to sum up in 32 bits (the pre-rounded
+// sums of Demmel and Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013). Adding a bias of three halves
+// (of one, where the value has no sign) of a power of two rounds a number to a multiple of that power's 2^-23 and
+// leaves the multiple in the low bits: no shift, no carry, nothing that depends on the sum so far. Where a value has
+// bits below 2^-60 (2^-37 and more have none), it is rounded to nearest.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
 uvec4 windows_of(float value)
@@ -119,8 +119,8 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// Adds what an invocation has gathered to its pixel of the strip, in one half of the film. shared_pixel: other invocations
-// may do so at the same time.
+// Adds what an invocation has gathered to its pixel of the strip, in one half of the film. shared_pixel: other
+// invocations may do so at the same time.
 void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel)
 {
     uint first = film_half * FILM_WORDS * strip_pixel_count + pixel_in_strip;

@@ -58,8 +58,8 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 
 // ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
-// and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex (2).
-// Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
+// and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex
+// (2). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
 // several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
 // and survival of Russian roulette (1, for long paths). The dimensions of a sequence are dealt to the blocks in this
 // order: the low ones are its best, and go to what makes most of the picture.

@@ -69,8 +69,8 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f * cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n + 1)),
-// taken as its distance from 1.
+// Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n +
+// 1)), taken as its distance from 1.
 vec2 lobe_cos_sin(float n, float u)
 {
     return narrow_cos_sin(one_minus_exp(log_one_minus(u) / (n + 1.0)));

@@ -62,8 +62,8 @@ vec4 scene_word(uint index)
     return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : scene_storage.words[index];
 }
 
-// The word first + index, with an index below count that may differ between invocations: constants have no addresses, so
-// it is selected from all of them. Where all were alike, a compiler would know the result and could take it out of
+// The word first + index, with an index below count that may differ between invocations: constants have no addresses,
+// so it is selected from all of them. Where all were alike, a compiler would know the result and could take it out of
 // products, which rounds otherwise than a word that is read. An invocation that there never is, which it cannot know,
 // keeps the bits the same, whatever the source.
 vec4 scene_word_among(uint first, uint count, uint index)

@@ -38,8 +38,8 @@ protected:
     }
 };
 
-// Where an image is small for a device, eight invocations share a pixel's samples and add to the film at the same time. Some
-// have no sample if there are few.
+// Where an image is small for a device, eight invocations share a pixel's samples and add to the film at the same time.
+// Some have no sample if there are few.
 TEST_F(KernelTest, InvocationsThatShareAPixelGiveTheBitsOfOne) {
     for (const std::uint32_t sample_count : {1U, 5U, 37U, 200U})
         EXPECT_EQ(film_words(1U << 18, sample_count), film_words(0, sample_count)) << sample_count << " samples";

@@ -34,7 +34,8 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // All wait for the device, but uploads to a streamed buffer; offsets and sizes are multiples of 4 bytes and lie within the buffer.
+    // All wait for the device, but uploads to a streamed buffer; offsets and sizes are multiples of 4 bytes and lie
+    // within the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);

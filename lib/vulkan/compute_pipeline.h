@@ -31,8 +31,8 @@ public:
     // buffers[i] goes to binding i.
     DescriptorSet bind(std::span<Buffer *const> buffers) const;
 
-    // Records a dispatch of group_count workgroups along x, and rows of them along y. offsets: of the dynamic bindings into
-    // their buffers, in bytes.
+    // Records a dispatch of group_count workgroups along x, and rows of them along y. offsets: of the dynamic bindings
+    // into their buffers, in bytes.
     void dispatch(const vk::raii::CommandBuffer &commands, const DescriptorSet &set,
                   std::span<const std::byte> push_constants, std::uint32_t group_count,
                   std::span<const std::uint32_t> offsets = {}, std::uint32_t rows = 1) const;

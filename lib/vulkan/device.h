@@ -34,7 +34,8 @@ DevicePolicy default_policy(const pt_device_info &info);
 
 class Device {
 public:
-    // The instance must outlive the device. A device that hangs is left to the end of the process, and its instance too.
+    // The instance must outlive the device. A device that hangs is left to the end of the process, and its instance
+    // too.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device);
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy);
     ~Device();
@@ -61,7 +62,8 @@ public:
     // Whether finish() would not wait.
     bool is_done(Ticket ticket) const;
 
-    // Waits and returns the seconds from submission, or from the end of the one before if that was later, to completion.
+    // Waits and returns the seconds from submission, or from the end of the one before if that was later, to
+    // completion.
     double finish(Ticket ticket);
 
     // Both at once.
