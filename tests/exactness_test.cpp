@@ -3,6 +3,7 @@
 #include "coursework_scene.h"
 #include "error_estimate.h"
 #include "probe.h"
+#include "render_image.h"
 #include "scene_features.h"
 
 #include <gtest/gtest.h>
@@ -38,6 +39,14 @@ protected:
         Image image(width * height * 3);
         readback(image);
         return image;
+    }
+
+    // 8 x 8 pixels, of which each sample is the radiance.
+    Image image_inside_a_lamp(float radiance, uint32_t samples) {
+        const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0};
+        const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
+        const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+        return render_image(context(), scene, CourseworkScene::camera(), render_of(8, 8, 1), samples);
     }
 };
 
@@ -126,18 +135,8 @@ TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
 // exact sum counts, the most that it may hold of a sample (film.glsl). A dispatch that gathered one sample more than it
 // may would overflow it.
 TEST_F(GatheringTest, OfTheFullestWindowIsExact) {
-    const pt_material material{{0, 0, 0}, {0, 0, 0}, {160, 160, 160}, 0};
-    const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
-    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
-    const pt_camera camera = CourseworkScene::camera();
-    const pt_render render = render_of(8, 8, 1);
-    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
     for (const uint32_t sample_count : {2046U, 2047U, 2048U, 5000U}) {
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
-        accumulate(sample_count);
-        Image image(std::size_t{8} * 8 * 3);
-        readback(image);
+        const Image image = image_inside_a_lamp(160.0F, sample_count);
         EXPECT_EQ(image, Image(image.size(), 160.0F)) << sample_count << " samples";
     }
 }
@@ -294,17 +293,7 @@ TEST_F(ExactnessTest, FirstSampleContinuesTheSequence) {
 // of them is too. Loop trips in all go far beyond the 65,535 after which a known driver stops a kernel: the count kept by
 // the kernel, checked at readback, shows that no sample is lost.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
-    const pt_material material{{0, 0, 0}, {0, 0, 0}, {0.1F, 0.1F, 0.1F}, 0};
-    const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
-    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
-    const pt_camera camera = CourseworkScene::camera();
-    const pt_render render = render_of(8, 8, 1);
-    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
-    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
-    ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
-    accumulate(1U << 20);
-    Image image(8 * 8 * 3);
-    readback(image);
+    const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));
     EXPECT_EQ(stats().sample_count, 1U << 20);
 }

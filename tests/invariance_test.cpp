@@ -1,6 +1,7 @@
 // Changes of a scene that must keep every bit of its image. Run alone with --gtest_filter=Invariance*.
 #include "context_fixture.h"
 #include "invariance_scene.h"
+#include "render_image.h"
 
 #include <gtest/gtest.h>
 
@@ -17,18 +18,9 @@ constexpr uint32_t height = 32;
 using Image = std::vector<float>;
 
 Image render(pt_context *context, const InvarianceScene &source, uint64_t seed = 0, uint32_t samples = 16) {
-    const pt_scene scene = source.scene();
     pt_render settings = render_of(width, height, 4);
     settings.seed = seed;
-    const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0};
-    Image image(std::size_t{3} * width * height);
-    const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
-    EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_camera(context, &source.camera), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_set_render(context, &settings), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_accumulate(context, &count), PT_OK) << pt_last_error(context);
-    EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
-    return image;
+    return render_image(context, source.scene(), source.camera, settings, samples);
 }
 
 std::size_t differing_values(const Image &a, const Image &b) {

@@ -3,6 +3,7 @@
 #include "context_fixture.h"
 #include "half_render.h"
 #include "invariance_scene.h"
+#include "render_image.h"
 
 #include <gtest/gtest.h>
 
@@ -147,18 +148,8 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
 // read a buffer; in a context of its own it may have constants.
 class SceneSourceTest : public ContextFixture {
 protected:
-    static std::vector<float> image_of(pt_context *on, const InvarianceScene &invariance_scene) {
-        const pt_scene scene = invariance_scene.scene();
-        const pt_render render = ::render_of(width, height, 4);
-        const pt_accumulate_info samples{sizeof samples, sample_count, nullptr, nullptr, 0};
-        std::vector<float> image(std::size_t{3} * width * height);
-        const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
-        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_camera(on, &invariance_scene.camera), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
-        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
-        return image;
+    static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {
+        return render_image(on, source.scene(), source.camera, ::render_of(width, height, 4), sample_count);
     }
 };
 

@@ -27,6 +27,8 @@ import subprocess
 import tempfile
 import time
 
+from table import print_table
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 HALF_SIZE = 300  # of the rectangles that stand for planes
 PATH_LENGTHS = {
@@ -248,7 +250,7 @@ def ratio_row(ratio):
                                                        *ratio["cost_of_error"].values())), ""]
 
 
-def print_table(length, result):
+def print_result(length, result):
     rows = [["program", "sampler", "M samples/s", "M paths/s",
              *(f"s to {error:g}" for error in PATH_LENGTHS[length]["errors"]), "relMSE at samples per pixel"]]
     for sampler, theirs in result["mitsuba"].items():
@@ -256,11 +258,7 @@ def print_table(length, result):
         rows += [row("pt", PT_SAMPLERS[sampler], ours), row("Mitsuba", sampler, theirs),
                  ratio_row(result["ratios"][sampler])]
     print(f"\nPath length {length}, pt on {result['device']}")
-    widths = [max(len(cells[i]) for cells in rows) for i in range(len(rows[0]))]
-    for cells in rows:
-        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |")
-        if cells is rows[0]:
-            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    print_table(rows)
 
 
 def main():
@@ -273,7 +271,7 @@ def main():
               "unit": "wall seconds" if mitsuba.on_gpu else "CPU seconds", "lengths": {}}
     for length in options.lengths:
         report["lengths"][length] = measure(options, mitsuba, scene_path, scene, length)
-        print_table(length, report["lengths"][length])
+        print_result(length, report["lengths"][length])
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(report, file, indent=2)

@@ -24,6 +24,8 @@ import subprocess
 import tempfile
 import time
 
+from table import print_table
+
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SCENES = ("coursework", "coursework-diffuse", "coursework-motion", "many-lamps")
 PATH_LENGTHS = (2, 6)
@@ -157,7 +159,7 @@ def add_costs(cases, on_cpu):
         case["cost"] = statistics.median(ratios)
 
 
-def print_table(cases):
+def print_cases(cases):
     rows = [["scene", "length", "sampler", "M samples/CPU s", "M samples/s", "M paths", "first, cold", "first, warm",
              "start to PNG", "peak MiB", "cost"]]
     for case in cases:
@@ -167,11 +169,7 @@ def print_table(cases):
                      f"{case['paths_per_second'] / 1e6:.3g}", f"{figures['first_cold']:.3f}",
                      f"{figures['first_warm']:.3f}", f"{figures['start_to_png']:.3f}",
                      f"{figures['peak_bytes'] / 2**20:.0f}", f"{case['cost']:.2f}"])
-    widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    for row in rows:
-        print("| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |")
-        if row is rows[0]:
-            print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    print_table(rows)
 
 
 def main():
@@ -190,7 +188,7 @@ def main():
         case["path"] = os.path.basename(case["path"])
     add_costs(cases, on_cpu)
     print(f"{device['name']}, {options.size}, medians of {options.rounds} rounds")
-    print_table(cases)
+    print_cases(cases)
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             report = {"device": device, "size": options.size, "rounds": options.rounds, "cases": cases}
