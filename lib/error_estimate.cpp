@@ -56,36 +56,24 @@ bool is_check(std::uint32_t sample_count) {
     return sample_count >= min_estimate_samples && next_check(sample_count - 1) == sample_count;
 }
 
-HalvesAccuracy accuracy_of_halves(std::uint32_t sampler, const PointLayout &layout, std::uint32_t sample_count) {
-    if (sampler == PT_SAMPLER_RANDOM)
-        return {1.0, 1.0};
-    // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of two nets of N / 2
-    // points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too much by 3 for p = 2.
-    const double exaggerated = std::sqrt(3.0);
-    if (sampler == PT_SAMPLER_SOBOL)
-        return {1.0, exaggerated};
-    // Radical inverses in a base above N are a regular row of points that leaves a part of [0, 1) empty; both halves share it,
-    // and the error that it makes, as they share most of it while N is a few times the base. The share of such dimensions tells
-    // how much; its weight is measured, so that of the estimates few are too small and few too large by 2.
-    constexpr double uncovered_weight = 0.7;
-    std::uint32_t uncovered = 0;
-    const std::uint32_t dimensions = layout.dimensions();
-    for (std::uint32_t d = 0; d < dimensions; ++d) {
-        const std::uint64_t points =
-            std::uint64_t{sample_count} * (d < layout.shared_dimensions() ? 1 : layout.branches);
-        uncovered += points < 4 * std::uint64_t{prime_base(d)} ? 1 : 0;
-    }
-    return {std::sqrt(1.0 + uncovered_weight * uncovered / std::max(dimensions, 1U)), exaggerated};
+double exaggeration(std::uint32_t sampler) {
+    // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of the two runs of
+    // N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too much by 3
+    // for p = 2.
+    return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(3.0);
 }
 
 double squared_limit(double mean, double standard_error, double median) {
-    // Neither the mean nor the median alone will do. A pixel with a rare bright sample, a firefly, has a mean far above its
-    // limit: divided by it the error would hide itself; but its darker half, or its neighbours, know better. A bright spot on a
-    // dark ground has dark neighbours, but is bright in both halves. A quarter of the mean bounds what is made of a pixel
-    // that a single sample lit.
-    const double darker_half = mean - standard_error;
-    const double limit = std::min(mean, std::max({darker_half, median, 0.25 * mean}));
-    return limit * limit;
+    // The square of the mean exceeds that of the limit by the variance, on average, and the square of the standard error
+    // is what estimates the variance, so their difference has the right expectation. (For equal parts it is the product
+    // of their means.) It keeps a pixel with a rare bright sample, a firefly, from hiding its error by it. Half as much
+    // again is taken off, since the error is divided by it, and of the two the larger goes with the larger. Where it
+    // happens to be small, the neighbours know better, and a fraction of the mean bounds what is made of a pixel that a
+    // single sample lit.
+    const double least = 0.25 * mean;
+    const double limit =
+        std::max({mean * mean - 1.5 * standard_error * standard_error, median * median, least * least});
+    return std::min(mean * mean, limit);
 }
 
 ErrorEstimator::ErrorEstimator(std::uint32_t width) : row_values_(std::size_t{3} * width) {}
@@ -126,7 +114,7 @@ void ErrorEstimator::finish_band() {
 
 // The root of the mean over tiles, which are independent of each other: the variance of their sum is estimated by the sum of
 // the squares of their deviations from the mean. That their expectations differ too only adds to it.
-Interval ErrorEstimator::root_mean(double Tile::*squares, const HalvesAccuracy &accuracy) const {
+Interval ErrorEstimator::root_mean(double Tile::*squares, double exaggeration) const {
     double value_count = 0.0;
     double sum = 0.0;
     for (const Tile &tile : tiles_) {
@@ -143,15 +131,15 @@ Interval ErrorEstimator::root_mean(double Tile::*squares, const HalvesAccuracy &
         const double deviation = tile.*squares - mean * tile.value_count;
         variance += deviation * deviation;
     }
-    const double estimate = accuracy.unseen * std::sqrt(mean);
+    const double estimate = std::sqrt(mean);
     const double spread = std::sqrt(1.0 + normal_95 * std::sqrt(variance) / sum);
-    return {estimate, estimate / (spread * accuracy.exaggerated), estimate * spread};
+    return {estimate, estimate / (spread * exaggeration), estimate * spread};
 }
 
-ErrorEstimate ErrorEstimator::result(const HalvesAccuracy &accuracy) {
+ErrorEstimate ErrorEstimator::result(double exaggeration) {
     if (!radiance_.empty())
         finish_band();
-    return {root_mean(&Tile::squares, accuracy), root_mean(&Tile::relative_squares, accuracy)};
+    return {root_mean(&Tile::squares, exaggeration), root_mean(&Tile::relative_squares, exaggeration)};
 }
 
 } // namespace pt

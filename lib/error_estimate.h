@@ -1,8 +1,6 @@
 // The error of an image, estimated from the standard errors of its pixels. Pure arithmetic; Renderer feeds it with the film.
 #pragma once
 
-#include "point_sequence.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,7 +20,7 @@ struct ErrorEstimate {
     Interval relative_rmse; // of (x - r)^2 / (r^2 + 0.01)
 };
 
-// With fewer samples the difference of two halves says too little.
+// With fewer samples the difference of the film's parts says too little.
 inline constexpr std::uint32_t min_estimate_samples = 16;
 
 // What is known without samples.
@@ -32,14 +30,8 @@ ErrorEstimate unknown_error();
 std::uint32_t next_check(std::uint32_t sample_count);
 bool is_check(std::uint32_t sample_count);
 
-// How well the difference of two halves of a point set tells the error of the whole.
-struct HalvesAccuracy {
-    double unseen;      // factor >= 1 of the error, for what both halves have in common
-    double exaggerated; // factor >= 1 by which the difference may exceed the error
-};
-
-// layout: which dimensions of the point set the samples consume.
-HalvesAccuracy accuracy_of_halves(std::uint32_t sampler, const PointLayout &layout, std::uint32_t sample_count);
+// Factor >= 1 by which the error that the film's parts show may exceed the true one, with a sampler of pt.h.
+double exaggeration(std::uint32_t sampler);
 
 // Square of a pixel's limit, for the denominator of the relative error, in one channel of a pixel: from its mean and standard
 // error, and the median of the means about it.
@@ -53,7 +45,7 @@ public:
     void add(std::span<const float> radiance, std::span<const float> standard_error);
 
     // Of all pixels taken: whole rows, at least one.
-    ErrorEstimate result(const HalvesAccuracy &accuracy);
+    ErrorEstimate result(double exaggeration);
 
 private:
     // Sums over a part of the image.
@@ -64,7 +56,7 @@ private:
     };
 
     void finish_band();
-    Interval root_mean(double Tile::*squares, const HalvesAccuracy &accuracy) const;
+    Interval root_mean(double Tile::*squares, double exaggeration) const;
 
     std::size_t row_values_;
     std::vector<float> radiance_; // of a band of tiles that is not complete

@@ -27,11 +27,11 @@ double fixed_point_value(Wide sum) {
     return static_cast<double>(sum) * last_place;
 }
 
-// The words of one pixel in one half of the film.
-class HalfPixel {
+// The words of one pixel in one part of the film.
+class PartPixel {
 public:
-    HalfPixel(std::span<const std::uint32_t> words, std::size_t plane_pixels, std::size_t half, std::size_t pixel) :
-        words_(words.subspan(half * gpu::FILM_WORDS * plane_pixels)),
+    PartPixel(std::span<const std::uint32_t> words, std::size_t plane_pixels, std::size_t part, std::size_t pixel) :
+        words_(words.subspan(part * gpu::FILM_WORDS * plane_pixels)),
         plane_pixels_(plane_pixels),
         pixel_(pixel) {}
 
@@ -53,10 +53,10 @@ private:
     std::size_t pixel_;
 };
 
-void require_samples(const HalfPixel &pixel, std::uint32_t expected) {
+void require_samples(const PartPixel &pixel, std::uint32_t expected) {
     if (pixel.done() != expected)
         throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(pixel.done()) + " of " +
-                                           std::to_string(expected) + " samples of a pixel in one half of the film");
+                                           std::to_string(expected) + " samples of a pixel in one part of the film");
 }
 
 // Of a mean over a + b samples, from the means of its first a and its other b. If every sample has the variance v, the
@@ -71,13 +71,13 @@ double standard_error(double sum_a, double a, double sum_b, double b) {
 } // namespace
 
 PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
-                               const HalfCounts &expected, bool with_standard_error) {
+                               const PartCounts &expected, bool with_standard_error) {
     PixelEstimates estimates;
     estimates.radiance.reserve(3 * plane_pixels);
     estimates.standard_error.reserve(with_standard_error ? 3 * plane_pixels : 0);
     for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
-        const HalfPixel a(words, plane_pixels, 0, pixel);
-        const HalfPixel b(words, plane_pixels, 1, pixel);
+        const PartPixel a(words, plane_pixels, 0, pixel);
+        const PartPixel b(words, plane_pixels, 1, pixel);
         require_samples(a, expected[0]);
         require_samples(b, expected[1]);
         const std::uint32_t accepted = a.accepted() + b.accepted();
@@ -122,6 +122,7 @@ void Film::clear() {
         strip.words.clear();
         strip.pass.clear();
     }
+    older_end_ = min_older_samples;
 }
 
 void Film::download(std::uint32_t first_pixel, std::uint32_t pixel_count, std::span<std::uint32_t> words) {
@@ -141,12 +142,11 @@ void Film::download(std::uint32_t first_pixel, std::uint32_t pixel_count, std::s
 
 namespace {
 
-// Adds the words of the same pixels in another film, plane by plane: a sum's carries go from each word to the next.
-void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> other, std::size_t plane_pixels) {
+// Adds another part's words of the same pixels, plane by plane: a sum's carries go from each word to the next.
+void add_part(std::span<std::uint32_t> words, std::span<const std::uint32_t> other, std::size_t plane_pixels) {
     std::vector<std::uint32_t> carries(plane_pixels);
-    for (std::size_t plane = 0; plane < Film::words_per_pixel; ++plane) {
-        const std::size_t plane_of_half = plane % gpu::FILM_WORDS;
-        if (plane_of_half >= gpu::FILM_ACCEPTED || plane_of_half % gpu::FILM_SUM_WORDS == 0)
+    for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
+        if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
             std::ranges::fill(carries, 0U);
         for (std::size_t pixel = 0; pixel < plane_pixels; ++pixel) {
             std::uint32_t &word = words[plane * plane_pixels + pixel];
@@ -157,9 +157,23 @@ void add_words(std::span<std::uint32_t> words, std::span<const std::uint32_t> ot
     }
 }
 
+void add_film(std::span<std::uint32_t> words, std::span<const std::uint32_t> other, std::size_t plane_pixels) {
+    const std::size_t part_words = gpu::FILM_WORDS * plane_pixels;
+    for (std::size_t part = 0; part < gpu::FILM_PARTS; ++part)
+        add_part(words.subspan(part * part_words, part_words), other.subspan(part * part_words, part_words),
+                 plane_pixels);
+}
+
+// What fold.comp does, for a film whose device has taken no sample since.
+void fold_parts(std::span<std::uint32_t> words, std::size_t plane_pixels) {
+    const std::span<std::uint32_t> newer = words.subspan(gpu::FILM_WORDS * plane_pixels);
+    add_part(words.first(gpu::FILM_WORDS * plane_pixels), newer, plane_pixels);
+    std::ranges::fill(newer, 0U);
+}
+
 } // namespace
 
-void read_films(std::span<Film *const> films, double unit, const HalfCounts &expected, bool with_standard_error,
+void read_films(std::span<Film *const> films, double unit, const PartCounts &expected, bool with_standard_error,
                 const std::function<void(const PixelEstimates &)> &receive) {
     // A piece at a time, so that a large image is not held twice. Were planes a power of two apart, the words of a
     // pixel would contend for one set of the processor's cache.
@@ -169,12 +183,16 @@ void read_films(std::span<Film *const> films, double unit, const HalfCounts &exp
     std::vector<std::uint32_t> others;
     for (std::uint32_t first = 0; first < pixel_count; first += std::min(piece_pixels, pixel_count - first)) {
         const std::uint32_t count = std::min(piece_pixels, pixel_count - first);
-        words.resize(count * Film::words_per_pixel);
-        films.front()->download(first, count, words);
+        const auto read = [&](Film &film, std::vector<std::uint32_t> &into) {
+            into.resize(count * Film::words_per_pixel);
+            film.download(first, count, into);
+            if (film.older_end() < expected[0])
+                fold_parts(into, count);
+        };
+        read(*films.front(), words);
         for (Film *film : films.subspan(1)) {
-            others.resize(words.size());
-            film->download(first, count, others);
-            add_words(words, others, count);
+            read(*film, others);
+            add_film(words, others, count);
         }
         receive(pixel_estimates(words, count, unit, expected, with_standard_error));
     }
@@ -185,8 +203,8 @@ std::uint64_t Film::rejected_samples() {
     std::vector<std::uint32_t> plane;
     for (Strip &strip : strips_) {
         plane.resize(strip.pixel_count);
-        for (std::size_t half = 0; half < gpu::FILM_HALVES; ++half) {
-            const std::uint64_t index = half * gpu::FILM_WORDS + gpu::FILM_REJECTED;
+        for (std::size_t part = 0; part < gpu::FILM_PARTS; ++part) {
+            const std::uint64_t index = part * gpu::FILM_WORDS + gpu::FILM_REJECTED;
             strip.words.download(std::as_writable_bytes(std::span(plane)),
                                  index * strip.pixel_count * sizeof(std::uint32_t));
             total = std::accumulate(plane.begin(), plane.end(), total);

@@ -3,17 +3,20 @@
 
 #include "error.h"
 #include "gpu_scene.h"
-#include "sample_halves.h"
+#include "sample_parts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 namespace pt {
 
 namespace {
 
-// Tables of points for one slice: 4 MiB at the most.
+// Tables of points for one slice, 4 MiB at the most: one for each dispatch. A slice of 48 dispatches of 1023 samples is cut
+// at no more than 13 powers of two, the first of them 8.
 constexpr std::uint32_t max_tables = 64;
+constexpr std::uint32_t max_full_dispatches = 48;
 
 std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t words) {
     const std::uint64_t bytes = std::max<std::uint64_t>(words, gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
@@ -56,12 +59,14 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     layout_(pt::point_layout(features_)),
     sampler_(settings.sampler),
     seed_(settings.seed),
+    first_index_(settings.first_sample),
     first_pixel_(settings.first_row * settings.width),
     film_unit_(pt::film_unit(scene)),
     frame_(frame_constants(camera, settings, film_unit_)),
     table_bytes_(device.limits().max_uniform_range),
     sharers_(sharers_of_pixel(device, film.pixel_count())),
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
+    overlap_(device.policy().invocations > 0),
     words_(gpu_scene(scene, camera, features_)),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, words_.size()), "scene"),
     points_(device, vulkan::BufferUse::Streamed,
@@ -76,37 +81,30 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
 }
 
 std::uint32_t Kernel::max_samples() const {
-    return longest_range(max_dispatch_samples_ * (max_tables / gpu::FILM_HALVES));
+    return max_dispatch_samples_ * max_full_dispatches;
 }
 
-// The samples of a slice as rounds, each of at most one dispatch for each half: those of a round may run at the same
-// time. Their tables are free: slices end in the order in which they were started, and there is room for all that are
-// under way.
-std::vector<std::vector<Kernel::Batch>> Kernel::next_rounds(std::uint32_t first_sample, std::uint32_t sample_count) {
-    std::vector<std::vector<Batch>> rounds;
-    for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half) {
-        const HalfRange range = SampleHalves(sampler_).range(half, first_sample, sample_count);
-        for (std::uint32_t done = 0; done < range.sample_count; done += max_dispatch_samples_) {
-            const std::size_t round = done / max_dispatch_samples_;
-            rounds.resize(std::max(rounds.size(), round + 1));
-            const std::uint32_t count = std::min(max_dispatch_samples_, range.sample_count - done);
-            rounds[round].push_back({half, range.first_pair + done, count, next_table_ * table_bytes_});
-            next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
-        }
+// The samples of a slice as batches of one dispatch each, all of one part of the film. Their tables are free: slices end in
+// the order in which they were started, and there is room for all that are under way.
+std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std::uint32_t sample_count) {
+    std::vector<Batch> batches;
+    const std::uint32_t end = first_sample + sample_count;
+    for (std::uint32_t sample = first_sample; sample < end; sample += batches.back().sample_count) {
+        const std::uint32_t of_part = std::min(end, end_of_part(sample)) - sample;
+        batches.push_back({sample, std::min(max_dispatch_samples_, of_part), next_table_ * table_bytes_});
+        next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
     }
-    return rounds;
+    return batches;
 }
 
-void Kernel::upload_points(const std::vector<std::vector<Batch>> &rounds) {
+void Kernel::upload_points(const std::vector<Batch> &batches) {
     if (layout_.row_blocks() == 0)
         return;
-    for (const std::vector<Batch> &round : rounds) {
-        for (const Batch &batch : round) {
-            const std::vector<std::uint32_t> indices =
-                SampleHalves(sampler_).indices(batch.half, {batch.first_pair, batch.sample_count});
-            const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
-            points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
-        }
+    for (const Batch &batch : batches) {
+        std::vector<std::uint32_t> indices(batch.sample_count);
+        std::iota(indices.begin(), indices.end(), first_index_ + batch.first_sample);
+        const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
+        points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
     }
 }
 
@@ -115,8 +113,8 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
                       const Slice &slice, const Batch &batch, std::uint32_t invocations_per_pixel) const {
     gpu::FrameConstants frame = frame_;
     frame.split_pass = slice.whole ? 0 : 1;
-    frame.film_half = batch.half;
-    frame.first_pair = batch.first_pair;
+    frame.film_part = part_of(batch.first_sample);
+    frame.first_sample = first_index_ + batch.first_sample;
     frame.sample_count = batch.sample_count;
     const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
     for (std::size_t i = 0; i < sets_.size(); ++i) {
@@ -135,24 +133,36 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
+// Each batch finds the film's older part complete: where it is not, the newer one is folded into it first.
 vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample) {
+    const Slice all_pixels{0, film_.pixel_count(), 1, false};
     const bool pass_complete = !slice.whole && slice.first_pixel + slice.pixel_count == film_.pixel_count();
-    const std::vector<std::vector<Batch>> rounds = next_rounds(first_sample, slice.sample_count);
-    upload_points(rounds);
+    const bool adds_to_film = slice.whole || pass_complete;
+    std::uint32_t older_end = film_.older_end();
+    const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count);
+    upload_points(batches);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
-    return device_.start([&](const vk::raii::CommandBuffer &commands) {
-        for (std::size_t i = 0; i < rounds.size(); ++i) {
-            if (i > 0)
+    const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
+        for (const Batch &batch : batches) {
+            const bool is_first = &batch == &batches.front();
+            const std::uint32_t needed = part_counts(batch.first_sample + 1)[0];
+            const bool folds = adds_to_film && needed > older_end;
+            if (!is_first && (folds || !overlap_))
                 vulkan::barrier_between_dispatches(commands);
-            for (const Batch &batch : rounds[i])
-                dispatch(commands, trace, slice, batch, sharers_);
+            if (folds) {
+                dispatch(commands, pipelines_.fold(), all_pixels, batch, 1);
+                vulkan::barrier_between_dispatches(commands);
+                older_end = needed;
+            }
+            dispatch(commands, trace, slice, batch, sharers_);
         }
         if (pass_complete) {
-            const Slice whole_pass{0, film_.pixel_count(), 1, false};
             vulkan::barrier_between_dispatches(commands);
-            dispatch(commands, pipelines_.commit(), whole_pass, rounds[0][0], 1); // a pass is one sample
+            dispatch(commands, pipelines_.commit(), all_pixels, batches[0], 1); // a pass is one sample
         }
     });
+    film_.set_older_end(older_end);
+    return ticket;
 }
 
 double Kernel::finish(vulkan::Device::Ticket ticket) {

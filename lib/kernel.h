@@ -34,24 +34,24 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Starts to take the samples of a slice, of which the first has the index first_sample; with the last slice of a
-    // split pass adds the pass to the film. At most the device's queue_depth of slices may be under way.
+    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in
+    // sample_parts.h; with the last slice of a split pass adds the pass to the film. At most the device's queue_depth of
+    // slices may be under way.
     vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
 
     // Waits for a slice and returns the seconds it took.
     double finish(vulkan::Device::Ticket ticket);
 
 private:
-    // Samples of one half that a dispatch takes, and where the table of their points is.
+    // Samples that a dispatch takes, and where the table of their points is.
     struct Batch {
-        std::uint32_t half;
-        std::uint32_t first_pair;
+        std::uint32_t first_sample;
         std::uint32_t sample_count;
         std::uint32_t table_offset; // bytes
     };
 
-    std::vector<std::vector<Batch>> next_rounds(std::uint32_t first_sample, std::uint32_t sample_count);
-    void upload_points(const std::vector<std::vector<Batch>> &rounds);
+    std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count);
+    void upload_points(const std::vector<Batch> &batches);
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
                   const Batch &batch, std::uint32_t invocations_per_pixel) const;
 
@@ -62,12 +62,14 @@ private:
     PointLayout layout_;
     std::uint32_t sampler_;
     std::uint64_t seed_;
+    std::uint32_t first_index_; // of the first sample in the sequence
     std::uint32_t first_pixel_; // of the film, in the image
     double film_unit_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees
     std::uint32_t sharers_;              // invocations to a pixel
     std::uint32_t max_dispatch_samples_; // per pixel
+    bool overlap_;                       // dispatches may add to the film at the same time
     std::vector<glm::vec4> words_;       // the scene
     vulkan::Buffer scene_;
     vulkan::Buffer points_;                   // tables of the slices under way

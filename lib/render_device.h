@@ -44,8 +44,8 @@ public:
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
     bool is_idle() const { return under_way_.empty(); }
 
-    // Starts a slice: the next of the pass under way, or one of at most remaining samples, of which the first has the
-    // index next_sample. Returns how many samples it has begun: 0 within a pass. has_room() must hold.
+    // Starts a slice: the next of the pass under way, or one of at most remaining samples, of which next_sample is the
+    // first, numbered from 0. Returns how many samples it has begun: 0 within a pass. has_room() must hold.
     std::uint32_t start(std::uint32_t next_sample, std::uint32_t remaining);
 
     // Whether finish() would not wait. Not idle.
@@ -72,7 +72,7 @@ private:
     std::optional<Schedule> schedule_; // of the kernel
     std::deque<Work> under_way_;
     std::uint32_t pass_pixels_ = 0;
-    std::uint32_t pass_sample_ = 0; // index of the pass's sample
+    std::uint32_t pass_sample_ = 0; // number of the pass's sample
 };
 
 } // namespace pt

@@ -3,7 +3,7 @@
 
 #include "accuracy.h"
 #include "error.h"
-#include "sample_halves.h"
+#include "sample_parts.h"
 #include "vulkan/device_choice.h"
 
 #include <algorithm>
@@ -95,23 +95,14 @@ std::vector<Film *> Renderer::films() const {
     return films;
 }
 
-// Samples that the films hold.
-HalfCounts Renderer::half_counts() const {
-    HalfCounts counts{};
-    for (std::uint32_t half = 0; half < gpu::FILM_HALVES; ++half)
-        counts[half] =
-            SampleHalves(settings_->sampler).range(half, settings_->first_sample, samples_done_).sample_count;
-    return counts;
-}
-
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_done_ < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
-        read_films(films(), kernel().film_unit(), half_counts(), true,
+        read_films(films(), kernel().film_unit(), part_counts(samples_done_), true,
                    [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
-        error_ = estimator.result(accuracy_of_halves(settings_->sampler, kernel().point_layout(), samples_done_));
+        error_ = estimator.result(exaggeration(settings_->sampler));
     }
     return *error_;
 }
@@ -156,7 +147,7 @@ void Renderer::take_samples(std::uint32_t end, Job &job) {
         const bool begins = device.pass_pixels() == 0 && !job.stopped && dealt < end;
         if (!device.has_room() || !(finishes_pass || begins))
             return false;
-        dealt += device.start(settings_->first_sample + dealt, end - dealt);
+        dealt += device.start(dealt, end - dealt);
         return true;
     };
     const auto take = [&] {
@@ -218,7 +209,7 @@ void Renderer::readback(const Image &image) {
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
     const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
-    read_films(films(), kernel().film_unit(), half_counts(), is_error, [&](const PixelEstimates &pixels) {
+    read_films(films(), kernel().film_unit(), part_counts(samples_done_), is_error, [&](const PixelEstimates &pixels) {
         const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;
         for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
             std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);

@@ -78,7 +78,6 @@ private:
     bool is_in_pass() const;
     const Kernel &kernel() const { return *devices_.front()->kernel(); }
     std::vector<Film *> films() const;
-    HalfCounts half_counts() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
     void take_samples(std::uint32_t end, Job &job);

@@ -150,6 +150,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_BRANCH_COUNT] = branch_count(features);
     constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
     constants[gpu::ID_SHARERS] = 1;
+    constants[gpu::ID_OVERLAP] = 0;
     constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
     constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;

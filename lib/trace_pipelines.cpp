@@ -2,6 +2,7 @@
 #include "trace_pipelines.h"
 
 #include "commit.spv.h"
+#include "fold.spv.h"
 #include "gpu_layout.h"
 #include "pathtrace.spv.h"
 
@@ -28,6 +29,7 @@ std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, c
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
     result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
     result[gpu::ID_SHARERS] = sharers;
+    result[gpu::ID_OVERLAP] = device.policy().invocations > 0 ? 1 : 0;
     return result;
 }
 
@@ -69,6 +71,12 @@ const vulkan::ComputePipeline &TracePipelines::commit() {
     if (!commit_)
         commit_.emplace(device_, commit_spirv, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
     return *commit_;
+}
+
+const vulkan::ComputePipeline &TracePipelines::fold() {
+    if (!fold_)
+        fold_.emplace(device_, fold_spirv, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
+    return *fold_;
 }
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp and commit.comp, kept from scene to scene. Owned by Renderer, used by
+// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene. Owned by Renderer, used by
 // Kernel.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace pt {
 
-// Both have the same bindings, so a descriptor set of one does for the other.
+// All have the same bindings, so a descriptor set of one does for the others.
 class TracePipelines {
 public:
     // The device must outlive the pipelines.
@@ -29,6 +29,9 @@ public:
     // The kernel that adds a split pass to the film.
     const vulkan::ComputePipeline &commit();
 
+    // The kernel that adds the film's newer part to the older one.
+    const vulkan::ComputePipeline &fold();
+
 private:
     // A pipeline and what it is specialised to.
     struct Specialised {
@@ -43,6 +46,7 @@ private:
     std::optional<Specialised> any_scene_; // reads the scene from a buffer
     std::optional<Specialised> one_scene_; // has the scene's numbers as constants
     std::optional<vulkan::ComputePipeline> commit_;
+    std::optional<vulkan::ComputePipeline> fold_;
 };
 
 } // namespace pt

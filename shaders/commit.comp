@@ -1,4 +1,4 @@
-// Adds the finished samples of a split pass to their half of the film: one invocation per pixel of the strip.
+// Adds the finished samples of a split pass to the film: one invocation per pixel of the strip.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -21,5 +21,5 @@ void main()
     FilmPixel gathered = empty_film_pixel();
     if (sample_value.a == 1.0)
         film_add(gathered, sample_value.rgb);
-    film_store(frame.film_half, pixel_in_strip, frame.strip_pixel_count, gathered, false);
+    film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, false);
 }

@@ -1,5 +1,5 @@
-// Exact sums of samples: 128-bit fixed point, so that addition commutes and associates. Used by pathtrace.comp and
-// commit.comp; gpu_layout.h has the layout, lib/film.cpp reads it.
+// Exact sums of samples: 128-bit fixed point, so that addition commutes and associates. Used by pathtrace.comp,
+// commit.comp and fold.comp; gpu_layout.h has the layout, lib/film.cpp reads it.
 #ifndef FILM_GLSL
 #define FILM_GLSL
 
@@ -15,14 +15,6 @@ struct FilmPixel {
     uint accepted;
     uint rejected;
 };
-
-// Index of the one of the samples 2 * pair and 2 * pair + 1 that belongs to a half: bit 0 adds to the parity of the
-// other bits that are in the mask.
-uint sample_of_pair(uint pair, uint film_half, uint mask)
-{
-    uint even = pair << 1u;
-    return even | ((uint(bitCount(even & mask)) ^ film_half) & 1u);
-}
 
 FilmPixel empty_film_pixel()
 {
@@ -119,11 +111,11 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
     }
 }
 
-// Adds what an invocation has gathered to its pixel of the strip, in one half of the film. shared_pixel: other
+// Adds what an invocation has gathered to its pixel of the strip, in one part of the film. shared_pixel: other
 // invocations may do so at the same time.
-void film_store(uint film_half, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel)
+void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel)
 {
-    uint first = film_half * FILM_WORDS * strip_pixel_count + pixel_in_strip;
+    uint first = film_part * FILM_WORDS * strip_pixel_count + pixel_in_strip;
     uint accepted = first + FILM_ACCEPTED * strip_pixel_count;
     uint rejected = first + FILM_REJECTED * strip_pixel_count;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {

@@ -36,7 +36,8 @@ PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point tab
 PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
 PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
-PT_CONSTANT CONSTANT_COUNT = 16;
+PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
+PT_CONSTANT CONSTANT_COUNT = 17;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -109,17 +110,11 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
-// ---- Film: two halves, each planes of one uint per pixel of the strip -----------------------------------------------
-// A sample belongs to the half that is the parity of its index, masked: the image is the sum of the halves, and their
-// difference tells its error. The masks have bit 0, so that of the pair of samples 2k and 2k + 1 each half has one.
-// Their other bits make the halves of a point set good point sets themselves (README.md, section 11): those of Sobol
-// are stratified in every dimension; those of Halton, where every bit costs uniformity in the odd bases, have few.
-PT_CONSTANT FILM_HALVES = 2;
-PT_FUNCTION uint half_mask(uint sampling)
-{
-    return sampling == SAMPLER_HALTON || sampling == SAMPLER_HALTON_CP ? 0x42108421u : 0x7e762db7u;
-}
-// Of a half, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
+// ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
+// Part 0 has the older samples and part 1 those since (lib/sample_parts.h): the image is the sum of both, and their
+// difference tells its error.
+PT_CONSTANT FILM_PARTS = 2;
+// Of a part, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
 // significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units
 // (FrameConstants.film_scale).
 PT_CONSTANT FILM_SUM_WORDS = 4;
@@ -145,8 +140,8 @@ struct FrameConstants {
     uint strip_pixel_count;
     uint first_pixel; // of this slice, in the strip
     uint pixel_count;
-    uint film_half;    // to which the samples of this dispatch belong
-    uint first_pair;   // the first sample is the one of the pair 2k, 2k + 1 in that half, k = first_pair; then the next
+    uint film_part;    // to which the samples of this dispatch are added
+    uint first_sample; // index in the sequence
     uint sample_count; // >= 1
     uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
 };

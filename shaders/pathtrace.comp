@@ -1,4 +1,4 @@
-// The path tracer's kernel: each invocation takes samples of a slice that belong to one half of the film, in one pixel;
+// The path tracer's kernel: each invocation takes samples of a slice in one pixel;
 // SHARERS of them, along y, share those of a pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -34,8 +34,7 @@ void main()
     FilmPixel gathered = empty_film_pixel();
     vec3 value;
     do {
-        uint sample_index = sample_of_pair(frame.first_pair + done, frame.film_half, half_mask(SAMPLER));
-        SampleKey key = SampleKey(frame.seed, pixel_index, sample_index, done * row_length);
+        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
         film_add(gathered, value);
         ++done;
@@ -44,5 +43,5 @@ void main()
     if (frame.split_pass == 1u)
         split_pass.samples[pixel_in_strip] = vec4(value, 1.0);
     else
-        film_store(frame.film_half, pixel_in_strip, frame.strip_pixel_count, gathered, SHARERS > 1u);
+        film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u);
 }

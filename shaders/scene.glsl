@@ -23,6 +23,7 @@ layout(constant_id = ID_CURVATURE) const uint CURVATURE = 0;
 layout(constant_id = ID_INSIDE) const uint INSIDE = 1;
 layout(constant_id = ID_PLANES_BLOCK) const uint PLANES_BLOCK = 1;
 layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
+layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {

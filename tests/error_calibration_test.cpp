@@ -3,7 +3,7 @@
 #include "coursework_scene.h"
 #include "error_estimate.h"
 #include "reference_image.h"
-#include "sample_halves.h"
+#include "sample_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -37,12 +37,11 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// What the stated error over the true one may be. Random samples: both come from tens of thousands of values, of which the
+// What the stated error over the true one may be in these cases; over many, 5% of all are below 0.9 (shaders/README.md). Random samples: both come from tens of thousands of values, of which the
 // brightest few hundred weigh most, so either scatters by some per cent. Sequences: up to 2^p - 1 with 1 <= p <= 2 more in mean
-// square (error_estimate.cpp), hence sqrt(3), and more where a half is not as good a net as any of its size: up to the factor 2
-// that is promised.
+// square (error_estimate.cpp), hence sqrt(3), and more where the denominators err: up to the factor 2 that is promised.
 constexpr Judgement of_random{0.9, 1.2};
-constexpr Judgement of_sequence{0.9, 2.0};
+constexpr Judgement of_sequence{0.8, 2.0};
 
 struct Case {
     const char *reference;
@@ -119,25 +118,25 @@ INSTANTIATE_TEST_SUITE_P(Coursework, StatedError,
                                          Case{"coursework-diffuse_L6", true, 6, PT_SAMPLER_SOBOL, of_sequence}),
                          [](const auto &instance) { return name_of(instance.param); });
 
-// The error that an estimate from halves of single samples states: sums of the samples of each half, by the given rule.
-template <typename HalfOf>
-double error_from_halves(const std::vector<Image> &samples, const HalfOf &half_of) {
+// The error that an estimate from parts of single samples states: sums of the samples of each part, by the given rule.
+template <typename PartOf>
+double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
     Image mean(samples[0].size());
     Image error(samples[0].size());
     for (std::size_t i = 0; i < mean.size(); ++i) {
         double sums[2] = {};
         for (std::size_t s = 0; s < samples.size(); ++s)
-            sums[half_of(static_cast<uint32_t>(s))] += static_cast<double>(samples[s][i]);
+            sums[part_of(static_cast<uint32_t>(s))] += static_cast<double>(samples[s][i]);
         mean[i] = static_cast<float>((sums[0] + sums[1]) / static_cast<double>(samples.size()));
         error[i] = static_cast<float>(std::abs(sums[0] - sums[1]) / static_cast<double>(samples.size()));
     }
     pt::ErrorEstimator estimator(width);
     estimator.add(mean, error);
-    return estimator.result({1.0, 1.0}).relative_rmse.estimate;
+    return estimator.result(1.0).relative_rmse.estimate;
 }
 
-// Halves put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are the first
-// digit of the first dimension, the place in the pixel, so that each half would see one half of every pixel.
+// Parts put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are the first
+// digit of the first dimension, the place in the pixel, so that each part would see one half of every pixel.
 TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;
@@ -149,9 +148,10 @@ TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
     set_up(false, 2, PT_SAMPLER_SOBOL);
     accumulate(sample_count);
     const double truth = relative_rmse(image(), read_reference("coursework_L2").radiance);
-    const pt::SampleHalves halves(PT_SAMPLER_SOBOL);
-    const double by_film = error_from_halves(samples, [&](uint32_t i) { return halves.half_of(i); });
-    const double by_parity = error_from_halves(samples, [](uint32_t i) { return i % 2; });
+    const uint32_t older = pt::part_counts(sample_count)[0];
+    ASSERT_EQ(2 * older, sample_count);
+    const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
+    const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
     // Roundings of images to float32 are far below 1e-4 of the error.
     EXPECT_NEAR(by_film, stats().relative_rmse, 1e-4 * by_film);
     EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;

@@ -12,13 +12,11 @@
 
 namespace {
 
-constexpr pt::HalvesAccuracy exact{1.0, 1.0};
-
 pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radiance,
-                           const std::vector<float> &standard_error, const pt::HalvesAccuracy &accuracy = exact) {
+                           const std::vector<float> &standard_error, double exaggeration = 1.0) {
     pt::ErrorEstimator estimator(width);
     estimator.add(radiance, standard_error);
-    return estimator.result(accuracy);
+    return estimator.result(exaggeration);
 }
 
 // 3^2 + 4^2 over 6 values; relative to 10^2 + 0.01 and to 0.01.
@@ -59,10 +57,10 @@ TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     EXPECT_DOUBLE_EQ(found.estimate, std::sqrt(2.5));
     EXPECT_DOUBLE_EQ(found.high, std::sqrt(2.5) * spread);
     EXPECT_DOUBLE_EQ(found.low, std::sqrt(2.5) / spread);
-    const pt::Interval adjusted = estimate(16, radiance, errors, {1.5, 2.0}).rmse;
-    EXPECT_DOUBLE_EQ(adjusted.estimate, 1.5 * found.estimate);
-    EXPECT_DOUBLE_EQ(adjusted.high, 1.5 * found.high);
-    EXPECT_DOUBLE_EQ(adjusted.low, 1.5 * found.low / 2.0);
+    const pt::Interval adjusted = estimate(16, radiance, errors, 2.0).rmse;
+    EXPECT_EQ(adjusted.estimate, found.estimate);
+    EXPECT_EQ(adjusted.high, found.high);
+    EXPECT_DOUBLE_EQ(adjusted.low, found.low / 2.0);
 }
 
 // However the pixels are cut into pieces; with tiles cut off at the right and at the bottom.
@@ -81,7 +79,7 @@ TEST(ErrorEstimate, DoesNotDependOnThePieces) {
         const std::size_t count = std::min<std::size_t>(3 * 50, radiance.size() - first);
         estimator.add(std::span(radiance).subspan(first, count), std::span(errors).subspan(first, count));
     }
-    const pt::ErrorEstimate pieces = estimator.result(exact);
+    const pt::ErrorEstimate pieces = estimator.result(1.0);
     EXPECT_EQ(pieces.rmse.estimate, whole.rmse.estimate);
     EXPECT_EQ(pieces.relative_rmse.estimate, whole.relative_rmse.estimate);
     EXPECT_EQ(pieces.relative_rmse.high, whole.relative_rmse.high);
@@ -94,28 +92,20 @@ TEST(SquaredLimit, IsThatOfThePixelWhereItsHalvesAgree) {
     EXPECT_EQ(pt::squared_limit(3.0, 0.0, 9.0), 9.0); // a dark spot on a bright ground
 }
 
-TEST(SquaredLimit, OfAFireflyIsThatOfItsNeighboursOrItsDarkerHalf) {
-    EXPECT_EQ(pt::squared_limit(8.0, 7.0, 4.0), 16.0);
-    EXPECT_EQ(pt::squared_limit(8.0, 5.0, 0.5), 9.0);
-    EXPECT_EQ(pt::squared_limit(8.0, 8.0, 0.5), 4.0); // but not below a quarter of its mean
+TEST(SquaredLimit, LeavesOutTheVarianceAndAHalf) {
+    EXPECT_EQ(pt::squared_limit(8.0, 4.0, 0.5), 40.0);
 }
 
-TEST(HalvesAccuracy, IsFullForRandomSamples) {
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {{}, 0, 1}, 16).unseen, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_RANDOM, {{}, 0, 1}, 16).exaggerated, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {{2, 2, 2, 3, 3}, 3, 4}, 16).unseen, 1.0);
-    EXPECT_EQ(pt::accuracy_of_halves(PT_SAMPLER_SOBOL, {{2, 2, 2, 3, 3}, 3, 4}, 16).exaggerated, std::sqrt(3.0));
+TEST(SquaredLimit, OfAFireflyIsThatOfItsNeighbours) {
+    EXPECT_EQ(pt::squared_limit(8.0, 7.5, 4.0), 16.0);
+    EXPECT_EQ(pt::squared_limit(8.0, 8.0, 0.5), 4.0);  // but not below a quarter of its mean
+    EXPECT_EQ(pt::squared_limit(8.0, 24.0, 0.5), 4.0); // of few samples among many
 }
 
-// 16 samples against 4 * 2, 4 * 3, 4 * 5 and 4 * 7: two of four bases are covered.
-TEST(HalvesAccuracy, OfHaltonCountsTheBasesThatTheSamplesDoNotCover) {
-    for (const std::uint32_t sampler : {PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP}) {
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 16).unseen, std::sqrt(1.35));
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 28).unseen, 1.0);
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{4}, 1, 1}, 7).unseen, std::sqrt(1.7));
-        EXPECT_EQ(pt::accuracy_of_halves(sampler, {{2, 2}, 1, 4}, 7).unseen, std::sqrt(1.35))
-            << "4 branches cover more";
-    }
+TEST(Exaggeration, IsThatOfNetsForSequencesOnly) {
+    EXPECT_EQ(pt::exaggeration(PT_SAMPLER_RANDOM), 1.0);
+    for (const std::uint32_t sampler : {PT_SAMPLER_HALTON, PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL})
+        EXPECT_EQ(pt::exaggeration(sampler), std::sqrt(3.0));
 }
 
 TEST(Checks, AreAtEighthsOfPowersOfTwo) {

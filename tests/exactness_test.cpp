@@ -57,7 +57,7 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
     EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
 }
 
-// A dispatch gathers so many samples of a half before it adds them to the film, and the table of a sequence's points
+// A dispatch gathers so many samples before it adds them to the film, and the table of a sequence's points
 // has room for so many: where the samples of a call reach that, pass it, or pass it by far, they are those of many
 // calls.
 class GatheringTest : public ExactnessTest {
@@ -85,8 +85,8 @@ protected:
         return image;
     }
 
-    // Samples of a half that a dispatch can take at most.
-    uint32_t most_of_a_half(const Paths &paths) {
+    // Samples that a dispatch can take at most.
+    uint32_t most_of_a_dispatch(const Paths &paths) {
         CourseworkScene coursework;
         const pt::Features features =
             pt::features_of(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
@@ -114,21 +114,22 @@ protected:
     }
 };
 
+// A dispatch does not reach over a power of two, so it takes the most that it can after one.
 TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
-    ASSERT_EQ(most_of_a_half(paths), pt::gpu::FILM_MAX_GATHERED);
-    constexpr uint32_t most = 2 * pt::gpu::FILM_MAX_GATHERED;
-    for (const uint32_t sample_count : {most / 2, most / 2 + 1, most, most + 1, most + 2, 2 * most + 3})
-        expect_same_in_pieces(paths, sample_count);
+    constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
+    ASSERT_EQ(most_of_a_dispatch(paths), most);
+    for (const uint32_t sample_count : {most - 1, most, most + 1, most + 2, 3 * most + 3})
+        expect_same_in_pieces(paths, 1024 + sample_count);
 }
 
 TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
     constexpr Paths paths{PT_SAMPLER_SOBOL, 3};
-    const uint32_t most = 2 * most_of_a_half(paths);
-    ASSERT_LT(most, 2 * pt::gpu::FILM_MAX_GATHERED);
+    const uint32_t most = most_of_a_dispatch(paths);
+    ASSERT_LT(most, 512U);
     ASSERT_GT(most, 211U);
-    for (const uint32_t sample_count : {most, most + 1, most + 2, 3 * most + 1})
-        expect_same_in_pieces(paths, sample_count);
+    for (const uint32_t sample_count : {most - 1, most, most + 1, 512 + 3 * most + 1})
+        expect_same_in_pieces(paths, 512 + sample_count);
 }
 
 // A sphere about the camera that emits 160 film units, 2 * 2^6 and half of 2^6: 2^21 times what the second window of an
@@ -250,8 +251,10 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// The standard error of a sample's image from one of each half is half of their difference, as is that of many.
-TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheHalves) {
+// Standard errors of n samples against the images of the first a of them, the largest power of two below n, and of the
+// others, each rendered by itself: |A - B| sqrt(a b) / n. In calls that end before, at and after the numbers at which the
+// parts of the film are folded, and across several of them.
+TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
         const pt_image target{sizeof target, PT_QUANTITY_STANDARD_ERROR, errors.data(), errors.size() * sizeof(float),
@@ -259,14 +262,43 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheHalves) {
         EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
         return errors;
     };
-    const Image both = image_of({2});
-    const Image found = standard_errors();
-    const Image first = image_of({1});
-    EXPECT_EQ(standard_errors(), Image(found.size(), std::numeric_limits<float>::infinity()));
-    for (std::size_t i = 0; i < found.size(); ++i)
-        // |a - b| / 2 = |a - (a + b) / 2|, up to two roundings to float32.
-        ASSERT_NEAR(found[i], std::abs(double{first[i]} - double{both[i]}), 2e-7 * (first[i] + both[i]))
-            << "value " << i;
+    const auto part_of = [&](uint32_t first, uint32_t count) {
+        set_up_coursework(context(), 3);
+        pt_render render = render_of(width, height, 3);
+        render.first_sample = first;
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        accumulate(count);
+        Image image(width * height * 3);
+        readback(image);
+        return image;
+    };
+    // The largest deviation from the standard errors of two parts, over what rounding explains: of the two images and of
+    // the standard error to float32.
+    const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
+        double worst = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const double scale = std::sqrt(a * b) / (a + b);
+            const double expected = std::abs(double{older[i]} - double{newer[i]}) * scale;
+            const double rounding = 0x1p-24 * ((double{older[i]} + double{newer[i]}) * scale + double{found[i]});
+            worst = std::max(worst, std::abs(double{found[i]} - expected) / std::max(rounding, 1e-30));
+        }
+        return worst;
+    };
+    image_of({8});
+    EXPECT_EQ(standard_errors(), Image(width * height * 3, std::numeric_limits<float>::infinity()));
+    const struct {
+        std::vector<uint32_t> calls;
+        uint32_t older, newer;
+    } cases[] = {{{9}, 8, 1}, {{5, 11}, 8, 8}, {{16, 1}, 16, 1}, {{40}, 32, 8}, {{1, 15, 16, 32}, 32, 32}};
+    for (const auto &[calls, older, newer] : cases) {
+        image_of(calls);
+        const Image found = standard_errors();
+        const Image first = part_of(0, older);
+        const Image last = part_of(older, newer);
+        EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
+        // Negative control: a sample that is missing from a part shows.
+        EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
+    }
 }
 
 // Samples are a pure function of their index: two halves of a sequence, taken apart, average to the whole.

@@ -4,8 +4,6 @@
 #include "expected_error.h"
 #include "film_sums.spv.h"
 #include "probe.h"
-#include "sample_halves.h"
-#include "sample_pairs.spv.h"
 
 #include <gtest/gtest.h>
 
@@ -67,10 +65,10 @@ std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, st
     return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
 }
 
-// In the second half of the film; the first stays as it is.
+// In the second part of the film; the first stays as it is.
 TEST(Film, DeviceSumsAreExact) {
     struct {
-        std::uint32_t per_pixel, count, film_half;
+        std::uint32_t per_pixel, count, film_part;
     } push{per_pixel, pixels, 1};
     const std::vector<glm::vec4> samples = awkward_samples();
     Probe probe(film_sums_spirv, sizeof push);
@@ -103,7 +101,7 @@ TEST(Film, DeviceSumsAreExact) {
 // brightest sample, the others by halves of a window's unit that round up or down.
 TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     struct {
-        std::uint32_t per_pixel, count, film_half;
+        std::uint32_t per_pixel, count, film_part;
     } push{pt::gpu::FILM_MAX_GATHERED, 4, 0};
     const float extremes[] = {0x1.fffffep27F, 0x1.fffffp4F, 0x1.00001p5F, 0x1.fffffep-18F};
     std::vector<glm::vec4> samples;
@@ -118,39 +116,22 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     }
 }
 
-// The kernel and the host agree on which samples belong to which half.
-TEST(Film, DeviceFindsTheSampleOfEachHalfInAPair) {
-    constexpr std::uint32_t count = 1000;
-    for (const std::uint32_t first_pair : {0U, 123456U, (1U << 31) - count}) {
-        struct {
-            std::uint32_t first_pair, count, mask;
-        } push{first_pair, count, pt::gpu::half_mask(PT_SAMPLER_SOBOL)};
-        const auto found = Probe(sample_pairs_spirv, sizeof push).run<glm::uvec2>({}, count, push, count);
-        for (std::uint32_t half = 0; half < 2; ++half) {
-            const std::vector<std::uint32_t> expected =
-                pt::SampleHalves(PT_SAMPLER_SOBOL).indices(half, {first_pair, count});
-            for (std::uint32_t i = 0; i < count; ++i)
-                ASSERT_EQ(found[i][static_cast<int>(half)], expected[i]) << "half " << half << ", pair " << i;
-        }
-    }
-}
-
-// What one half of the film holds of a pixel, with the red sum as a number of units.
-struct Half {
+// What one part of the film holds of a pixel, with the red sum as a number of units.
+struct Part {
     std::uint32_t red;
     std::uint32_t accepted;
     std::uint32_t rejected;
 };
 
 // Estimates from a film of one pixel, with the unit 0.25.
-pt::PixelEstimates estimates(const Half &a, const Half &b, const pt::HalfCounts &expected) {
+pt::PixelEstimates estimates(const Part &a, const Part &b, const pt::PartCounts &expected) {
     std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
-    const auto set = [&](const Half &half, std::size_t first) {
-        const std::uint64_t sum = std::uint64_t{half.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
+    const auto set = [&](const Part &part, std::size_t first) {
+        const std::uint64_t sum = std::uint64_t{part.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
         words[first + 1] = static_cast<std::uint32_t>(sum);
         words[first + 2] = static_cast<std::uint32_t>(sum >> 32);
-        words[first + pt::gpu::FILM_ACCEPTED] = half.accepted;
-        words[first + pt::gpu::FILM_REJECTED] = half.rejected;
+        words[first + pt::gpu::FILM_ACCEPTED] = part.accepted;
+        words[first + pt::gpu::FILM_REJECTED] = part.rejected;
     };
     set(a, 0);
     set(b, pt::gpu::FILM_WORDS);
@@ -163,14 +144,14 @@ TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {
     EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}, {2, 2}).radiance, std::vector<float>(3, 0.0F));
 }
 
-// Means of 8 and 4 units differ by one radiance unit, of which equal halves count a half.
-TEST(Film, StandardErrorIsFromTheDifferenceOfTheHalves) {
+// Means of 8 and 4 units differ by one radiance unit, of which equal parts count a half.
+TEST(Film, StandardErrorIsFromTheDifferenceOfTheParts) {
     EXPECT_EQ(estimates({16, 2, 0}, {8, 2, 0}, {2, 2}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
     // Of 1 and 4 samples: sqrt(1 * 4) / 5. Rejected samples do not count.
     EXPECT_EQ(estimates({8, 1, 3}, {16, 4, 0}, {4, 4}).standard_error[0], 0.4F);
 }
 
-TEST(Film, StandardErrorIsUnknownWithAnEmptyHalf) {
+TEST(Film, StandardErrorIsUnknownWithAnEmptyPart) {
     const std::vector<float> unknown(3, std::numeric_limits<float>::infinity());
     EXPECT_EQ(estimates({8, 1, 0}, {0, 0, 0}, {1, 0}).standard_error, unknown);
     EXPECT_EQ(estimates({0, 0, 1}, {8, 1, 0}, {1, 1}).standard_error, unknown);
@@ -180,8 +161,8 @@ TEST(Film, StandardErrorIsUnknownWithAnEmptyHalf) {
 TEST(Film, LostSamplesAreAnError) {
     const pt::Error error = error_of([] { estimates({9, 4, 0}, {9, 3, 0}, {4, 4}); });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
-    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one half of the film");
-    // Not even if the other half has one too many.
+    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
+    // Not even if the other part has one too many.
     EXPECT_EQ(error_of([] { estimates({9, 5, 0}, {9, 3, 0}, {4, 4}); }).code(), PT_ERROR_INTERNAL);
 }
 

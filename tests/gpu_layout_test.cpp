@@ -21,8 +21,8 @@ TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     frame.strip_pixel_count = 16;
     frame.first_pixel = 17;
     frame.pixel_count = 18;
-    frame.film_half = 19;
-    frame.first_pair = 20;
+    frame.film_part = 19;
+    frame.first_sample = 20;
     frame.sample_count = 21;
     frame.split_pass = 22;
     const auto seen = Probe(push_layout_spirv, sizeof frame).run<float>({}, 24, frame, 1);

@@ -1,7 +1,7 @@
 // What the kernel leaves out where a scene has no need of it changes no picture: the handling of insides where the
 // camera is in no sphere, planes as obstacles where no lamp is behind one.
-#include "half_render.h"
 #include "invariance_scene.h"
+#include "kernel_render.h"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@ using Image = std::vector<float>;
 
 constexpr std::uint32_t path_length = 3;
 
-Image image_with(const HalfRender &render, const HalfRender::Constants &constants) {
+Image image_with(const KernelRender &render, const KernelRender::Constants &constants) {
     return render.radiance(render.film_of_kernel(constants, gpu::SCENE_IN_UNIFORM, render.words()));
 }
 
 // The image of a kernel that has one of its constants turned over.
-Image image_with_other(const HalfRender &render, std::uint32_t id) {
-    HalfRender::Constants constants = render.constants();
+Image image_with_other(const KernelRender &render, std::uint32_t id) {
+    KernelRender::Constants constants = render.constants();
     constants[id] = 1 - constants[id];
     return image_with(render, constants);
 }
@@ -56,14 +56,14 @@ InvarianceScene room() {
 }
 
 TEST(LeftOut, InsidesOfSpheresWhereTheCameraIsInNone) {
-    const HalfRender render = render_of_scene(room(), path_length);
+    const KernelRender render = render_of_scene(room(), path_length);
     ASSERT_FALSE(render.features().inside);
     const Image image = image_with(render, render.constants());
     EXPECT_LE(differing_values(image, image_with_other(render, gpu::ID_INSIDE)), decided_by_rounding);
 }
 
 TEST(LeftOut, PlanesAsObstaclesWhereNoLampIsBehindOne) {
-    const HalfRender render = render_of_scene(room(), path_length);
+    const KernelRender render = render_of_scene(room(), path_length);
     ASSERT_FALSE(render.features().planes_block);
     ASSERT_EQ(render.features().plane_count, 4U);
     const Image image = image_with(render, render.constants());
@@ -75,7 +75,7 @@ TEST(LeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
     InvarianceScene scene = room();
     scene.planes.clear();
     scene.spheres.push_back({{0, 0, -5}, 20, {0, 0, 0}, 4, 0});
-    const HalfRender render = render_of_scene(scene, path_length);
+    const KernelRender render = render_of_scene(scene, path_length);
     ASSERT_TRUE(render.features().inside);
     const Image image = image_with(render, render.constants());
     EXPECT_GT(differing_values(image, image_with_other(render, gpu::ID_INSIDE)), 10 * decided_by_rounding);
@@ -84,7 +84,7 @@ TEST(LeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
 TEST(LeftOut, PlanesAsObstaclesShowWhereALampIsBehindOne) {
     InvarianceScene scene = room();
     scene.spheres[0].center[0] = 14;
-    const HalfRender render = render_of_scene(scene, path_length);
+    const KernelRender render = render_of_scene(scene, path_length);
     ASSERT_TRUE(render.features().planes_block);
     const Image image = image_with(render, render.constants());
     EXPECT_GT(differing_values(image, image_with_other(render, gpu::ID_PLANES_BLOCK)), 10 * decided_by_rounding);

@@ -1,7 +1,7 @@
 // Zeros that a scene gives as -0 are zeros: no sample counts as negative because of them.
 #include "context_fixture.h"
-#include "half_render.h"
 #include "invariance_scene.h"
+#include "kernel_render.h"
 
 #include <gtest/gtest.h>
 
@@ -52,13 +52,13 @@ TEST_F(NegativeZero, OfMaterialsIsZero) {
 
 // Negative control: were -0 to reach the kernel, the film would take it for a negative number.
 TEST(NegativeZeroInTheSceneBuffer, IsRejected) {
-    const HalfRender render = render_of_scene(scene_with_zeros(0.0F), 1);
+    const KernelRender render = render_of_scene(scene_with_zeros(0.0F), 1);
     std::vector<glm::vec4> words = render.words();
     const auto rejected_samples = [&] {
-        const HalfRender::FilmWords film = render.film(pt::gpu::SCENE_IN_UNIFORM, words);
+        const KernelRender::FilmWords film = render.film(pt::gpu::SCENE_IN_UNIFORM, words);
         std::uint32_t rejected = 0;
-        for (std::size_t pixel = 0; pixel < HalfRender::width * HalfRender::height; ++pixel)
-            rejected += film[pt::gpu::FILM_REJECTED * HalfRender::width * HalfRender::height + pixel];
+        for (std::size_t pixel = 0; pixel < KernelRender::width * KernelRender::height; ++pixel)
+            rejected += film[pt::gpu::FILM_REJECTED * KernelRender::width * KernelRender::height + pixel];
         return rejected;
     };
     EXPECT_EQ(rejected_samples(), 0U);

@@ -1,8 +1,8 @@
 // The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
 // buffer.
 #include "context_fixture.h"
-#include "half_render.h"
 #include "invariance_scene.h"
+#include "kernel_render.h"
 #include "render_image.h"
 
 #include <gtest/gtest.h>
@@ -16,19 +16,19 @@ namespace {
 
 namespace gpu = pt::gpu;
 
-using FilmWords = HalfRender::FilmWords;
+using FilmWords = KernelRender::FilmWords;
 
-constexpr std::uint32_t width = HalfRender::width;
-constexpr std::uint32_t height = HalfRender::height;
-constexpr std::uint32_t sample_count = HalfRender::sample_count;
+constexpr std::uint32_t width = KernelRender::width;
+constexpr std::uint32_t height = KernelRender::height;
+constexpr std::uint32_t sample_count = KernelRender::sample_count;
 
 // Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
 // scene.
 struct Comparison {
-    const HalfRender &render;
+    const KernelRender &render;
     const FilmWords film;
 
-    explicit Comparison(const HalfRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
+    explicit Comparison(const KernelRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
         EXPECT_LE(of.words().size(), gpu::CONSTANT_SCENE_WORDS);
         EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * width * height], sample_count);
     }
@@ -67,7 +67,7 @@ protected:
 };
 
 TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
-    const HalfRender render = render_of_scene(diffuse_scene());
+    const KernelRender render = render_of_scene(diffuse_scene());
     EXPECT_FALSE(render.features().motion || render.features().gloss || render.features().curvature);
     EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
     const Comparison same(render);
@@ -90,7 +90,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     scene.spheres[0].motion[1] = 0.5;
     scene.spheres[1].motion[0] = 1.5;
     scene.spheres.push_back({{0, -1002.5, -8}, 1000, {0, 0, 0}, scene.planes[0].material, 0});
-    const HalfRender render = render_of_scene(scene);
+    const KernelRender render = render_of_scene(scene);
     EXPECT_TRUE(render.features().motion && render.features().gloss && render.features().curvature);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
@@ -101,7 +101,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
 TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;
-    const HalfRender render = render_of_scene(scene);
+    const KernelRender render = render_of_scene(scene);
     EXPECT_EQ(render.features().lamp_count, 2U);
     EXPECT_EQ(render.words()[render.features().surface_count()], render.words()[render.features().surface_count() + 1]);
     const Comparison same(render);
@@ -124,7 +124,7 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
         sphere.material = 3;
     for (pt_plane &plane : scene.planes)
         plane.material = 3;
-    const HalfRender render = render_of_scene(scene);
+    const KernelRender render = render_of_scene(scene);
     EXPECT_TRUE(render.features().gloss);
     EXPECT_EQ(render.features().surface_count(), 4U);
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
@@ -138,7 +138,7 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
     std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
     std::fill_n(scene.materials[3].specular, 3, 0.37F);
     std::fill_n(scene.materials[3].emission, 3, 0.7F);
-    const HalfRender render = render_of_scene(scene);
+    const KernelRender render = render_of_scene(scene);
     EXPECT_TRUE(render.features().gloss);
     EXPECT_EQ(render.features().surface_count(), 1U);
     EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));

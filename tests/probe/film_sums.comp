@@ -1,11 +1,11 @@
-// Adds given samples, per_pixel of them to each pixel, to one half of the film with the shipped functions.
+// Adds given samples, per_pixel of them to each pixel, to one part of the film with the shipped functions.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
 #include "film.glsl"
 
 layout(local_size_x = WORKGROUP_SIZE) in;
-layout(push_constant) uniform Push { uint per_pixel; uint count; uint film_half; };
+layout(push_constant) uniform Push { uint per_pixel; uint count; uint film_part; };
 layout(set = 0, binding = 3) readonly buffer Input { vec4 samples[]; };
 
 void main()
@@ -19,5 +19,5 @@ void main()
         film_add(gathered, samples[pixel * per_pixel + i].rgb);
         ++i;
     } while (i < per_pixel);
-    film_store(film_half, pixel, count, gathered, false);
+    film_store(film_part, pixel, count, gathered, false);
 }

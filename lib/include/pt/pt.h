@@ -188,10 +188,10 @@ typedef struct pt_accumulate_info {
 /* pt_image.quantity */
 enum {
     PT_QUANTITY_RADIANCE = 0, /* mean of the samples */
-    /* standard error of that mean, from two halves of the samples: half the magnitude of the difference of their means
-     * (of halves that differ in size by a sample, nearly so).
+    /* standard error of that mean, from the samples in two parts, of which the first has the largest power of two below
+     * their number: from the difference of the parts' means, and if they are of one size half of its magnitude.
      * It has one degree of freedom, so in a single pixel it is a hint and no more: it is below a third of the true one
-     * in a quarter of all values. INFINITY where a half has no sample. */
+     * in a quarter of all values. INFINITY where a part has no sample: of up to 8 all are in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1
 };
 

@@ -1,4 +1,4 @@
-// The path-tracing kernel over one half of a small film, as lib/kernel.cpp runs it, but with the scene and the
+// The path-tracing kernel over a small film, as lib/kernel.cpp runs it, but with the scene and the
 // constants that a test asks for. Used by the tests of what must not change a picture.
 #pragma once
 
@@ -7,15 +7,15 @@
 #include "invariance_scene.h"
 #include "pathtrace.spv.h"
 #include "probe.h"
-#include "sample_halves.h"
 #include "scene_constants.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
-class HalfRender {
+class KernelRender {
 public:
     using FilmWords = std::vector<std::uint32_t>;
     using Constants = std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT>;
@@ -24,7 +24,7 @@ public:
     static constexpr std::uint32_t height = 12;
     static constexpr std::uint32_t sample_count = 16;
 
-    HalfRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
+    KernelRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
         settings_{width, height, max_path_length, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height},
         features_(pt::features_of(scene, camera, settings_)),
         words_(pt::gpu_scene(scene, camera, features_)),
@@ -48,9 +48,10 @@ public:
                              const std::vector<glm::vec4> &words) const {
         Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
         set_scene_for(probe, source, words);
-        const std::vector<std::uint32_t> indices = pt::SampleHalves(settings_.sampler).indices(0, {0, sample_count});
+        std::vector<std::uint32_t> indices(sample_count);
+        std::iota(indices.begin(), indices.end(), 0U);
         probe.set_points(pt::point_table(settings_.sampler, settings_.seed, indices, pt::point_layout(features_)));
-        return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_HALVES} * pt::gpu::FILM_WORDS * width * height,
+        return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height,
                                         frame_, width * height);
     }
 
@@ -67,6 +68,6 @@ private:
     pt::gpu::FrameConstants frame_;
 };
 
-inline HalfRender render_of_scene(const InvarianceScene &scene, std::uint32_t max_path_length = 4) {
+inline KernelRender render_of_scene(const InvarianceScene &scene, std::uint32_t max_path_length = 4) {
     return {pt::validated_scene(scene.scene()), pt::validated_camera(scene.camera), max_path_length};
 }
