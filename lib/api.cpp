@@ -52,6 +52,11 @@ CreateSettings validated_create(const pt_create_info &info) {
     create.require(info.submit_milliseconds <= 1000, "submit_milliseconds", info.submit_milliseconds,
                    "must be <= 1000");
     create.require(info.reserved == 0, "reserved", info.reserved, "must be 0");
+    create.require(!info.vulkan || info.flags == 0, "flags", info.flags,
+                   "must be 0 with vulkan, whose instance has its own layers");
+    if (info.vulkan && info.device)
+        violations.add("create.device", std::string("\"") + info.device + '"',
+                       "must be NULL with vulkan, which has one");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     CreateSettings settings;
     settings.validation = (info.flags & PT_CREATE_VALIDATION) != 0;
@@ -59,6 +64,8 @@ CreateSettings validated_create(const pt_create_info &info) {
     settings.log = {info.log, info.log_user};
     settings.submit_milliseconds =
         info.submit_milliseconds == 0 ? default_submit_milliseconds : info.submit_milliseconds;
+    if (info.vulkan)
+        settings.vulkan = vulkan::validated_vulkan(copy_in(info.vulkan, "vulkan"));
     return settings;
 }
 

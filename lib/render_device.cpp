@@ -19,8 +19,8 @@ constexpr double assumed_tests_per_second = 2.5e8;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           double target_seconds) :
-    device_(instance, physical_device),
+                           vulkan::LogicalDevice logical_device, double target_seconds) :
+    device_(instance, physical_device, std::move(logical_device)),
     pipelines_(device_),
     target_seconds_(target_seconds) {}
 

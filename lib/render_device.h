@@ -21,7 +21,8 @@ namespace pt {
 class RenderDevice {
 public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
-    RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device, double target_seconds);
+    RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
+                 vulkan::LogicalDevice logical_device, double target_seconds);
 
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }

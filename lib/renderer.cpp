@@ -28,11 +28,29 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
-Renderer::Renderer(const CreateSettings &settings) : log_(settings.log), instance_(log_, settings.validation) {
+Renderer::Renderer(const CreateSettings &settings) :
+    log_(settings.log),
+    instance_(settings.vulkan ? vulkan::Instance(settings.vulkan->instance)
+                              : vulkan::Instance(log_, settings.validation)) {
+    if (settings.vulkan)
+        use_device_of(*settings.vulkan, settings);
+    else
+        use_own_devices(settings);
+}
+
+void Renderer::use_own_devices(const CreateSettings &settings) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
     for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
-        devices_.push_back(
-            std::make_unique<RenderDevice>(instance_, devices[index], settings.submit_milliseconds * 1e-3));
+        devices_.push_back(std::make_unique<RenderDevice>(instance_, devices[index],
+                                                          vulkan::LogicalDevice::create(devices[index]),
+                                                          settings.submit_milliseconds * 1e-3));
+}
+
+void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
+    const vk::raii::PhysicalDevice physical_device = validated_physical_device(instance_.handle(), caller);
+    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device,
+                                                      vulkan::LogicalDevice::borrow(physical_device, caller),
+                                                      settings.submit_milliseconds * 1e-3));
 }
 
 void Renderer::require_alive() const {

@@ -9,6 +9,7 @@
 #include "render_device.h"
 #include "render_settings.h"
 #include "scene.h"
+#include "vulkan/caller_vulkan.h"
 #include "vulkan/instance.h"
 
 #include <cstdint>
@@ -25,6 +26,7 @@ struct CreateSettings {
     std::string device; // empty: the best
     Log log;
     std::uint32_t submit_milliseconds = 50;
+    std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
 };
 
 // The caller's pt_progress_fn.
@@ -72,6 +74,8 @@ private:
         bool stopped = false;          // by the caller, or by a failure
     };
 
+    void use_own_devices(const CreateSettings &settings);
+    void use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings);
     void require_alive() const;
     void require_settings() const;
     void discard_samples();

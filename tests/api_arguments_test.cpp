@@ -103,7 +103,7 @@ TEST(Api, CreateTakesDefaultsOlderAndNewerStructs) {
 TEST(Api, CreateRefusesWhatItDoesNotKnow) {
     const Newer<pt_create_info> newer(valid_create(), 1);
     EXPECT_EQ(create_outcome(&newer.known),
-              "PT_ERROR_UNSUPPORTED: create.struct_size = 48: byte 40 is set, but this library knows only the first 40 "
+              "PT_ERROR_UNSUPPORTED: create.struct_size = 56: byte 48 is set, but this library knows only the first 48 "
               "bytes of the struct");
     pt_create_info info = valid_create();
     info.flags = 6;

@@ -111,7 +111,7 @@ PT_EXPECT_MEMBER(pt_function_accuracy, worst_error, 40, 8);
 PT_EXPECT_MEMBER(pt_function_accuracy, bound, 48, 8);
 PT_EXPECT_MEMBER(pt_function_accuracy, worst_input, 56, 8);
 
-PT_EXPECT_STRUCT(pt_create_info, 40);
+PT_EXPECT_STRUCT(pt_create_info, 48);
 PT_EXPECT_MEMBER(pt_create_info, struct_size, 0, 4);
 PT_EXPECT_MEMBER(pt_create_info, flags, 4, 4);
 PT_EXPECT_MEMBER(pt_create_info, device, 8, 8);
@@ -119,6 +119,18 @@ PT_EXPECT_MEMBER(pt_create_info, log, 16, 8);
 PT_EXPECT_MEMBER(pt_create_info, log_user, 24, 8);
 PT_EXPECT_MEMBER(pt_create_info, submit_milliseconds, 32, 4);
 PT_EXPECT_MEMBER(pt_create_info, reserved, 36, 4);
+PT_EXPECT_MEMBER(pt_create_info, vulkan, 40, 8);
+
+PT_EXPECT_STRUCT(pt_vulkan, 64);
+PT_EXPECT_MEMBER(pt_vulkan, struct_size, 0, 4);
+PT_EXPECT_MEMBER(pt_vulkan, queue_family, 4, 4);
+PT_EXPECT_MEMBER(pt_vulkan, instance, 8, 8);
+PT_EXPECT_MEMBER(pt_vulkan, physical_device, 16, 8);
+PT_EXPECT_MEMBER(pt_vulkan, device, 24, 8);
+PT_EXPECT_MEMBER(pt_vulkan, queue, 32, 8);
+PT_EXPECT_MEMBER(pt_vulkan, lock_queue, 40, 8);
+PT_EXPECT_MEMBER(pt_vulkan, unlock_queue, 48, 8);
+PT_EXPECT_MEMBER(pt_vulkan, queue_user, 56, 8);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2);

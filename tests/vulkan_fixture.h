@@ -43,13 +43,13 @@ protected:
 
     pt::vulkan::Device &device() {
         if (!device_)
-            device_.emplace(*instance_, physical_device());
+            device_.emplace(*instance_, physical_device(), pt::vulkan::LogicalDevice::create(physical_device()));
         return *device_;
     }
 
     // A device in the place of the one before.
     pt::vulkan::Device &device_with(const pt::vulkan::DevicePolicy &policy) {
-        device_.emplace(*instance_, physical_device(), policy);
+        device_.emplace(*instance_, physical_device(), pt::vulkan::LogicalDevice::create(physical_device()), policy);
         return *device_;
     }
 

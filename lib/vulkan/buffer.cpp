@@ -1,6 +1,7 @@
 // Allocation and transfers; see buffer.h.
 #include "vulkan/buffer.h"
 
+#include "vulkan/device_object.h"
 #include "vulkan/result.h"
 
 #include <algorithm>
@@ -38,18 +39,18 @@ struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
                std::span<const vk::MemoryPropertyFlags> wanted_best_first,
                std::optional<vk::MemoryPropertyFlags> mapped_if) :
-        buffer(device.handle().createBuffer({.size = bytes, .usage = usage})) {
-        const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
+        buffer(device, device.handle().createBuffer({.size = bytes, .usage = usage})) {
+        const vk::MemoryRequirements needs = buffer->getMemoryRequirements();
         const vk::PhysicalDeviceMemoryProperties &types = device.memory_properties();
         const std::uint32_t type = memory_type(types, needs.memoryTypeBits, wanted_best_first);
-        memory = device.handle().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type});
-        buffer.bindMemory(*memory, 0);
+        memory = {device, device.handle().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type})};
+        buffer->bindMemory(*memory, 0);
         if (mapped_if && (types.memoryTypes[type].propertyFlags & *mapped_if) == *mapped_if)
-            mapped = static_cast<std::byte *>(memory.mapMemory(0, VK_WHOLE_SIZE));
+            mapped = static_cast<std::byte *>(memory->mapMemory(0, VK_WHOLE_SIZE));
     }
 
-    vk::raii::DeviceMemory memory = nullptr;
-    vk::raii::Buffer buffer; // destroyed before its memory is freed
+    DeviceObject<vk::raii::DeviceMemory> memory;
+    DeviceObject<vk::raii::Buffer> buffer; // destroyed before its memory is freed
     std::byte *mapped = nullptr;
 };
 

@@ -55,14 +55,15 @@ ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> 
     bindings_(bindings.begin(), bindings.end()) {
     device.require_alive();
     translated("building a kernel", [&] {
-        set_layout_ = create_set_layout(device, bindings);
+        set_layout_ = {device, create_set_layout(device, bindings)};
         const vk::DescriptorSetLayout set_layout = *set_layout_;
         const vk::PushConstantRange push{.stageFlags = vk::ShaderStageFlagBits::eCompute, .size = push_constant_bytes};
-        layout_ = device.handle().createPipelineLayout({.setLayoutCount = 1,
-                                                        .pSetLayouts = &set_layout,
-                                                        .pushConstantRangeCount = push_constant_bytes > 0 ? 1U : 0U,
-                                                        .pPushConstantRanges = &push});
-        pipeline_ = create_pipeline(device, layout_, spirv, constants);
+        layout_ = {device,
+                   device.handle().createPipelineLayout({.setLayoutCount = 1,
+                                                         .pSetLayouts = &set_layout,
+                                                         .pushConstantRangeCount = push_constant_bytes > 0 ? 1U : 0U,
+                                                         .pPushConstantRanges = &push})};
+        pipeline_ = {device, create_pipeline(device, layout_.get(), spirv, constants)};
     });
 }
 
@@ -72,8 +73,10 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
         for (const vk::DescriptorType type : bindings_)
             sizes.push_back({.type = type, .descriptorCount = 1});
         DescriptorSet set;
-        set.pool_ = device_->handle().createDescriptorPool(
-            {.maxSets = 1, .poolSizeCount = static_cast<std::uint32_t>(sizes.size()), .pPoolSizes = sizes.data()});
+        set.pool_ = {
+            *device_,
+            device_->handle().createDescriptorPool(
+                {.maxSets = 1, .poolSizeCount = static_cast<std::uint32_t>(sizes.size()), .pPoolSizes = sizes.data()})};
         const vk::DescriptorSetLayout layout = *set_layout_;
         set.set_ = device_->handle()
                        .allocateDescriptorSets(

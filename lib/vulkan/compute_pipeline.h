@@ -3,6 +3,7 @@
 
 #include "vulkan/buffer.h"
 #include "vulkan/device.h"
+#include "vulkan/device_object.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,7 @@ public:
 
 private:
     friend class ComputePipeline;
-    vk::raii::DescriptorPool pool_ = nullptr;
+    DeviceObject<vk::raii::DescriptorPool> pool_;
     vk::DescriptorSet set_; // goes with its pool
 };
 
@@ -40,9 +41,9 @@ public:
 private:
     Device *device_;
     std::vector<vk::DescriptorType> bindings_;
-    vk::raii::DescriptorSetLayout set_layout_ = nullptr;
-    vk::raii::PipelineLayout layout_ = nullptr;
-    vk::raii::Pipeline pipeline_ = nullptr;
+    DeviceObject<vk::raii::DescriptorSetLayout> set_layout_;
+    DeviceObject<vk::raii::PipelineLayout> layout_;
+    DeviceObject<vk::raii::Pipeline> pipeline_;
 };
 
 } // namespace pt::vulkan

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <limits>
 
 namespace pt::vulkan {
@@ -41,34 +40,6 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
-// A family that computes, of those the one that does least else: it is the one for work in the background.
-std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
-    const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
-    std::uint32_t best = 0;
-    for (std::uint32_t i = 0; i < families.size(); ++i) {
-        const bool computes = static_cast<bool>(families[i].queueFlags & vk::QueueFlagBits::eCompute);
-        const bool draws = static_cast<bool>(families[i].queueFlags & vk::QueueFlagBits::eGraphics);
-        if (computes && (!draws || !(families[best].queueFlags & vk::QueueFlagBits::eCompute)))
-            best = i;
-    }
-    return best;
-}
-
-vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t family) {
-    // The specification demands that this extension be enabled where it exists.
-    constexpr const char *portability_subset = "VK_KHR_portability_subset";
-    std::vector<const char *> extensions;
-    for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())
-        if (std::strcmp(extension.extensionName, portability_subset) == 0)
-            extensions.push_back(portability_subset);
-    const float priority = 1.0F;
-    const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
-    return physical_device.createDevice({.queueCreateInfoCount = 1,
-                                         .pQueueCreateInfos = &queue,
-                                         .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                         .ppEnabledExtensionNames = extensions.data()});
-}
-
 using Stage = vk::PipelineStageFlagBits;
 using Access = vk::AccessFlagBits;
 constexpr vk::PipelineStageFlags device_stages = Stage::eComputeShader | Stage::eTransfer;
@@ -95,33 +66,32 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .queue_depth = cpu ? 1U : 2U};
 }
 
-Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device) :
-    Device(instance, physical_device, default_policy(describe(physical_device))) {}
+Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device) :
+    Device(instance, physical_device, std::move(logical_device), default_policy(describe(physical_device))) {}
 
-Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy) :
+Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
+               const DevicePolicy &policy) :
     instance_(instance),
     info_(describe(physical_device)),
     limits_(limits_of(physical_device)),
     policy_(policy),
-    memory_properties_(physical_device.getMemoryProperties()) {
-    translated("creating the device", [&] {
-        const std::uint32_t family = compute_family(physical_device);
-        device_ = create_device(physical_device, family);
-        queue_ = device_.getQueue(family, 0);
-        command_pool_ = device_.createCommandPool(
-            {.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer, .queueFamilyIndex = family});
+    memory_properties_(physical_device.getMemoryProperties()),
+    logical_device_(std::move(logical_device)) {
+    translated("preparing the device", [&] {
+        command_pool_ = handle().createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                    .queueFamilyIndex = logical_device_.queue_family()});
         std::vector<vk::raii::CommandBuffer> commands =
-            device_.allocateCommandBuffers({.commandPool = *command_pool_,
-                                            .level = vk::CommandBufferLevel::ePrimary,
-                                            .commandBufferCount = policy_.queue_depth + 1});
+            handle().allocateCommandBuffers({.commandPool = *command_pool_,
+                                             .level = vk::CommandBufferLevel::ePrimary,
+                                             .commandBufferCount = policy_.queue_depth + 1});
         for (vk::raii::CommandBuffer &buffer : commands)
-            submissions_.push_back({std::move(buffer), device_.createFence({}), {}, false});
-        pipeline_cache_ = device_.createPipelineCache({});
+            submissions_.push_back({std::move(buffer), handle().createFence({}), {}, false});
+        pipeline_cache_ = handle().createPipelineCache({});
     });
 }
 
 Device::~Device() {
-    if (std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); }))
+    if (!hangs())
         return;
     // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
     // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
@@ -131,8 +101,12 @@ Device::~Device() {
         submission.commands.release();
     }
     command_pool_.release();
-    device_.release();
+    logical_device_.abandon();
     instance_.abandon();
+}
+
+bool Device::hangs() const {
+    return !std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
 // Whether a submission has come to an end by now, be it by the loss of the device.
@@ -164,11 +138,10 @@ Device::Ticket Device::start(const Record &record) {
     if (free == submissions_.end())
         throw Error(PT_ERROR_INTERNAL, "too many submissions under way");
     translated("recording work", [&] { record_work(free->commands, record); });
-    free->start = Clock::now();
     translated("submitting work", [&] {
         const vk::CommandBuffer commands = *free->commands;
         try {
-            queue_.submit(vk::SubmitInfo{.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
+            free->start = logical_device_.submit({.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
         } catch (const vk::DeviceLostError &error) {
             lose(error.what());
         }
@@ -206,13 +179,13 @@ void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &
 void Device::wait(const Submission &submission) {
     const std::chrono::nanoseconds step = std::min(wait_step, policy_.patience);
     try {
-        while (device_.waitForFences(*submission.fence, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
+        while (handle().waitForFences(*submission.fence, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
                vk::Result::eTimeout)
             if (is_overdue(submission))
                 lose("it did not end a submission within " +
                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
                      " ms");
-        device_.resetFences(*submission.fence);
+        handle().resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
         lose(error.what()); // whatever the error is, nobody knows what became of the work
     }

@@ -1,7 +1,9 @@
-// A logical device with its one compute queue. Owned by Renderer; buffers and pipelines are made on it.
+// Submissions to a logical device, one after the other, and waiting for them. Owned by RenderDevice; buffers and pipelines
+// are made on it.
 #pragma once
 
 #include "vulkan/instance.h"
+#include "vulkan/logical_device.h"
 
 #include <pt/pt.h>
 
@@ -36,8 +38,9 @@ class Device {
 public:
     // The instance must outlive the device. A device that hangs is left to the end of the process, and its instance
     // too.
-    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device);
-    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, const DevicePolicy &policy);
+    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device);
+    Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
+           const DevicePolicy &policy);
     ~Device();
     Device(const Device &) = delete;
     Device &operator=(const Device &) = delete;
@@ -47,6 +50,9 @@ public:
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
     bool lost() const { return !lost_message_.empty(); }
+
+    // Whether submissions that were given up are still under way. What they use must not be destroyed then.
+    bool hangs() const;
 
     // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, from the moment that the device was lost.
     void require_alive() const;
@@ -69,7 +75,7 @@ public:
     // Both at once.
     double submit(const Record &record) { return finish(start(record)); }
 
-    const vk::raii::Device &handle() const { return device_; }
+    const vk::raii::Device &handle() const { return logical_device_.handle(); }
     const vk::raii::PipelineCache &pipeline_cache() const { return pipeline_cache_; }
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }
     void count_allocation(std::uint64_t bytes) { allocated_bytes_ += bytes; }
@@ -97,8 +103,7 @@ private:
     Limits limits_;
     DevicePolicy policy_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
-    vk::raii::Device device_ = nullptr;
-    vk::raii::Queue queue_ = nullptr;
+    LogicalDevice logical_device_;
     vk::raii::CommandPool command_pool_ = nullptr;
     std::vector<Submission> submissions_;
     Clock::time_point last_end_;

@@ -80,28 +80,37 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    .ppEnabledExtensionNames = extensions.data()});
 }
 
-} // namespace
-
-Instance::Instance(const Log &log, bool validation) : context_(&::vkGetInstanceProcAddr) {
+Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
         // In the chain the messenger hears of the creation and destruction of the instance itself.
-        instance_ = create_instance(context_, validation ? &messages : nullptr);
+        return Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
     } catch (const vk::OutOfHostMemoryError &) {
         throw Error(PT_ERROR_OUT_OF_HOST_MEMORY, "creating the Vulkan instance: out of memory");
     } catch (const vk::SystemError &error) {
-        throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context_));
+        throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context));
     }
+}
+
+} // namespace
+
+Instance::Instance(const Log &log, bool validation) :
+    context_(&::vkGetInstanceProcAddr),
+    instance_(owned_instance(context_, log, validation)) {
     if (validation)
         messenger_.emplace(translated("creating the validation messenger",
-                                      [&] { return instance_.createDebugUtilsMessengerEXT(messages); }));
+                                      [&] { return instance_->createDebugUtilsMessengerEXT(messenger_info(log)); }));
 }
+
+Instance::Instance(VkInstance instance) :
+    context_(&::vkGetInstanceProcAddr),
+    instance_(Borrowable<vk::raii::Instance>::borrowed({context_, instance})) {}
 
 std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
     std::vector<vk::raii::PhysicalDevice> devices;
     std::string reason = "the drivers found no device";
     try {
-        devices = instance_.enumeratePhysicalDevices();
+        devices = instance_->enumeratePhysicalDevices();
     } catch (const vk::SystemError &error) {
         reason = error.what();
     }
@@ -112,7 +121,7 @@ std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
 
 void Instance::abandon() {
     messenger_.reset();
-    instance_.release();
+    instance_.disown();
 }
 
 } // namespace pt::vulkan

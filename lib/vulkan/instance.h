@@ -1,8 +1,10 @@
-// The Vulkan instance, with the validation layer's messages going to the log. Made by Renderer and list_devices.
+// The Vulkan instance: the library's own, with the validation layer's messages going to the log, or the caller's. Made
+// by Renderer and list_devices.
 #pragma once
 
 #include "api.h"
 #include "log.h"
+#include "vulkan/borrowable.h"
 
 #include <optional>
 #include <vector>
@@ -15,15 +17,21 @@ public:
     // PT_ERROR_UNSUPPORTED if validation is asked for and the layer is not installed.
     Instance(const Log &log, bool validation);
 
+    // The caller's, which is left alone.
+    explicit Instance(VkInstance instance);
+
+    const vk::raii::Instance &handle() const { return *instance_; }
+
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // Leaves the Vulkan instance to the end of the process: one may not be destroyed while a device of it is there.
+    // Leaves the Vulkan instance to the end of the process, whoever made it: one may not be destroyed while a device of
+    // it is there.
     void abandon();
 
 private:
     vk::raii::Context context_;
-    vk::raii::Instance instance_ = nullptr;
+    Borrowable<vk::raii::Instance> instance_;
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;
 };
 

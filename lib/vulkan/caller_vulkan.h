@@ -1,0 +1,58 @@
+// The caller's Vulkan handles, checked: pt_vulkan as the library uses it. Made by api.cpp, used by Instance,
+// LogicalDevice and Renderer, none of which owns what it names.
+#pragma once
+
+#include "api.h"
+
+#include <pt/pt.h>
+
+#include <cstdint>
+#include <span>
+
+namespace pt::vulkan {
+
+// Holds a queue for this thread, if it has the caller's functions for that. For std::lock_guard.
+class QueueLock {
+public:
+    QueueLock() = default; // does nothing
+    QueueLock(pt_queue_fn lock_queue, pt_queue_fn unlock_queue, void *user) :
+        lock_(lock_queue),
+        unlock_(unlock_queue),
+        user_(user) {}
+
+    void lock() const {
+        if (lock_)
+            lock_(user_);
+    }
+    void unlock() const {
+        if (unlock_)
+            unlock_(user_);
+    }
+
+private:
+    pt_queue_fn lock_ = nullptr;
+    pt_queue_fn unlock_ = nullptr;
+    void *user_ = nullptr;
+};
+
+struct CallerVulkan {
+    VkInstance instance;
+    VkPhysicalDevice physical_device;
+    VkDevice device;
+    VkQueue queue;
+    std::uint32_t queue_family;
+    QueueLock queue_lock;
+};
+
+// Checks what can be seen without calling Vulkan. Throws PT_ERROR_INVALID_ARGUMENT.
+CallerVulkan validated_vulkan(const pt_vulkan &vulkan);
+
+// Checks the rest: throws PT_ERROR_INVALID_ARGUMENT or PT_ERROR_UNSUPPORTED if the caller's device cannot be used.
+// Returns its physical device; the instance is the caller's, and must outlive it.
+vk::raii::PhysicalDevice validated_physical_device(const vk::raii::Instance &instance, const CallerVulkan &caller);
+
+// The parts of it that do not depend on the machine.
+void require_compute(std::span<const vk::QueueFamilyProperties> families, std::uint32_t queue_family);
+void require_suitable(const pt_device_info &physical_device);
+
+} // namespace pt::vulkan

@@ -1,0 +1,37 @@
+// A Vulkan object made on a Device. Held by buffers, pipelines and descriptor sets.
+#pragma once
+
+#include "vulkan/device.h"
+
+#include <utility>
+
+namespace pt::vulkan {
+
+// Destroys its object with itself, unless the device hangs: what work under way uses must not be destroyed (Vulkan
+// specification, "Object Lifetime"), and freed memory, which that work may still write to, goes to others.
+template <typename Object>
+class DeviceObject {
+public:
+    DeviceObject() = default; // none
+    DeviceObject(const Device &device, Object object) : device_(&device), object_(std::move(object)) {}
+    DeviceObject(DeviceObject &&) noexcept = default;
+    DeviceObject &operator=(DeviceObject &&other) noexcept {
+        std::swap(device_, other.device_);
+        std::swap(object_, other.object_);
+        return *this;
+    }
+    ~DeviceObject() {
+        if (device_ && device_->hangs())
+            object_.release();
+    }
+
+    const Object &get() const { return object_; }
+    auto operator*() const { return *object_; }
+    const Object *operator->() const { return &object_; }
+
+private:
+    const Device *device_ = nullptr;
+    Object object_ = nullptr;
+};
+
+} // namespace pt::vulkan

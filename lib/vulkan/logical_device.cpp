@@ -1,0 +1,74 @@
+// Creation of devices, and the use of queues; see logical_device.h.
+#include "vulkan/logical_device.h"
+
+#include "vulkan/result.h"
+
+#include <cstring>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace pt::vulkan {
+
+namespace {
+
+// A family that computes, of those the one that does least else: it is the one for work in the background.
+std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
+    const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
+        const bool computes = static_cast<bool>(families[i].queueFlags & vk::QueueFlagBits::eCompute);
+        const bool draws = static_cast<bool>(families[i].queueFlags & vk::QueueFlagBits::eGraphics);
+        if (computes && (!draws || !(families[best].queueFlags & vk::QueueFlagBits::eCompute)))
+            best = i;
+    }
+    return best;
+}
+
+vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, std::uint32_t family) {
+    // The specification demands that this extension be enabled where it exists.
+    constexpr const char *portability_subset = "VK_KHR_portability_subset";
+    std::vector<const char *> extensions;
+    for (const vk::ExtensionProperties &extension : physical_device.enumerateDeviceExtensionProperties())
+        if (std::strcmp(extension.extensionName, portability_subset) == 0)
+            extensions.push_back(portability_subset);
+    const float priority = 1.0F;
+    const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
+    return physical_device.createDevice({.queueCreateInfoCount = 1,
+                                         .pQueueCreateInfos = &queue,
+                                         .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                         .ppEnabledExtensionNames = extensions.data()});
+}
+
+} // namespace
+
+LogicalDevice::LogicalDevice(Borrowable<vk::raii::Device> device, vk::raii::Queue queue, std::uint32_t queue_family,
+                             QueueLock queue_lock) :
+    device_(std::move(device)),
+    queue_(std::move(queue)),
+    queue_family_(queue_family),
+    queue_lock_(queue_lock) {}
+
+LogicalDevice LogicalDevice::create(const vk::raii::PhysicalDevice &physical_device) {
+    const std::uint32_t family = compute_family(physical_device);
+    return translated("creating the device", [&] {
+        auto device = Borrowable<vk::raii::Device>::owned(create_device(physical_device, family));
+        vk::raii::Queue queue = device->getQueue(family, 0);
+        return LogicalDevice(std::move(device), std::move(queue), family, QueueLock());
+    });
+}
+
+LogicalDevice LogicalDevice::borrow(const vk::raii::PhysicalDevice &physical_device, const CallerVulkan &caller) {
+    auto device = Borrowable<vk::raii::Device>::borrowed({physical_device, caller.device});
+    vk::raii::Queue queue(*device, caller.queue);
+    return {std::move(device), std::move(queue), caller.queue_family, caller.queue_lock};
+}
+
+std::chrono::steady_clock::time_point LogicalDevice::submit(const vk::SubmitInfo &work, vk::Fence fence) const {
+    const std::lock_guard held(queue_lock_);
+    const auto start = std::chrono::steady_clock::now();
+    queue_.submit(work, fence);
+    return start;
+}
+
+} // namespace pt::vulkan

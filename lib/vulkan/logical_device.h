@@ -1,0 +1,38 @@
+// A VkDevice with the one queue of it that is used: made by the library, or the caller's. Held by Device.
+#pragma once
+
+#include "vulkan/borrowable.h"
+#include "vulkan/caller_vulkan.h"
+
+#include <chrono>
+#include <cstdint>
+
+namespace pt::vulkan {
+
+class LogicalDevice {
+public:
+    // A new one, owned, with a queue that computes.
+    static LogicalDevice create(const vk::raii::PhysicalDevice &physical_device);
+    // The caller's, which is left alone.
+    static LogicalDevice borrow(const vk::raii::PhysicalDevice &physical_device, const CallerVulkan &caller);
+
+    const vk::raii::Device &handle() const { return *device_; }
+    std::uint32_t queue_family() const { return queue_family_; }
+
+    // The one use of the queue: holds it for this thread meanwhile. Returns the time from which it did.
+    std::chrono::steady_clock::time_point submit(const vk::SubmitInfo &work, vk::Fence fence) const;
+
+    // Leaves the device to the end of the process, whoever made it.
+    void abandon() { device_.disown(); }
+
+private:
+    LogicalDevice(Borrowable<vk::raii::Device> device, vk::raii::Queue queue, std::uint32_t queue_family,
+                  QueueLock queue_lock);
+
+    Borrowable<vk::raii::Device> device_;
+    vk::raii::Queue queue_;
+    std::uint32_t queue_family_;
+    QueueLock queue_lock_; // does nothing where the device is the library's own: no other thread knows its queue
+};
+
+} // namespace pt::vulkan
