@@ -1,0 +1,186 @@
+/* Progressive display: one thread renders in steps that double, and after each writes the image so far to
+ * progressive.ppm and tells its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
+ *
+ *     progressive [SAMPLES [SECONDS]]
+ *
+ * Exit status 0 if the image was written, be it with fewer samples because it was stopped.
+ */
+#define _POSIX_C_SOURCE 200809L
+
+#include <pt/pt.h>
+
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+enum { WIDTH = 128, HEIGHT = 96 };
+
+static atomic_int stop; /* set by a signal or by the main thread, read by the thread that renders */
+
+/* What both threads see; the context belongs to the thread that renders while that runs. */
+typedef struct render_job {
+    pt_context *context;
+    uint32_t samples;
+    pt_result result;         /* valid when the thread has ended, like pt_last_error(context) */
+    int shown;                /* likewise: the last image was written */
+    atomic_int step_permille; /* of the step under way */
+    atomic_int ended;
+} render_job;
+
+static void request_stop(int signal_number)
+{
+    (void)signal_number;
+    atomic_store(&stop, 1);
+}
+
+/* Runs on the thread that renders, after every submission. What is not 0 ends pt_accumulate with PT_CANCELLED. */
+static int32_t on_progress(void *user, double fraction)
+{
+    render_job *job = user;
+    atomic_store(&job->step_permille, (int)(fraction * 1000.0));
+    return atomic_load(&stop);
+}
+
+static pt_result set_up(pt_context *context)
+{
+    static const pt_material materials[] = {
+        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},    /* white, matt */
+        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f},  /* red, glossy */
+        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f}, /* a lamp */
+    };
+    static const pt_sphere spheres[] = {
+        {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
+        {{2.0, 4.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 2, 0},
+    };
+    static const pt_plane floor = {{0.0, 1.0, 0.0}, 0.0, 0, 0};
+    const pt_scene scene = {sizeof scene, 3, 2, 1, materials, spheres, &floor};
+    const pt_camera camera = {.struct_size = sizeof camera, .position = {0.0, 1.5, 5.0}, .target = {0.0, 1.0, 0.0}};
+    const pt_render render = {.struct_size = sizeof render, .width = WIDTH, .height = HEIGHT};
+    pt_result result = pt_set_scene(context, &scene);
+
+    if (result >= 0)
+        result = pt_set_camera(context, &camera);
+    if (result >= 0)
+        result = pt_set_render(context, &render);
+    return result;
+}
+
+static unsigned char display_value(float radiance)
+{
+    return (unsigned char)(255.0f * powf(radiance / (1.0f + radiance), 1.0f / 2.2f)); /* Reinhard et al. 2002 */
+}
+
+/* Writes beside the file and renames, so that a viewer that watches it never sees half an image. */
+static int write_ppm(const float *pixels)
+{
+    static unsigned char bytes[WIDTH * HEIGHT * 3];
+    FILE *file = fopen("progressive.ppm.part", "wb");
+    int whole;
+    size_t i;
+
+    if (!file)
+        return 0;
+    for (i = 0; i < sizeof bytes; ++i)
+        bytes[i] = display_value(pixels[i]);
+    whole = fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT) > 0;
+    whole = whole && fwrite(bytes, 1, sizeof bytes, file) == sizeof bytes;
+    whole = (fclose(file) == 0) && whole;
+    return whole && rename("progressive.ppm.part", "progressive.ppm") == 0;
+}
+
+/* Shows the samples so far. */
+static pt_result show(render_job *job, const pt_stats *stats)
+{
+    static float pixels[WIDTH * HEIGHT * 3];
+    const pt_image image = {.struct_size = sizeof image, .data = pixels, .size_bytes = sizeof pixels};
+    const pt_result result = pt_readback(job->context, &image);
+
+    if (result < 0)
+        return result;
+    job->shown = write_ppm(pixels);
+    if (!job->shown) {
+        perror("progressive.ppm");
+        atomic_store(&stop, 1);
+    }
+    printf("\r%u samples", (unsigned)stats->sample_count);
+    if (isfinite(stats->relative_rmse)) /* it is known from 16 samples */
+        printf(", error %.2g%%", 100.0 * stats->relative_rmse);
+    printf("          \n");
+    return result;
+}
+
+/* However the samples are split into steps, the image has the same bits. */
+static pt_result render_in_steps(render_job *job)
+{
+    pt_stats stats = {.struct_size = sizeof stats};
+    pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
+    pt_result result = set_up(job->context);
+
+    step.progress = on_progress;
+    step.progress_user = job;
+    while (result == PT_OK && stats.sample_count < job->samples) {
+        const uint32_t missing = job->samples - stats.sample_count;
+        step.sample_count = step.sample_count < missing ? step.sample_count : missing;
+        const pt_result accumulated = pt_accumulate(job->context, &step); /* PT_CANCELLED keeps whole samples */
+        result = accumulated < 0 ? accumulated : pt_get_stats(job->context, &stats);
+        if (result >= 0 && stats.sample_count > 0)
+            result = show(job, &stats);
+        if (result >= 0)
+            result = accumulated;
+        step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* as many again */
+    }
+    return result;
+}
+
+static void *render_thread(void *user)
+{
+    render_job *job = user;
+    job->result = render_in_steps(job);
+    atomic_store(&job->ended, 1);
+    return NULL;
+}
+
+/* Until the thread has ended; seconds 0: without a limit. */
+static void watch(render_job *job, double seconds)
+{
+    const struct timespec pause = {0, 20000000};
+    double waited = 0.0; /* nearly: sleeps are a little longer */
+
+    while (!atomic_load(&job->ended)) {
+        printf("\r%3d%% of this step", atomic_load(&job->step_permille) / 10);
+        fflush(stdout);
+        nanosleep(&pause, NULL);
+        waited += 0.02;
+        if (seconds > 0.0 && waited >= seconds)
+            atomic_store(&stop, 1);
+    }
+    printf("\n");
+}
+
+int main(int argc, char **argv)
+{
+    render_job job = {.samples = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1024};
+    const double seconds = argc > 2 ? strtod(argv[2], NULL) : 0.0;
+    pthread_t thread;
+
+    if (pt_create(NULL, &job.context) < 0) {
+        fprintf(stderr, "%s\n", pt_last_error(NULL));
+        return EXIT_FAILURE;
+    }
+    signal(SIGINT, request_stop);
+    if (pthread_create(&thread, NULL, render_thread, &job) != 0) {
+        fprintf(stderr, "no thread\n");
+        pt_destroy(job.context);
+        return EXIT_FAILURE;
+    }
+    watch(&job, seconds);
+    pthread_join(thread, NULL);
+    if (job.result < 0)
+        fprintf(stderr, "%s: %s\n", pt_result_name(job.result), pt_last_error(job.context));
+    pt_destroy(job.context);
+    return job.result >= 0 && job.shown ? EXIT_SUCCESS : EXIT_FAILURE;
+}
