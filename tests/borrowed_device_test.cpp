@@ -49,6 +49,7 @@ public:
     struct Counts {
         int locks, submissions, submissions_without_lock, waits_for_all;
         bool held;
+        VkResult failure; // of the submissions to come, which do not reach the device; VK_SUCCESS: they do
     };
     static inline Counts counts{};
 
@@ -56,7 +57,7 @@ private:
     static VkResult submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo *infos, VkFence fence) {
         ++counts.submissions;
         counts.submissions_without_lock += counts.held ? 0 : 1;
-        return real_submit(queue, count, infos, fence);
+        return counts.failure == VK_SUCCESS ? real_submit(queue, count, infos, fence) : counts.failure;
     }
     static VkResult wait() {
         ++counts.waits_for_all;
@@ -126,6 +127,22 @@ TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
     EXPECT_GE(QueueSpy::counts.submissions, 4);
     EXPECT_EQ(QueueSpy::counts.submissions_without_lock, QueueSpy::counts.submissions);
     EXPECT_EQ(QueueSpy::counts.locks, 0);
+}
+
+TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
+    const CallerVulkan handles = this->handles(true);
+    Instance instance(handles.instance);
+    const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
+    Device device(instance, physical, LogicalDevice::borrow(physical, handles));
+    const QueueSpy spy(device.handle());
+    Buffer buffer(device, BufferUse::Storage, 64, "test");
+    QueueSpy::counts.failure = VK_ERROR_DEVICE_LOST;
+    EXPECT_EQ(error_of([&] { buffer.clear(); }).code(), PT_ERROR_DEVICE_LOST);
+    EXPECT_EQ(QueueSpy::counts.locks, 1);
+    EXPECT_FALSE(QueueSpy::counts.held);
+    QueueSpy::counts.failure = VK_SUCCESS;
+    EXPECT_EQ(error_of([&] { buffer.clear(); }).code(), PT_ERROR_DEVICE_LOST) << "for good";
+    EXPECT_EQ(QueueSpy::counts.submissions, 1);
 }
 
 #ifndef __SANITIZE_ADDRESS__ // what stays behind is a leak, as it should be
