@@ -278,8 +278,9 @@ typedef void (*pt_queue_fn)(void *user);
  *            threads share a device.
  * Order      the context uses its own buffers alone. Its pipeline barriers are for compute and transfers, and may delay
  *            commands of others in the queue, never change them.
- * Time       work of others that is before the context's in the queue is counted as time of its submissions: it makes
- *            them smaller, and on a GPU a submission that has not ended after 10 seconds counts as a lost device.
+ * Time       work of others that is before the context's in the queue must not wait for the calling thread. It counts
+ *            as time of the context's submissions: it makes them smaller, and on a GPU a submission that has not ended
+ *            after 10 seconds means that the device is lost.
  * Loss       PT_ERROR_DEVICE_LOST from then on, whoever lost the device. If it hangs, so that submissions of this
  *            context have not ended by pt_destroy, what they use stays behind on the device until the process ends.
  *
