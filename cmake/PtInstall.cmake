@@ -1,0 +1,47 @@
+# Installs the library: a shared and a static one, the header, and how to find them by CMake and by pkg-config. Nothing that
+# is installed names the prefix, so that an installed tree can be moved. Included by lib/.
+include(CMakePackageConfigHelpers)
+set(pt_cmake_directory ${CMAKE_INSTALL_LIBDIR}/cmake/pt)
+
+install(
+  TARGETS pt
+  EXPORT pt-targets
+  LIBRARY COMPONENT pt_runtime NAMELINK_COMPONENT pt_development
+)
+install(
+  TARGETS pt_static
+  EXPORT pt-static-targets
+  ARCHIVE COMPONENT pt_development
+)
+install(
+  FILES include/pt/pt.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pt
+  COMPONENT pt_development
+)
+
+foreach(export pt-targets pt-static-targets)
+  install(
+    EXPORT ${export}
+    NAMESPACE pt::
+    DESTINATION ${pt_cmake_directory}
+    COMPONENT pt_development
+  )
+endforeach()
+configure_file(${PROJECT_SOURCE_DIR}/cmake/pt-config.cmake.in pt-config.cmake @ONLY)
+write_basic_package_version_file(pt-config-version.cmake COMPATIBILITY SameMajorVersion)
+install(
+  FILES ${CMAKE_CURRENT_BINARY_DIR}/pt-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/pt-config-version.cmake
+  DESTINATION ${pt_cmake_directory}
+  COMPONENT pt_development
+)
+
+list(TRANSFORM pt_cxx_runtime PREPEND -l OUTPUT_VARIABLE pt_cxx_runtime_flags)
+list(JOIN pt_cxx_runtime_flags " " pt_cxx_runtime_flags)
+file(RELATIVE_PATH pt_prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" pt_prefix_from_pc "${pt_prefix_from_pc}")
+configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in pt.pc @ONLY)
+install(
+  FILES ${CMAKE_CURRENT_BINARY_DIR}/pt.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT pt_development
+)

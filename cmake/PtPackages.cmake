@@ -1,0 +1,72 @@
+# Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt the
+# program. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
+set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR})
+set(pt_development_package libpt-dev)
+set(pt_program_package pt)
+set(CPACK_COMPONENTS_ALL pt_runtime pt_development)
+if(PT_BUILD_CLI)
+  list(APPEND CPACK_COMPONENTS_ALL pt_program)
+endif()
+
+# Where Debian wants it; an installation without packages does not have it.
+foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+  install(
+    FILES ${PROJECT_SOURCE_DIR}/LICENSE
+    DESTINATION share/doc/${${component}_package}
+    RENAME copyright
+    COMPONENT ${component} EXCLUDE_FROM_ALL
+  )
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${${component}_package})
+endforeach()
+
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/lib/examples/
+  DESTINATION share/doc/${pt_development_package}/examples
+  COMPONENT pt_development EXCLUDE_FROM_ALL
+  PATTERN CMakeLists.txt EXCLUDE
+  PATTERN __pycache__ EXCLUDE
+)
+install(
+  DIRECTORY ${PROJECT_SOURCE_DIR}/cli/scenes
+  DESTINATION share/doc/${pt_program_package}/examples
+  COMPONENT pt_program EXCLUDE_FROM_ALL
+)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME ${PROJECT_NAME})
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "pt developers <developers@pt.invalid>") # a domain that no host can have (RFC 2606)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(pt_story "Scenes of spheres and planes are path-traced by one Vulkan compute kernel, on GPUs of any
+vendor or, with Mesa's lavapipe, on the CPU. Images are exact sums of their samples.\n"
+)
+set(same_version "(= ${PROJECT_VERSION})")
+
+set(CPACK_COMPONENT_PT_RUNTIME_DESCRIPTION "offscreen path tracer for Vulkan devices (shared library)
+${pt_story} .\n This package has the shared library."
+)
+set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
+set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+
+set(CPACK_COMPONENT_PT_DEVELOPMENT_DESCRIPTION "offscreen path tracer for Vulkan devices (development files)
+${pt_story} .\n This package has the header, the static library and how to find them by CMake and pkg-config."
+)
+set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
+
+set(CPACK_COMPONENT_PT_PROGRAM_DESCRIPTION "offscreen path tracer for Vulkan devices (program)
+${pt_story} .\n This package has the command line program, which renders scene files to EXR, PNG and JPEG."
+)
+set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
+include(CPack)

@@ -1,0 +1,104 @@
+/* The smallest program: a ball under a lamp, written to smallest.pfm (linear radiance as floats; GIMP and tev show it).
+ *
+ *     cc smallest.c $(pkg-config --cflags --libs pt) -o smallest && ./smallest
+ */
+#include <pt/pt.h>
+
+#include <stdio.h>
+
+enum { WIDTH = 128, HEIGHT = 96 };
+
+/* The four verbs. Each call is made only if those before it succeeded; what is > 0 is a remark and no failure. */
+static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
+{
+    static const pt_material materials[] = {
+        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},   /* white, matt */
+        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f}, /* red, glossy */
+        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f},   /* a lamp */
+    };
+    static const pt_sphere spheres[] = {
+        {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
+        {{2.0, 4.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 2, 0},
+    };
+    static const pt_plane floor = {{0.0, 1.0, 0.0}, 0.0, 0, 0};
+    pt_scene scene = {0};
+    pt_camera camera = {0};
+    pt_render settings = {0};
+    pt_accumulate_info samples = {0};
+    pt_image image = {0};
+    pt_result result;
+
+    scene.struct_size = sizeof scene;
+    scene.materials = materials;
+    scene.material_count = 3;
+    scene.spheres = spheres;
+    scene.sphere_count = 2;
+    scene.planes = &floor;
+    scene.plane_count = 1;
+
+    camera.struct_size = sizeof camera;
+    camera.position[1] = 1.5;
+    camera.position[2] = 5.0;
+    camera.target[1] = 1.0;
+
+    settings.struct_size = sizeof settings;
+    settings.width = WIDTH;
+    settings.height = HEIGHT;
+
+    samples.struct_size = sizeof samples;
+    samples.sample_count = 64;
+
+    image.struct_size = sizeof image;
+    image.data = pixels;
+    image.size_bytes = size_bytes;
+
+    result = pt_set_scene(context, &scene);
+    if (result >= 0)
+        result = pt_set_camera(context, &camera);
+    if (result >= 0)
+        result = pt_set_render(context, &settings);
+    if (result >= 0)
+        result = pt_accumulate(context, &samples);
+    if (result >= 0)
+        result = pt_readback(context, &image);
+    return result;
+}
+
+/* 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
+static int write_pfm(const char *path, const float *pixels)
+{
+    FILE *file = fopen(path, "wb");
+    int row;
+    int whole;
+
+    if (!file)
+        return 0;
+    whole = fprintf(file, "PF\n%d %d\n-1.0\n", WIDTH, HEIGHT) > 0;
+    for (row = HEIGHT; row-- > 0;)
+        whole = whole && fwrite(pixels + row * WIDTH * 3, sizeof(float), WIDTH * 3, file) == WIDTH * 3;
+    return fclose(file) == 0 && whole;
+}
+
+int main(void)
+{
+    static float pixels[WIDTH * HEIGHT * 3];
+    pt_context *context;
+    pt_result result = pt_create(NULL, &context);
+
+    if (result < 0) { /* there is no context to ask: the message is this thread's */
+        fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(NULL));
+        return 1;
+    }
+    result = render(context, pixels, sizeof pixels);
+    if (result < 0) /* before pt_destroy, to which the message belongs */
+        fprintf(stderr, "%s: %s\n", pt_result_name(result), pt_last_error(context));
+    pt_destroy(context);
+    if (result < 0)
+        return 1;
+
+    if (!write_pfm("smallest.pfm", pixels)) {
+        perror("smallest.pfm");
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,208 @@
+"""Programs of other people, built from the installed library by what its users have: pkg-config, CMake, Python, Debian's
+packages. Called by CTest as consumers_test.py STEP with the paths below; the step `install` comes before the others.
+
+What is installed is moved before anybody looks at it, and no program finds the build folder."""
+
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+EXAMPLES = SOURCE / "lib" / "examples"
+
+
+class Failed(Exception):
+    pass
+
+
+def run(*command, expect=0, cwd=None, **environment):
+    """The standard output of a command that has to exit with a given status."""
+    done = subprocess.run([str(word) for word in command], cwd=cwd, env={**os.environ, **environment},
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != expect:
+        raise Failed(f"{' '.join(map(str, command))}\nexit status {done.returncode}, not {expect}:\n{done.stdout}")
+    return done.stdout
+
+
+def require(holds, message):
+    if not holds:
+        raise Failed(message)
+
+
+def check_enclosure(*command, **environment):
+    """A program that has found exact radiances, and that finds an error where another radiance is expected."""
+    run(*command, **environment)
+    run(*command, "2.5", expect=1, **environment)
+
+
+def files_with(tree, *texts):
+    """The files below a folder that have one of the texts in them."""
+    found = []
+    for path in sorted(tree.rglob("*")):
+        if path.is_file() and not path.is_symlink():
+            data = path.read_bytes()
+            found += [f"{path}: {text}" for text in texts if str(text).encode() in data]
+    return found
+
+
+def needed(program):
+    """The names of the shared libraries that a program was linked with."""
+    return [line.split("[")[1].rstrip("]") for line in run("readelf", "--dynamic", program).splitlines()
+            if "(NEEDED)" in line]
+
+
+def check_linkage(program, shared):
+    names = [name for name in needed(program) if name.startswith("libpt")]
+    require(names == (["libpt.so.0"] if shared else []), f"{program} needs {names}")
+
+
+class Steps:
+    def __init__(self, options):
+        self.options = options
+        self.work = options.work
+        self.prefix = self.work / "moved"
+        self.library = self.prefix / options.libdir
+        self.pc = {"PKG_CONFIG_PATH": str(self.library / "pkgconfig")}
+
+    def folder(self, name):
+        path = self.work / name
+        shutil.rmtree(path, ignore_errors=True)
+        path.mkdir(parents=True)
+        return path
+
+    def pkg_config(self, *arguments):
+        return run("pkg-config", *arguments, "pt", **self.pc).split()
+
+    def install(self):
+        shutil.rmtree(self.work, ignore_errors=True)
+        first = self.work / "installed"
+        run(self.options.cmake, "--install", self.options.build, "--prefix", first)
+        require(files_with(first, first) == [], f"the prefix is in installed files: {files_with(first, first)}")
+        trace = first / "trace"  # what has the prefix in it is found
+        trace.write_text(f"prefix={first}")
+        require(files_with(first, first) == [f"{trace}: {first}"], "a file that names the prefix went unnoticed")
+        trace.unlink()
+        first.rename(self.prefix)
+        for kind in "*.cmake", "*.pc", "*.h":
+            for path in self.prefix.rglob(kind):
+                text = path.read_text()
+                for place in self.options.build, SOURCE:
+                    require(f"{place}/" not in text, f"{path} names {place}")
+
+    def c99(self):
+        """pkg-config, with the shared and with the static library; and the example in C."""
+        folder = self.folder("c99")
+        strict = [self.options.c_compiler, "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
+        enclosure = HERE / "c99" / "enclosure.c"
+        run(*strict, enclosure, *self.pkg_config("--cflags", "--libs"), "-o", folder / "shared")
+        check_linkage(folder / "shared", shared=True)
+        check_enclosure(folder / "shared", LD_LIBRARY_PATH=str(self.library))
+
+        flags = self.pkg_config("--static", "--cflags", "--libs")
+        flags = ["-l:libpt.a" if flag == "-lpt" else flag for flag in flags]
+        run(*strict, enclosure, *flags, "-o", folder / "static")
+        check_linkage(folder / "static", shared=False)
+        check_enclosure(folder / "static")
+
+        run(*strict, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "smallest")
+        run(folder / "smallest", cwd=folder, LD_LIBRARY_PATH=str(self.library))
+        require(self.pkg_config("--modversion") == [self.options.version], "pt.pc has another version")
+
+    def package(self):
+        """find_package in C++ with both libraries, and in C alone with the static one."""
+        folder = self.folder("package")
+        for project in "package", "package_c":
+            build = folder / project
+            run(self.options.cmake, "-G", "Ninja", "-S", HERE / project, "-B", build, "-DCMAKE_BUILD_TYPE=Debug",
+                f"-DCMAKE_PREFIX_PATH={self.prefix}", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
+                f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}")
+            cache = (build / "CMakeCache.txt").read_text()
+            require(f"pt_DIR:PATH={self.library}/cmake/pt\n" in cache, "another pt was found than the one installed")
+            run(self.options.cmake, "--build", build)
+        check_linkage(folder / "package/enclosure_shared", shared=True)
+        check_linkage(folder / "package/enclosure_static", shared=False)
+        for program in "package/enclosure_shared", "package/enclosure_static", "package_c/enclosure_static":
+            check_enclosure(folder / program)
+
+    def subproject(self):
+        """add_subdirectory. Without optimisation, for the compiler's time."""
+        folder = self.folder("subproject")
+        build = folder / "build"
+        run(self.options.cmake, "-G", "Ninja", "-S", HERE / "subproject", "-B", build, "-DCMAKE_CXX_FLAGS=-O0",
+            f"-DPT_DIRECTORY={SOURCE}", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
+            f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}")
+        run(self.options.cmake, "--build", build, "-j2")
+        for program in "enclosure_shared", "enclosure_static":
+            check_enclosure(build / program)
+        run(self.options.cmake, "--install", build, "--prefix", folder / "installed")
+        installed = [path.name for path in (folder / "installed").rglob("*") if path.is_file()]
+        require(installed == ["enclosure_static"], f"the project's installation has {installed}")
+
+    def python(self):
+        """ctypes, and the example in Python, whose image has the bits of the example in C."""
+        folder = self.folder("python")
+        library = {"PT_LIBRARY": str(self.library / "libpt.so.0")}
+        enclosure = [sys.executable, "-B", HERE / "python" / "enclosure.py", EXAMPLES]
+        run(*enclosure, "2", **library)
+        run(*enclosure, "2.5", expect=1, **library)
+        run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
+        image = (folder / "smallest.pfm").read_bytes()
+        require(len(image) == len(b"PF\n128 96\n-1.0\n") + 128 * 96 * 12, "smallest.pfm has another size")
+        run(self.options.c_compiler, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "c")
+        run(folder / "c", cwd=folder, LD_LIBRARY_PATH=str(self.library))
+        require((folder / "smallest.pfm").read_bytes() == image, "smallest.c and smallest.py differ")
+
+    def check_program(self, program, folder, **environment):
+        """The program finds its library, and the module that encodes EXR and JPEG."""
+        scene = SOURCE / "cli" / "scenes" / "coursework.json"
+        outputs = [folder / name for name in ("x.exr", "x.jpg", "x.png")]
+        run(program, "render", scene, "--size", "16x8", "--spp", "1", *[word for o in outputs for word in ("-o", o)],
+            **environment)
+        for output, magic in zip(outputs, (b"\x76\x2f\x31\x01", b"\xff\xd8\xff", b"\x89PNG")):
+            require(output.read_bytes().startswith(magic), f"{output} is of another format")
+
+    def program(self):
+        self.check_program(self.prefix / "bin" / "pt", self.folder("program"))
+
+    def debian(self):
+        """The packages have what they should, say what they need, and work from where they are unpacked."""
+        folder = self.folder("debian")
+        run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
+        packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
+        require(sorted(packages) == ["libpt-dev", "libpt0", "pt"], f"the packages are {sorted(packages)}")
+        exact = f"libpt0 (= {self.options.version})"
+        for name, wanted in {
+            "libpt0": ["libc6", "libstdc++6", "libvulkan1"],
+            "libpt-dev": [exact, "libvulkan-dev"],
+            "pt": [exact, "libopenimageio2.", "libpng16-16", "libstdc++6"]
+        }.items():
+            depends = run("dpkg-deb", "--field", packages[name], "Depends").strip().split(", ")
+            for start in wanted:
+                require(any(entry.startswith(start) for entry in depends), f"{name} depends on {depends}")
+        root = folder / "root"
+        for path in packages.values():
+            run("dpkg-deb", "--extract", path, root)
+        for name in packages:
+            require((root / "usr/share/doc" / name / "copyright").is_file(), f"{name} has no copyright file")
+        self.check_program(root / "usr/bin/pt", folder, LD_LIBRARY_PATH=str(root / "usr" / self.options.libdir))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("step")
+    for name in "build", "work":
+        parser.add_argument(f"--{name}", type=pathlib.Path, required=True)
+    for name in "cmake", "cpack", "c-compiler", "cxx-compiler", "libdir", "version":
+        parser.add_argument(f"--{name}", required=True)
+    options = parser.parse_args()
+    try:
+        getattr(Steps(options), options.step)()
+    except Failed as failure:
+        sys.exit(str(failure))
+
+
+main()

@@ -1,0 +1,28 @@
+"""A program of somebody else, in Python, with the definitions of the example smallest.py: inside a ball that shines, every
+pixel has the ball's radiance, exactly. Arguments: the examples' folder and the red that is expected."""
+
+import sys
+
+sys.path.insert(0, sys.argv[1])
+import smallest  # noqa: E402
+
+
+def main():
+    expected = [float(sys.argv[2]), 1.0, 0.5] * (8 * 4)
+    with smallest.Renderer() as renderer:
+        renderer.set_scene([smallest.pt_material(emission=(2, 1, 0.5))], [smallest.pt_sphere(radius=3)])
+        renderer.set_camera(target=(0, 0, -1))
+        renderer.set_render(8, 4)
+        renderer.accumulate(3)
+        pixels = renderer.image()
+        try:
+            renderer.set_render(0, 4)
+        except RuntimeError as error:
+            refused = str(error)
+    if refused != "PT_ERROR_INVALID_ARGUMENT: render.width = 0: must be >= 1":
+        sys.exit(f"an image without width was refused with: {refused}")
+    if list(pixels) != expected:
+        sys.exit(f"the image is {list(pixels)}")
+
+
+main()
