@@ -9,7 +9,8 @@ cd "$(dirname "$0")/.."
 
 packages="build-essential cmake ninja-build pkg-config
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
-    libglm-dev libopenimageio-dev libpng-dev nlohmann-json3-dev libcli11-dev libgtest-dev python3"
+    libglm-dev libopenimageio-dev libpng-dev nlohmann-json3-dev libcli11-dev libgtest-dev python3
+    doxygen file"
 
 install_packages() {
     command -v apt-get >/dev/null || return 0

@@ -1,23 +1,32 @@
-/* pt: an offscreen path tracer for spheres and planes on any Vulkan device.
+/** @file
+ * pt: an offscreen path tracer for spheres and planes on any Vulkan device.
  *
- * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
+ * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate,
+ * pt_readback.
  *
  * Conventions
- *   World      right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1].
- *   Colour     linear RGB radiance, unclamped. Row 0 of an image is the top row.
- *   Numbers    every number must be finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32
- *              numbers too.
- *   Structs    a struct passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and
- *              grows only at its tail; a zero field means "default". A shorter struct is read as if zeros followed;
- *              a longer one is accepted only if the tail unknown to this library is zero. Elements of arrays
- *              (pt_material, pt_sphere, pt_plane, pt_device_info, pt_function_accuracy) are frozen. Reserved fields
- *              must be zero.
- *   Results    a call is one transaction: if it fails (result < 0) it has changed nothing, except that a lost device
- *              stays lost (PT_ERROR_DEVICE_LOST from then on; destroy the context and create another).
- *              Every failure has a message, see pt_last_error.
- *   Threads    different contexts are independent and may be used at the same time; one context is used by one thread
- *              at a time. The library starts no threads, prints nothing, reads no files and has no globals.
- *   Callbacks  run inside the call, on the calling thread, must not call back into the same context and must not throw.
+ *
+ * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1].
+ * - Colour: linear RGB radiance, unclamped. Row 0 of an image is the top row.
+ * - Numbers: every number must be finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32
+ *   numbers too.
+ * - Structs: a struct passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and
+ *   grows only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer
+ *   one is accepted only if the tail unknown to this library is zero (PT_ERROR_UNSUPPORTED). Elements of arrays
+ *   (pt_material, pt_sphere, pt_plane, pt_device_info, pt_function_accuracy) are frozen. Reserved fields must be
+ *   zero.
+ * - Ownership: what a call is given is copied or no longer needed when it returns; only callbacks with their user
+ *   pointers are kept where that is said. Pointers to structs and results must not be NULL where that is not
+ *   allowed.
+ * - Results: a call is one transaction: if it fails (result < 0) it has changed nothing, except that a lost device
+ *   stays lost (PT_ERROR_DEVICE_LOST from then on; destroy the context and create another) and that pt_accumulate
+ *   may have taken some of its samples. Every failure has a message, see pt_last_error. Beside the errors that a
+ *   function names, it can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL; and with
+ *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
+ * - Threads: different contexts are independent and may be used at the same time; one context is used by one thread
+ *   at a time. The library starts no threads, prints nothing, reads no files and has no globals.
+ * - Callbacks: run inside the call, on the calling thread, must not call back into the same context and must not
+ *   throw.
  */
 #ifndef PT_H
 #define PT_H
@@ -25,243 +34,263 @@
 #include <stdint.h>
 
 #ifndef PT_API
+/** Before every function; a build of the library may define it. Programs leave it alone. */
 #define PT_API
 #endif
 
-/* Version of this header: major * 1000000 + minor * 1000 + patch. */
+/** Version of this header: major * 1000000 + minor * 1000 + patch. */
 #define PT_VERSION 1000u
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* < 0: error; 0: done; > 0: done with a remark. The numbers never change. */
+/** What a call came to. < 0: error; 0: done; > 0: done with a remark. The numbers never change. */
 typedef int32_t pt_result;
+/** Values of pt_result. */
 enum {
-    PT_OK = 0,
-    PT_CANCELLED = 1,               /* the progress callback asked to stop; whole samples were kept */
-    PT_TARGET_REACHED = 2,          /* the target error was reached before all samples were taken */
-    PT_ERROR_INVALID_ARGUMENT = -1, /* a field, size or pointer breaks a rule of this header */
-    PT_ERROR_INVALID_SCENE = -2,    /* a scene breaks a rule; the message names field, value and rule */
-    PT_ERROR_INVALID_STATE = -3,    /* something has to be set first; the message says what */
-    PT_ERROR_UNSUPPORTED = -4,      /* valid, but beyond this device, driver or library */
-    PT_ERROR_NO_DEVICE = -5,        /* no Vulkan driver, or no device fits; the message has the reasons */
-    PT_ERROR_OUT_OF_HOST_MEMORY = -6,
-    PT_ERROR_OUT_OF_DEVICE_MEMORY = -7,
-    PT_ERROR_DEVICE_LOST = -8,
-    PT_ERROR_SHADER = -9,   /* the driver refused to build the kernel */
-    PT_ERROR_INTERNAL = -10 /* a bug in this library or in the driver */
+    PT_OK = 0,                          /**< done */
+    PT_CANCELLED = 1,                   /**< the progress callback asked to stop; whole samples were kept */
+    PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
+    PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
+    PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
+    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set first; the message says what */
+    PT_ERROR_UNSUPPORTED = -4,          /**< valid, but beyond this device, driver or library */
+    PT_ERROR_NO_DEVICE = -5,            /**< no Vulkan driver, or no device fits; the message has the reasons */
+    PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little memory left */
+    PT_ERROR_OUT_OF_DEVICE_MEMORY = -7, /**< the device has too little memory left, for this image for instance */
+    PT_ERROR_DEVICE_LOST = -8,          /**< the device or its driver gave up; the context can only be destroyed */
+    PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel */
+    PT_ERROR_INTERNAL = -10             /**< a bug in this library or in the driver */
 };
 
-/* One renderer, on one device or several. */
+/** One renderer, on one device or several. Made by pt_create and owned by its caller until pt_destroy. */
 typedef struct pt_context pt_context;
 
 /* ---- Devices ---------------------------------------------------------------------------------------------------- */
 
-/* pt_device_info.kind */
+/** Values of pt_device_info.kind. */
 enum {
-    PT_DEVICE_OTHER = 0,
-    PT_DEVICE_INTEGRATED_GPU = 1,
-    PT_DEVICE_DISCRETE_GPU = 2,
-    PT_DEVICE_VIRTUAL_GPU = 3,
-    PT_DEVICE_CPU = 4
+    PT_DEVICE_OTHER = 0,          /**< none of these */
+    PT_DEVICE_INTEGRATED_GPU = 1, /**< shares the memory of the machine */
+    PT_DEVICE_DISCRETE_GPU = 2,   /**< has memory of its own */
+    PT_DEVICE_VIRTUAL_GPU = 3,    /**< a virtual machine's */
+    PT_DEVICE_CPU = 4             /**< a driver that runs kernels on the CPU */
 };
 
+/** A Vulkan device. */
 typedef struct pt_device_info {
-    uint32_t kind;         /* PT_DEVICE_* */
-    uint32_t suitable;     /* 1: pt_create can use it; 0: reason says why not */
-    uint64_t memory_bytes; /* size of its largest memory heap that kernels can reach quickly */
-    uint8_t uuid[16];      /* tells two equal devices apart; stable over reboots */
-    char name[256];        /* UTF-8, zero-terminated, like the two below */
-    char driver[256];      /* driver name and version */
-    char reason[256];      /* empty if suitable */
+    uint32_t kind;         /**< PT_DEVICE_* */
+    uint32_t suitable;     /**< 1: pt_create can use it; 0: reason says why not */
+    uint64_t memory_bytes; /**< size of its largest memory heap that kernels can reach quickly */
+    uint8_t uuid[16];      /**< tells two equal devices apart; stable over reboots */
+    char name[256];        /**< UTF-8, zero-terminated, like the two below */
+    char driver[256];      /**< driver name and version */
+    char reason[256];      /**< empty if suitable */
 } pt_device_info;
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------ */
 
-/* Reflection is the physically-normalised Phong model
+/** How a surface reflects and shines.
+ *
+ * Reflection is the physically-normalised Phong model
+ *
  *     f(wi, wo) = diffuse / pi + specular * (n + 2) / (2 pi) * max(0, dot(wo, reflect(wi)))^n,   n = glossiness,
+ *
  * where n = 0 stands for the limit n -> 0: a lobe that is constant on the half space about the mirror direction.
  * Components are R, G, B, each in [0, 1e18]; diffuse + specular may exceed 1 (such a surface gains energy). */
 typedef struct pt_material {
-    float diffuse[3];
-    float specular[3];
-    float emission[3]; /* radiance, the same in every direction and on both sides */
-    float glossiness;  /* n in [0, 1e9] */
+    float diffuse[3];  /**< share of the light that is scattered evenly */
+    float specular[3]; /**< weight of the lobe about the mirror direction */
+    float emission[3]; /**< radiance, the same in every direction and on both sides */
+    float glossiness;  /**< n in [0, 1e9] */
 } pt_material;
 
-/* Visible, lit and emitting on both sides. The centre at time t is center + t * motion. */
+/** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion. */
 typedef struct pt_sphere {
-    double center[3];
-    double radius; /* > 0 */
-    double motion[3];
-    uint32_t material; /* index into pt_scene.materials */
-    uint32_t reserved;
+    double center[3];  /**< at time 0 */
+    double radius;     /**< > 0 */
+    double motion[3];  /**< way from time 0 to time 1 */
+    uint32_t material; /**< index into pt_scene.materials */
+    uint32_t reserved; /**< 0 */
 } pt_sphere;
 
-/* The points x with dot(normal, x) + offset = 0. Visible, lit and emitting on both sides. */
+/** The points x with dot(normal, x) + offset = 0. Visible, lit and emitting on both sides. */
 typedef struct pt_plane {
-    double normal[3]; /* any length but 0; (normal, offset) is divided by it */
-    double offset;
-    uint32_t material; /* index into pt_scene.materials */
-    uint32_t reserved;
+    double normal[3];  /**< any length but 0; (normal, offset) is divided by it */
+    double offset;     /**< minus the distance from the origin along the normal, times the normal's length */
+    uint32_t material; /**< index into pt_scene.materials */
+    uint32_t reserved; /**< 0 */
 } pt_plane;
 
+/** What is to be seen. The arrays are the caller's and are copied by pt_set_scene. */
 typedef struct pt_scene {
-    uint32_t struct_size;
-    uint32_t material_count;
-    uint32_t sphere_count;
-    uint32_t plane_count;         /* spheres and planes together: fewer than 2^30 */
-    const pt_material *materials; /* the arrays are copied; NULL where the count is 0 */
-    const pt_sphere *spheres;
-    const pt_plane *planes;
+    uint32_t struct_size;         /**< sizeof(pt_scene) */
+    uint32_t material_count;      /**< elements of materials */
+    uint32_t sphere_count;        /**< elements of spheres */
+    uint32_t plane_count;         /**< elements of planes; spheres and planes together: fewer than 2^30 */
+    const pt_material *materials; /**< NULL where the count is 0, like the two below */
+    const pt_sphere *spheres;     /**< in any order */
+    const pt_plane *planes;       /**< in any order */
 } pt_scene;
 
-/* A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
+/** A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
 typedef struct pt_camera {
-    uint32_t struct_size;
-    uint32_t reserved;
-    double position[3];
-    double target[3];    /* the point in the middle of the image; must differ from position */
-    double up[3];        /* not parallel to the viewing direction; default (0, 1, 0) */
-    double vertical_fov; /* full vertical angle in [1e-8, pi); default pi / 4 */
-    double shutter_open; /* 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
-    double shutter_close;
+    uint32_t struct_size; /**< sizeof(pt_camera) */
+    uint32_t reserved;    /**< 0 */
+    double position[3];   /**< of the pinhole; default the origin */
+    double target[3];     /**< the point in the middle of the image; must differ from position */
+    double up[3];         /**< not parallel to the viewing direction; default (0, 1, 0) */
+    double vertical_fov;  /**< full vertical angle in [1e-8, pi); default pi / 4 */
+    double shutter_open;  /**< 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
+    double shutter_close; /**< light is gathered evenly from shutter_open to here */
 } pt_camera;
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/* pt_render.estimator: how light is found. All converge to the same image; they differ in noise and in time. */
+/** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time. */
 enum {
-    PT_ESTIMATOR_BEST = 0,    /* what this version considers best: mis */
-    PT_ESTIMATOR_UNIFORM = 1, /* directions uniform on the hemisphere; lamps are found by chance */
-    PT_ESTIMATOR_COSINE = 2,  /* directions by the cosine to the normal, the geometric term */
-    PT_ESTIMATOR_BSDF = 3,    /* directions by the material: cosine and specular lobe */
-    PT_ESTIMATOR_LIGHT =
-        4,               /* lamps sampled by solid angle; directions as bsdf, but blind to lamps that can be sampled */
-    PT_ESTIMATOR_MIS = 5 /* lamps sampled by solid angle and directions as bsdf, combined */
+    PT_ESTIMATOR_BEST = 0,    /**< what this version considers best: mis */
+    PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
+    PT_ESTIMATOR_COSINE = 2,  /**< directions by the cosine to the normal, the geometric term */
+    PT_ESTIMATOR_BSDF = 3,    /**< directions by the material: cosine and specular lobe */
+    /** lamps sampled by solid angle; directions as bsdf, but blind to lamps that can be sampled */
+    PT_ESTIMATOR_LIGHT = 4,
+    PT_ESTIMATOR_MIS = 5 /**< lamps sampled by solid angle and directions as bsdf, combined */
 };
 
-/* pt_render.sampler: where the numbers of a sample come from. All converge to the same image, at different rates. */
+/** Values of pt_render.sampler: where the numbers of a sample come from. All converge to the same image, at different
+ * rates. */
 enum {
-    PT_SAMPLER_BEST = 0,      /* what this version considers best: sobol */
-    PT_SAMPLER_RANDOM = 1,    /* independent random numbers */
-    PT_SAMPLER_HALTON = 2,    /* radical inverses in prime bases, the same points in every pixel */
-    PT_SAMPLER_HALTON_CP = 3, /* the same, rotated by a random offset per pixel and dimension (Cranley and Patterson) */
-    PT_SAMPLER_SOBOL = 4      /* Sobol points, Owen-scrambled per pixel and dimension */
+    PT_SAMPLER_BEST = 0,   /**< what this version considers best: sobol */
+    PT_SAMPLER_RANDOM = 1, /**< independent random numbers */
+    PT_SAMPLER_HALTON = 2, /**< radical inverses in prime bases, the same points in every pixel */
+    /** the same, rotated by a random offset per pixel and dimension (Cranley and Patterson) */
+    PT_SAMPLER_HALTON_CP = 3,
+    PT_SAMPLER_SOBOL = 4 /**< Sobol points, Owen-scrambled per pixel and dimension */
 };
 
+/** What image is to be made, and how. */
 typedef struct pt_render {
-    uint32_t struct_size;
-    uint32_t width;           /* pixels, >= 1 */
-    uint32_t height;          /* pixels, >= 1 */
-    uint32_t max_path_length; /* surface vertices after the camera, 1 = emission only; [1, 1024]; default 6 */
-    uint64_t seed;            /* equal inputs, device and driver and equal seed: equal bits */
-    uint32_t first_sample;    /* index of the first sample: samples a..b of one sequence may be taken anywhere */
-    uint32_t estimator;       /* PT_ESTIMATOR_* */
-    uint32_t sampler;         /* PT_SAMPLER_* */
-    uint32_t reserved;
-    /* The rows [first_row, first_row + row_count) of the image are rendered, and read back as an image of their own: an
-     * image that is too large for a device is rendered piece by piece, with the same bits. row_count 0: all from
-     * first_row on. */
+    uint32_t struct_size;     /**< sizeof(pt_render) */
+    uint32_t width;           /**< pixels, >= 1 */
+    uint32_t height;          /**< pixels, >= 1 */
+    uint32_t max_path_length; /**< surface vertices after the camera, 1 = emission only; [1, 1024]; default 6 */
+    uint64_t seed;            /**< equal inputs, device and driver and equal seed: equal bits */
+    uint32_t first_sample;    /**< index of the first sample: samples a..b of one sequence may be taken anywhere */
+    uint32_t estimator;       /**< PT_ESTIMATOR_* */
+    uint32_t sampler;         /**< PT_SAMPLER_* */
+    uint32_t reserved;        /**< 0 */
+    /** The rows [first_row, first_row + row_count) of the image are rendered, and read back as an image of their own:
+     * an image that is too large for a device is rendered piece by piece, with the same bits. */
     uint32_t first_row;
-    uint32_t row_count;
+    uint32_t row_count; /**< 0: all from first_row on */
 } pt_render;
 
-/* Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
- * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device at the
- * most, and with several devices those that complete the samples begun. */
+/** Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
+ *
+ * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
+ * at the most, and with several devices those that complete the samples begun. user is
+ * pt_accumulate_info.progress_user. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
+/** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
-    uint32_t struct_size;
-    uint32_t sample_count;   /* samples to add to every pixel, >= 1; indices must stay below 2^32 */
-    pt_progress_fn progress; /* may be NULL */
-    void *progress_user;
-    /* 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
+    uint32_t struct_size;    /**< sizeof(pt_accumulate_info) */
+    uint32_t sample_count;   /**< samples to add to every pixel, >= 1; indices must stay below 2^32 */
+    pt_progress_fn progress; /**< may be NULL; called during pt_accumulate alone */
+    void *progress_user;     /**< handed to progress; the library does not look at it */
+    /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
      * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has 16, 18,
      * 20, ... 32, 36, 40, ... 64, 72, ... samples, eighths of a power of two, and at no other time: where a sequence
      * ends does not depend on how it is split over calls. Finite, >= 0. */
     double target_error;
 } pt_accumulate_info;
 
-/* pt_image.quantity */
+/** Values of pt_image.quantity. */
 enum {
-    PT_QUANTITY_RADIANCE = 0, /* mean of the samples */
-    /* standard error of that mean, from the samples in two parts, of which the first has the largest power of two below
-     * their number: from the difference of the parts' means, and if they are of one size half of its magnitude.
+    PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
+    /** standard error of that mean, from the samples in two parts, of which the first has the largest power of two
+     * below their number: from the difference of the parts' means, and if they are of one size half of its magnitude.
      * It has one degree of freedom, so in a single pixel it is a hint and no more: it is below a third of the true one
      * in a quarter of all values. INFINITY where a part has no sample: of up to 8 all are in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1
 };
 
+/** Memory of the caller's that receives an image. */
 typedef struct pt_image {
-    uint32_t struct_size;
-    uint32_t quantity;   /* PT_QUANTITY_* */
-    float *data;         /* receives R, G, B of each pixel, row by row from the top */
-    uint64_t size_bytes; /* of data; at least (height - 1) * row_bytes + width * 12 */
-    uint64_t row_bytes;  /* distance between rows, a multiple of 4; default width * 12 */
+    uint32_t struct_size; /**< sizeof(pt_image) */
+    uint32_t quantity;    /**< PT_QUANTITY_* */
+    float *data;          /**< receives R, G, B of each pixel, row by row from the top; aligned to 4 bytes */
+    uint64_t size_bytes;  /**< of data; at least (height - 1) * row_bytes + width * 12, of the rows that are rendered */
+    uint64_t row_bytes;   /**< distance between rows, a multiple of 4, >= width * 12; default width * 12 */
 } pt_image;
 
-/* bits of pt_stats.features: what the kernel contains because the scene needs it */
+/** Bits of pt_stats.features: what the kernel contains because the scene needs it. */
 enum {
-    PT_FEATURE_LAMPS = 1,  /* emitting spheres, sampled directly */
-    PT_FEATURE_GLOSS = 2,  /* specular lobes */
-    PT_FEATURE_MOTION = 4, /* spheres that move while the shutter is open */
-    PT_FEATURE_LARGE = 8   /* more surfaces than a uniform buffer holds */
+    PT_FEATURE_LAMPS = 1,  /**< emitting spheres, sampled directly */
+    PT_FEATURE_GLOSS = 2,  /**< specular lobes */
+    PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
+    PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
 };
 
+/** What has been done, what it took, and how good the image is.
+ *
+ * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
+ * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
+ * of 95% confidence. Light that no sample has met yet is not in it. With fewer than 16 samples nothing is known: the
+ * lower bounds are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they
+ * take. */
 typedef struct pt_stats {
-    uint32_t struct_size;
-    uint32_t sample_count;     /* whole samples in every pixel */
-    uint64_t rejected_samples; /* left out of all pixels: NaN, infinite, negative or too bright */
-    uint64_t device_bytes;     /* memory allocated on all its devices now */
-    uint64_t submit_count;     /* submissions of pt_accumulate since pt_create, to all devices */
-    double device_seconds;     /* time spent in them, summed over the devices */
-    uint32_t features;         /* PT_FEATURE_* */
-    uint32_t device_count;     /* devices that share the samples */
-    /* Error of the image, estimated without a reference (shaders/README.md, section 11): the root of the mean of
-     * (x - r)^2 over pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01),
-     * each with bounds of 95% confidence. Light that no sample has met yet is not in it. With fewer than 16 samples
-     * nothing is known: the lower bounds are 0, the others INFINITY. A struct that ends before these fields spares the
-     * read-out that they take. */
-    double rmse;
-    double rmse_low;
-    double rmse_high;
-    double relative_rmse;
-    double relative_rmse_low;
-    double relative_rmse_high;
+    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
+    uint32_t sample_count;     /**< whole samples in every pixel */
+    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
+    uint64_t device_bytes;     /**< memory allocated on all its devices now */
+    uint64_t submit_count;     /**< submissions of pt_accumulate since pt_create, to all devices */
+    double device_seconds;     /**< time spent in them, summed over the devices */
+    uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
+    uint32_t device_count;     /**< devices that share the samples */
+    double rmse;               /**< root mean square error, a radiance */
+    double rmse_low;           /**< lower bound of rmse */
+    double rmse_high;          /**< upper bound of rmse */
+    double relative_rmse;      /**< relative root mean square error, a number */
+    double relative_rmse_low;  /**< lower bound of relative_rmse */
+    double relative_rmse_high; /**< upper bound of relative_rmse */
 } pt_stats;
 
 /* ---- Accuracy --------------------------------------------------------------------------------------------------- */
 
-/* How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
+/** How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
  * is 2^(e - 23) for 2^e <= |y| < 2^(e + 1). */
 typedef struct pt_function_accuracy {
-    char name[40];      /* UTF-8, zero-terminated */
-    double worst_error; /* the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
-    double bound;       /* what it stays within on every device that keeps Vulkan's promises */
-    double worst_input; /* argument at which it was found */
+    char name[40];      /**< UTF-8, zero-terminated */
+    double worst_error; /**< the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
+    double bound;       /**< what it stays within on every device that keeps Vulkan's promises */
+    double worst_input; /**< argument at which it was found */
 } pt_function_accuracy;
 
 /* ---- Context ---------------------------------------------------------------------------------------------------- */
 
-/* level of a log line */
-enum { PT_LOG_ERROR = 1, PT_LOG_WARNING = 2, PT_LOG_INFO = 3 };
-
-/* Receives one UTF-8 line without its line break. */
-typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
-
-/* bits of pt_create_info.flags */
+/** Level of a log line. */
 enum {
-    PT_CREATE_VALIDATION = 1 /* the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
+    PT_LOG_ERROR = 1,   /**< something is wrong */
+    PT_LOG_WARNING = 2, /**< something may be wrong */
+    PT_LOG_INFO = 3     /**< something to know */
 };
 
-/** Called around every use of a queue; user is pt_vulkan.queue_user. */
+/** Receives one UTF-8 line without its line break; line is valid during the call. level is a PT_LOG_*, user is
+ * pt_create_info.log_user. */
+typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
+
+/** Bits of pt_create_info.flags. */
+enum {
+    PT_CREATE_VALIDATION = 1 /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
+};
+
+/** Called around every use of a queue, on the thread that called the library; user is pt_vulkan.queue_user. */
 typedef void (*pt_queue_fn)(void *user);
 
-/**
- * The caller's own Vulkan, for pt_create_info.vulkan: the context makes its objects on this device and submits its work
+/** The caller's own Vulkan, for pt_create_info.vulkan: the context makes its objects on this device and submits its work
  * to this queue, with the same bits as on a device of its own.
  *
  * Needed     instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1). The
@@ -290,7 +319,7 @@ typedef void (*pt_queue_fn)(void *user);
  * PT_ERROR_UNSUPPORTED if the physical device does not fit (pt_device_info.reason). Others as without pt_vulkan.
  */
 typedef struct pt_vulkan {
-    uint32_t struct_size;
+    uint32_t struct_size;     /**< sizeof(pt_vulkan) */
     uint32_t queue_family;    /**< index of the queue's family */
     void *instance;           /**< VkInstance, like the next three never NULL */
     void *physical_device;    /**< VkPhysicalDevice, one of the instance's */
@@ -301,77 +330,124 @@ typedef struct pt_vulkan {
     void *queue_user;         /**< handed to both */
 } pt_vulkan;
 
+/** What a context is to run on. Zeros are defaults, but for struct_size. */
 typedef struct pt_create_info {
-    uint32_t struct_size;
-    uint32_t flags; /* PT_CREATE_* */
-    /* NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
+    uint32_t struct_size; /**< sizeof(pt_create_info) */
+    uint32_t flags;       /**< PT_CREATE_* */
+    /** NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
      * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case.
      * Several devices share the samples of a context, with the same bits if they are of one kind and driver: "all" are
-     * those of the best kind that there is; or indices or UUIDs separated by commas. */
+     * those of the best kind that there is; or indices or UUIDs separated by commas. UTF-8, zero-terminated. */
     const char *device;
-    pt_log_fn log; /* may be NULL */
-    void *log_user;
-    uint32_t submit_milliseconds; /* aim for the length of one submission, [1, 1000]; default 50 */
-    uint32_t reserved;
-    /**
-     * NULL: the context makes an instance and devices of its own. Else it runs on this device alone, device must be
+    pt_log_fn log;                /**< may be NULL; called by any call on the context until pt_destroy returns */
+    void *log_user;               /**< handed to log; the library does not look at it */
+    uint32_t submit_milliseconds; /**< aim for the length of one submission, [1, 1000]; default 50 */
+    uint32_t reserved;            /**< 0 */
+    /** NULL: the context makes an instance and devices of its own. Else it runs on this device alone, device must be
      * NULL, and flags 0: the layers are those of the caller's instance, and their messages go where that sends them.
-     * The struct is read by pt_create alone.
-     */
+     * The struct is read by pt_create alone. */
     const pt_vulkan *vulkan;
 } pt_create_info;
 
 /* -- any thread, no context -- */
 
-/* Version of the library, like PT_VERSION. */
+/** Version of the library, like PT_VERSION. Any thread; never fails. */
 PT_API uint32_t pt_version(void);
 
-/* Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for others. Static, never NULL. */
+/** Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for others. Static, never NULL. Any
+ * thread; never fails. */
 PT_API const char *pt_result_name(pt_result result);
 
-/* Lists the Vulkan devices. devices == NULL: *count receives their number. Else at most *count are written, and *count
- * receives how many were. PT_ERROR_NO_DEVICE if Vulkan itself is not there. */
+/** Lists the Vulkan devices.
+ *
+ * devices == NULL: count receives their number. Else at most as many are written to devices as count says, and count
+ * receives how many were.
+ *
+ * Any thread. PT_ERROR_NO_DEVICE: Vulkan itself is not there, or has no device. */
 PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
 
-/* info may be NULL: all defaults. On success *context is owned by the caller; on failure it is NULL. */
+/** Makes a context.
+ *
+ * info may be NULL: all defaults. On success the context is owned by the caller, who ends it by pt_destroy; on
+ * failure NULL is written.
+ *
+ * Any thread, also while other contexts are in use. PT_ERROR_INVALID_ARGUMENT: info breaks a rule.
+ * PT_ERROR_NO_DEVICE: there is no Vulkan, or no such device, or none that fits. PT_ERROR_UNSUPPORTED: no validation
+ * layer, or a newer struct. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST, PT_ERROR_SHADER: the driver said
+ * so. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
-/* Message of the last call on this context that failed ("" if none did), valid until the next call on it. With NULL:
- * of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such call.
- * Never NULL. */
+/** Message of the last call on this context that failed ("" if none did), valid until the next call on it.
+ *
+ * With NULL: of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such
+ * call. UTF-8, never NULL, owned by the library. Of a context: the thread that uses the context; never fails. */
 PT_API const char *pt_last_error(const pt_context *context);
 
 /* -- one thread at a time per context -- */
 
-/* Waits for the device and frees everything. NULL is allowed. */
+/** Waits for the device and frees everything. NULL is allowed. One thread, after all other calls on the context; never
+ * fails. */
 PT_API void pt_destroy(pt_context *context);
 
-/* What this context runs on; the first of several devices. */
+/** What this context runs on; the first of several devices. One thread at a time per context. */
 PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
 
-/* The three setters may be called in any order and again at any time. Each copies what it is given and, on success,
- * discards the samples accumulated so far. */
+/** Takes over a scene, and discards the samples accumulated so far.
+ *
+ * The three setters may be called in any order and again at any time. Each copies what it is given.
+ *
+ * One thread at a time per context. PT_ERROR_INVALID_SCENE: a rule is broken; the message has a line for each rule
+ * that is, as "spheres[3].radius = -1: must be > 0". PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
+
+/** Takes over a camera, and discards the samples accumulated so far.
+ *
+ * One thread at a time per context. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
+
+/** Takes over the size of the image and how it is made, and discards the samples accumulated so far.
+ *
+ * The device's memory for the image is allocated here: 128 bytes a pixel. One thread at a time per context.
+ * PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_UNSUPPORTED: the device has no buffers of that size.
+ * PT_ERROR_OUT_OF_DEVICE_MEMORY: it has too little memory left. In both cases, render fewer rows at a time.
+ * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
-/* Adds samples to every pixel and returns when they are done. However the samples are split over calls, the sum has the
- * same bits. Needs scene, camera and render settings. Samples more than 2^20 times as bright as the brightest emission
- * in the scene are left out and counted (pt_stats.rejected_samples): estimators that do not follow the material's lobe
- * (uniform, cosine, light) meet them on surfaces of glossiness beyond 1e5, for which they should not be used. */
+/** Adds samples to every pixel and returns when they are done.
+ *
+ * However the samples are split over calls, the sum has the same bits. Needs scene, camera and render settings.
+ * Samples more than 2^20 times as bright as the brightest emission in the scene are left out and counted
+ * (pt_stats.rejected_samples): estimators that do not follow the material's lobe (uniform, cosine, light) meet them
+ * on surfaces of glossiness beyond 1e5, for which they should not be used.
+ *
+ * One thread at a time per context. PT_CANCELLED and PT_TARGET_REACHED: fewer samples than asked for, all of them
+ * whole. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_INVALID_ARGUMENT: a rule is broken.
+ * PT_ERROR_UNSUPPORTED: the scene is beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,
+ * PT_ERROR_DEVICE_LOST: the driver said so. After a failure pt_stats.sample_count says what the image has. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/* Writes the mean radiance of the samples so far, or its standard error. PT_ERROR_INVALID_STATE if there is none.
- * What data holds after a failure is undefined. */
+/** Writes the mean radiance of the samples so far, or its standard error.
+ *
+ * What the image's data holds after a failure is undefined. One thread at a time per context.
+ * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule.
+ * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
-/* stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. */
+/** Writes what has been done; at any time, of a lost device too.
+ *
+ * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
+ * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while the error was read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
-/* Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with double
- * precision. Changes nothing, and needs no scene. rows == NULL: *count receives the number of functions, and nothing is
- * evaluated. Else at most *count rows are written, and *count receives how many were. A worst_error above its bound is
- * no failure of the call: it is what the call is for. */
+/** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
+ * double precision.
+ *
+ * Changes nothing, and needs no scene. rows == NULL: count receives the number of functions, and nothing is
+ * evaluated. Else at most as many rows are written as count says, and count receives how many were. A worst_error
+ * above its bound is no failure of the call: it is what the call is for.
+ *
+ * One thread at a time per context. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver
+ * said so. */
 PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);
 
 #ifdef __cplusplus

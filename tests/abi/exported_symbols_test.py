@@ -1,0 +1,82 @@
+"""The symbols that libpt gives to programs, and its soname. Called by CTest as
+exported_symbols_test.py LIBRARY ARCHIVE HEADER LIST C_COMPILER.
+
+The list is the contract: a symbol that is gone breaks programs, one that is new is a promise to keep."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SONAME = "libpt.so.0"
+
+
+def output(*command):
+    return subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+
+
+def symbols_of(path, *options):
+    """Names that nm lists as defined and global."""
+    lines = output("nm", "--defined-only", "--format=posix", *options, path).splitlines()
+    return {line.split()[0] for line in lines if len(line.split()) > 2}
+
+
+def declared_in(header):
+    return set(re.findall(r"^PT_API\b[^;(]*?\b(pt_\w+)\(", header.read_text(), re.MULTILINE))
+
+
+def soname_of(library):
+    return re.search(r"\(SONAME\).*\[(.*)\]", output("readelf", "--dynamic", library)).group(1)
+
+
+def differences(what, found, listed):
+    return [f"{what}: {name} is {'not in the list' if name in found else 'missing'}" for name in sorted(found ^ listed)]
+
+
+def complaints(library, archive, header, listed):
+    found = differences("shared library", symbols_of(library, "--dynamic"), listed)
+    found += differences("static library", symbols_of(archive, "--extern-only"), listed)
+    found += differences("pt.h", declared_in(header), listed)
+    if soname_of(library) != SONAME:
+        found.append(f"the soname is {soname_of(library)}, not {SONAME}")
+    return found
+
+
+def build(folder, compiler, source, soname):
+    """A library, an archive and a header like pt's, of the functions in source."""
+    (folder / "f.c").write_text(source)
+    (folder / "f.h").write_text(re.sub(r"^int (\w+).*$", r"PT_API int \1(void);", source, flags=re.MULTILINE))
+    output(compiler, "-fPIC", "-c", folder / "f.c", "-o", folder / "f.o")
+    output(compiler, "-shared", f"-Wl,-soname,{soname}", folder / "f.o", "-o", folder / "f.so")
+    (folder / "f.a").unlink(missing_ok=True)
+    output("ar", "rc", folder / "f.a", folder / "f.o")
+    return folder / "f.so", folder / "f.a", folder / "f.h"
+
+
+def check_the_check(compiler):
+    """What is added, missing or named otherwise is found."""
+    one, two = "int pt_one(void) { return 1; }\n", "int pt_two(void) { return 2; }\n"
+    everywhere = ("pt.h", "shared library", "static library")
+    with tempfile.TemporaryDirectory() as name:
+        for source, soname, wanted in (
+            (one + two, SONAME, []),
+            (one, SONAME, [f"{place}: pt_two is missing" for place in everywhere]),
+            (one + two + "int pt_new(void) { return 3; }\n", SONAME,
+             [f"{place}: pt_new is not in the list" for place in everywhere]),
+            (one + two, "libpt.so.1", ["the soname is libpt.so.1, not libpt.so.0"]),
+        ):
+            found = complaints(*build(pathlib.Path(name), compiler, source, soname), {"pt_one", "pt_two"})
+            if sorted(found) != wanted:
+                sys.exit(f"the check found {found}, not {wanted}")
+
+
+def main():
+    library, archive, header, listed, compiler = sys.argv[1:]
+    check_the_check(compiler)
+    found = complaints(library, archive, pathlib.Path(header), set(pathlib.Path(listed).read_text().split()))
+    if found:
+        sys.exit("\n".join(found))
+
+
+main()

@@ -1,0 +1,105 @@
+"""Sizes and offsets of the structs in pt.h, against a table. Called by CTest as
+struct_layout_test.py HEADER TABLE EXAMPLES C_COMPILER; with the first and the last argument alone it prints the table.
+
+A struct may grow at its tail, which adds lines to the table and changes the struct's size; whatever else differs breaks
+programs that were compiled before. The structs in the example smallest.py are held by the same table."""
+
+import ctypes
+import importlib.util
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+
+
+def members_of(body):
+    """Names of the members that are declared one by line of a struct's body."""
+    for declaration in filter(None, (part.strip() for part in body.split(";"))):
+        yield re.search(r"(\w+)(\[\d+\])*$", declaration).group(1)
+
+
+def structs_of(header):
+    """Name and member names of each struct that the header defines."""
+    text = without_comments(header)
+    return [(name, list(members_of(body)))
+            for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL)]
+
+
+def program_for(structs, include):
+    """C that prints "struct size" and "struct.member offset size"."""
+    lines = ["#include <stddef.h>", "#include <stdio.h>", f'#include "{include}"', "int main(void) {"]
+    for struct, members in structs:
+        lines.append(f'printf("{struct} %zu\\n", sizeof({struct}));')
+        for member in members:
+            lines.append(f'printf("{struct}.{member} %zu %zu\\n", offsetof({struct}, {member}), '
+                         f"sizeof((({struct} *)0)->{member}));")
+    return "\n".join(lines + ["return 0; }"])
+
+
+def layout_of(header, compiler):
+    """The table that a header's text has, line by line, as the compiler lays its structs out."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "pt.h").write_text(header)
+        (folder / "layout.c").write_text(program_for(structs_of(header), "pt.h"))
+        subprocess.run([compiler, "-std=c99", folder / "layout.c", "-o", folder / "layout"], check=True)
+        return subprocess.run([folder / "layout"], check=True, capture_output=True, text=True).stdout.splitlines()
+
+
+def python_layout(path):
+    """The same of the ctypes structs in a Python file."""
+    spec = importlib.util.spec_from_file_location("example", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    lines = []
+    for name, struct in vars(module).items():
+        if isinstance(struct, type) and issubclass(struct, ctypes.Structure) and name.startswith("pt_"):
+            lines.append(f"{name} {ctypes.sizeof(struct)}")
+            for member, _ in struct._fields_:
+                field = getattr(struct, member)
+                lines.append(f"{name}.{member} {field.offset} {field.size}")
+    return lines
+
+
+def differences(found, table):
+    return [f"{'+' if line in found else '-'} {line}" for line in sorted(set(found) ^ set(table))]
+
+
+def check_the_check(header, table, compiler):
+    """What programs would notice is found: a member at the tail, in the middle, of another type, renamed, gone."""
+    for old, new, wanted in (
+        ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
+        ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),
+        ("float glossiness;", "double glossiness;", "+ pt_material.glossiness 40 8"),
+        ("double shutter_open;", "double shutter;", "- pt_camera.shutter_open 88 8"),
+        ("double rmse_low;", "", "- pt_stats.rmse_low 56 8"),
+    ):
+        assert header.count(old) == 1, old
+        found = differences(layout_of(header.replace(old, new), compiler), table)
+        if wanted not in found:
+            sys.exit(f"after {old} -> {new} the check found {found}")
+
+
+def main():
+    header = pathlib.Path(sys.argv[1]).read_text()
+    if len(sys.argv) == 3:
+        print("\n".join(layout_of(header, sys.argv[2])))
+        return
+    table = pathlib.Path(sys.argv[2]).read_text().splitlines()
+    examples, compiler = pathlib.Path(sys.argv[3]), sys.argv[4]
+    check_the_check(header, table, compiler)
+    python = python_layout(examples / "smallest.py")
+    if not python or len(structs_of(header)) != header.count("typedef struct") - 1:  # pt_context is opaque
+        sys.exit("not all structs were found")
+    found = differences(layout_of(header, compiler), table)
+    found += [f"smallest.py: {line}" for line in python if line not in table]
+    if found:
+        sys.exit("\n".join(found))
+
+
+main()

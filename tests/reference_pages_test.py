@@ -1,0 +1,66 @@
+"""Whether pt.h documents everything, by Doxygen with warnings as errors; and, which Doxygen does not look at, whether each
+value of an enumeration has a comment and each function says which threads may call it. Called by CTest as reference_pages_test.py DOXYGEN DOXYFILE HEADER."""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+
+def doxygen_complaints(doxygen, settings, header):
+    """What Doxygen says of a header's text; nothing if it accepts it."""
+    with tempfile.TemporaryDirectory() as name:
+        path = pathlib.Path(name) / "pt.h"
+        path.write_text(header)
+        settings += f"\nINPUT = {path}\nSTRIP_FROM_PATH = {name}\nSTRIP_FROM_INC_PATH = {name}\nOUTPUT_DIRECTORY = {name}\n"
+        done = subprocess.run([doxygen, "-"], input=settings, capture_output=True, text=True)
+        return "" if done.returncode == 0 else done.stderr or "no reason was given"
+
+
+def silent_functions(header):
+    """Functions whose comment says nothing of threads."""
+    functions = re.findall(r"/\*\*((?:(?!\*/).)*)\*/\s*PT_API[^;]*?\b(pt_\w+)\([^;]*\);", header, re.DOTALL)
+    return sorted(set(re.findall(r"^PT_API[^;(]*?\b(pt_\w+)\(", header, re.MULTILINE)) -
+                  {name for comment, name in functions if "thread" in comment})
+
+
+def silent_values(header):
+    """Values of enumerations without a comment before or behind them."""
+    header = re.sub(r"/\*\*<.*?\*/", "@", header, flags=re.DOTALL)
+    values = re.findall(r"(\*/\s*)?\b(PT_\w+) = -?\d+,?\s*(@)?", header)
+    return [name for before, name, behind in values if not before and not behind]
+
+
+def check_the_check(doxygen, settings, header):
+    """Whatever lacks its comment is found, and so is a comment that names what is not there."""
+    for old, new, wanted in (
+        ("PT_API uint32_t pt_version(void);", "PT_API uint32_t pt_version(void);\nPT_API int pt_new(int x);", "pt_new"),
+        ("uint32_t width;", "uint32_t more; uint32_t width;", "more"),
+        ("/** Makes a context.", "/** @param nothing Makes a context.", "nothing"),
+    ):
+        if header.count(old) != 1:
+            sys.exit(f"{old} is not in the header once")
+        found = doxygen_complaints(doxygen, settings, header.replace(old, new))
+        if wanted not in found:
+            sys.exit(f"after {old} -> {new} Doxygen says: {found or 'nothing'}")
+    found = silent_functions(header + "/** Something new. */\nPT_API int pt_new(int x);\n")
+    if found != ["pt_new"]:
+        sys.exit(f"functions without a word on threads: {found}, not pt_new")
+    for old in "PT_OK = 0,", "PT_CANCELLED = 1,":
+        found = silent_values(header.replace(old, f"PT_NEW = 100,\n    {old}"))
+        if found != ["PT_NEW"]:
+            sys.exit(f"values without a comment: {found}, not PT_NEW")
+
+
+def main():
+    doxygen, settings, header = sys.argv[1], pathlib.Path(sys.argv[2]).read_text(), pathlib.Path(sys.argv[3]).read_text()
+    check_the_check(doxygen, settings, header)
+    found = doxygen_complaints(doxygen, settings, header)
+    if found:
+        sys.exit(found)
+    if silent_functions(header) or silent_values(header):
+        sys.exit(f"without their words: {silent_functions(header)}, {silent_values(header)}")
+
+
+main()
