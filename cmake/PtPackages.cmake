@@ -47,26 +47,27 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-set(pt_story "Scenes of spheres and planes are path-traced by one Vulkan compute kernel, on GPUs of any
-vendor or, with Mesa's lavapipe, on the CPU. Images are exact sums of their samples.\n"
-)
+set(pt_story "Scenes of spheres and planes are path-traced by one Vulkan compute kernel,
+on GPUs of any vendor or, with Mesa's lavapipe, on the CPU. Images are
+exact sums of their samples.
+")
 set(same_version "(= ${PROJECT_VERSION})")
 
-set(CPACK_COMPONENT_PT_RUNTIME_DESCRIPTION "offscreen path tracer for Vulkan devices (shared library)
-${pt_story} .\n This package has the shared library."
-)
+set(CPACK_DEBIAN_PT_RUNTIME_DESCRIPTION "${pt_story}\nThis package has the shared library.")
 set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
-set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE ${PROJECT_BINARY_DIR}/debian-control/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian-control/triggers)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
-set(CPACK_COMPONENT_PT_DEVELOPMENT_DESCRIPTION "offscreen path tracer for Vulkan devices (development files)
-${pt_story} .\n This package has the header, the static library and how to find them by CMake and pkg-config."
+set(CPACK_DEBIAN_PT_DEVELOPMENT_DESCRIPTION
+    "${pt_story}\nThis package has the header, the static library, and how to find the\nlibraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
 
-set(CPACK_COMPONENT_PT_PROGRAM_DESCRIPTION "offscreen path tracer for Vulkan devices (program)
-${pt_story} .\n This package has the command line program, which renders scene files to EXR, PNG and JPEG."
+set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
+    "${pt_story}\nThis package has the command line program, which renders scene files to\nEXR, PNG and JPEG."
 )
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
