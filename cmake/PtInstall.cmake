@@ -1,5 +1,5 @@
-# Installs the library: a shared and a static one, the header, and how to find them by CMake and by pkg-config. Nothing that
-# is installed names the prefix, so that an installed tree can be moved. Included by lib/.
+# Installs the library: a shared and a static one, the header, and how to find them by CMake and by pkg-config. Nothing
+# that is installed names the prefix, so that an installed tree can be moved. Included by lib/.
 include(CMakePackageConfigHelpers)
 set(pt_cmake_directory ${CMAKE_INSTALL_LIBDIR}/cmake/pt)
 

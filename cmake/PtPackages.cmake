@@ -1,5 +1,5 @@
-# Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt the
-# program. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
+# Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt
+# the program. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
 set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR})
 set(pt_development_package libpt-dev)
 set(pt_program_package pt)
@@ -61,13 +61,17 @@ set(CPACK_DEBIAN_PT_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian-c
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_PT_DEVELOPMENT_DESCRIPTION
-    "${pt_story}\nThis package has the header, the static library, and how to find the\nlibraries by CMake and pkg-config."
+    "${pt_story}
+This package has the header, the static library, and how to find the
+libraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}, libvulkan-dev")
 
 set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
-    "${pt_story}\nThis package has the command line program, which renders scene files to\nEXR, PNG and JPEG."
+    "${pt_story}
+This package has the command line program, which renders scene files to
+EXR, PNG and JPEG."
 )
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")

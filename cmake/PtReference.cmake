@@ -1,5 +1,5 @@
-# The reference of pt.h as HTML, by Doxygen: target pt_reference, built on demand into reference/html of the build folder.
-# What is undocumented or wrongly documented is an error.
+# The reference of pt.h as HTML, by Doxygen: target pt_reference, built on demand into reference/html of the build
+# folder. What is undocumented or wrongly documented is an error.
 find_package(Doxygen QUIET)
 if(DOXYGEN_FOUND)
   set(pt_reference_directory ${PROJECT_BINARY_DIR}/reference)

@@ -7,7 +7,7 @@ target_compile_options(
             -Wpedantic
             -Wshadow
             -Wconversion
-            $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects' compilers may warn of what ours do not
+            $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
 )
 if(PT_SANITIZE)
   target_compile_options(pt_warnings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -9,12 +9,11 @@
 enum { WIDTH = 128, HEIGHT = 96 };
 
 /* The four verbs. Each call is made only if those before it succeeded; what is > 0 is a remark and no failure. */
-static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
-{
+static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
     static const pt_material materials[] = {
-        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},   /* white, matt */
-        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f}, /* red, glossy */
-        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f},   /* a lamp */
+        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},    /* white, matt */
+        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f},  /* red, glossy */
+        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f}, /* a lamp */
     };
     static const pt_sphere spheres[] = {
         {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
@@ -65,8 +64,7 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
 }
 
 /* 1 if the file is whole. PFM wants the bottom row first; -1 says that the floats are little-endian. */
-static int write_pfm(const char *path, const float *pixels)
-{
+static int write_pfm(const char *path, const float *pixels) {
     FILE *file = fopen(path, "wb");
     int row;
     int whole;
@@ -79,8 +77,7 @@ static int write_pfm(const char *path, const float *pixels)
     return fclose(file) == 0 && whole;
 }
 
-int main(void)
-{
+int main(void) {
     static float pixels[WIDTH * HEIGHT * 3];
     pt_context *context;
     pt_result result = pt_create(NULL, &context);

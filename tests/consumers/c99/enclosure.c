@@ -7,8 +7,7 @@
 
 enum { WIDTH = 8, HEIGHT = 4 };
 
-static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
-{
+static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
     const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 1.0f, 0.5f}, 0.0f};
     const pt_sphere ball = {{0.0, 0.0, 0.0}, 3.0, {0.0, 0.0, 0.0}, 0, 0};
     pt_scene scene = {0};
@@ -46,8 +45,7 @@ static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes)
     return result;
 }
 
-int main(int argument_count, char **arguments)
-{
+int main(int argument_count, char **arguments) {
     float expected[3] = {2.0f, 1.0f, 0.5f};
     float pixels[WIDTH * HEIGHT * 3];
     pt_context *context;

@@ -24,8 +24,9 @@ public:
     pt_result code;
 };
 
-Error::Error(pt_result failure, const std::string &message)
-    : std::runtime_error(std::string(pt_result_name(failure)) + ": " + message), code(failure) {}
+Error::Error(pt_result failure, const std::string &message) :
+    std::runtime_error(std::string(pt_result_name(failure)) + ": " + message),
+    code(failure) {}
 
 } // namespace pt
 
