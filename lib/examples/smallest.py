@@ -1,5 +1,5 @@
-"""The smallest program in Python: a ball under a lamp, written to smallest.pfm. Nothing is compiled, and nothing but Python
-and libpt.so.0 is needed.
+"""The smallest program in Python: a ball under a lamp, written to smallest.pfm. Nothing is compiled, and nothing but
+Python and libpt.so.0 is needed.
 
     python3 smallest.py          PT_LIBRARY names the library where the system does not find it
 
@@ -90,8 +90,8 @@ def load_library():
 
 
 class Renderer:
-    """A pt_context whose calls raise RuntimeError where the library reports a failure. The interpreter's lock is released
-    during calls, so that other threads go on; one renderer is used by one thread at a time."""
+    """A pt_context whose calls raise RuntimeError where the library reports a failure. The interpreter's lock is
+    released during calls, so that other threads go on; one renderer is used by one thread at a time."""
 
     def __init__(self):
         self.library = load_library()

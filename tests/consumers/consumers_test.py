@@ -1,5 +1,5 @@
-"""Programs of other people, built from the installed library by what its users have: pkg-config, CMake, Python, Debian's
-packages. Called by CTest as consumers_test.py STEP with the paths below; the step `install` comes before the others.
+"""Programs of other people, built from the installed library by what its users have: pkg-config, CMake, Python,
+Debian's packages. Called by CTest as consumers_test.py STEP with the paths below; the step `install` comes before the others.
 
 What is installed is moved before anybody looks at it, and no program finds the build folder."""
 
@@ -152,7 +152,8 @@ class Steps:
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
         image = (folder / "smallest.pfm").read_bytes()
         require(len(image) == len(b"PF\n128 96\n-1.0\n") + 128 * 96 * 12, "smallest.pfm has another size")
-        run(self.options.c_compiler, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "c")
+        flags = self.pkg_config("--cflags", "--libs")
+        run(self.options.c_compiler, EXAMPLES / "smallest.c", *flags, "-o", folder / "c")
         run(folder / "c", cwd=folder, LD_LIBRARY_PATH=str(self.library))
         require((folder / "smallest.pfm").read_bytes() == image, "smallest.c and smallest.py differ")
 
