@@ -9,7 +9,7 @@ namespace {
 template <typename... Struct>
 constexpr bool are_plain = (... && (std::is_trivial_v<Struct> && std::is_standard_layout_v<Struct>));
 static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_scene, pt_camera, pt_render>);
-static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_function_accuracy, pt_create_info>);
+static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_function_accuracy, pt_vulkan, pt_create_info>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2);
