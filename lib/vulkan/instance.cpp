@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 
 namespace pt::vulkan {
@@ -51,6 +52,13 @@ std::string driver_advice(const vk::raii::Context &context) {
     return advice + "): install the GPU's Vulkan driver, or mesa-vulkan-drivers to render on the CPU";
 }
 
+// Memory that ran out says nothing about the drivers.
+void throw_if_out_of_memory(const vk::SystemError &error, const std::string &what_was_being_done) {
+    const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
+    if (result == PT_ERROR_OUT_OF_HOST_MEMORY || result == PT_ERROR_OUT_OF_DEVICE_MEMORY)
+        throw Error(result, what_was_being_done + ": " + error.what());
+}
+
 // With messages the validation layer is on and reports to them.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
@@ -71,13 +79,22 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
     const vk::ApplicationInfo application{.pApplicationName = "pt", .apiVersion = VK_API_VERSION_1_2};
-    return context.createInstance({.pNext = messages,
-                                   .flags = flags,
-                                   .pApplicationInfo = &application,
-                                   .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
-                                   .ppEnabledLayerNames = layers.data(),
-                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                   .ppEnabledExtensionNames = extensions.data()});
+    const vk::Instance instance =
+        vk::createInstance({.pNext = messages,
+                            .flags = flags,
+                            .pApplicationInfo = &application,
+                            .enabledLayerCount = static_cast<std::uint32_t>(layers.size()),
+                            .ppEnabledLayerNames = layers.data(),
+                            .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                            .ppEnabledExtensionNames = extensions.data()},
+                           nullptr, *context.getDispatcher());
+    try {
+        return {context, instance};
+    } catch (const std::bad_alloc &) { // no memory for the table of its functions
+        const PFN_vkVoidFunction destroy = ::vkGetInstanceProcAddr(instance, "vkDestroyInstance");
+        reinterpret_cast<PFN_vkDestroyInstance>(destroy)(instance, nullptr);
+        throw;
+    }
 }
 
 Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
@@ -85,9 +102,8 @@ Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, 
     try {
         // In the chain the messenger hears of the creation and destruction of the instance itself.
         return Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
-    } catch (const vk::OutOfHostMemoryError &) {
-        throw Error(PT_ERROR_OUT_OF_HOST_MEMORY, "creating the Vulkan instance: out of memory");
     } catch (const vk::SystemError &error) {
+        throw_if_out_of_memory(error, "creating the Vulkan instance");
         throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context));
     }
 }
@@ -112,6 +128,7 @@ std::vector<vk::raii::PhysicalDevice> Instance::physical_devices() const {
     try {
         devices = instance_->enumeratePhysicalDevices();
     } catch (const vk::SystemError &error) {
+        throw_if_out_of_memory(error, "listing the Vulkan devices");
         reason = error.what();
     }
     if (devices.empty())

@@ -5,6 +5,7 @@
 
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -34,10 +35,20 @@ vk::raii::Device create_device(const vk::raii::PhysicalDevice &physical_device, 
             extensions.push_back(portability_subset);
     const float priority = 1.0F;
     const vk::DeviceQueueCreateInfo queue{.queueFamilyIndex = family, .queueCount = 1, .pQueuePriorities = &priority};
-    return physical_device.createDevice({.queueCreateInfoCount = 1,
-                                         .pQueueCreateInfos = &queue,
-                                         .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
-                                         .ppEnabledExtensionNames = extensions.data()});
+    const auto &functions = *physical_device.getDispatcher();
+    const vk::Device device = (*physical_device)
+                                  .createDevice({.queueCreateInfoCount = 1,
+                                                 .pQueueCreateInfos = &queue,
+                                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                                 .ppEnabledExtensionNames = extensions.data()},
+                                                nullptr, functions);
+    try {
+        return {physical_device, device};
+    } catch (const std::bad_alloc &) { // no memory for the table of its functions
+        const PFN_vkVoidFunction destroy = functions.vkGetDeviceProcAddr(device, "vkDestroyDevice");
+        reinterpret_cast<PFN_vkDestroyDevice>(destroy)(device, nullptr);
+        throw;
+    }
 }
 
 } // namespace

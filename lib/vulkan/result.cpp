@@ -6,8 +6,10 @@ namespace pt::vulkan {
 pt_result result_of(vk::Result result) {
     switch (result) {
     case vk::Result::eErrorOutOfHostMemory:
+    case vk::Result::eErrorMemoryMapFailed: // there are no addresses left
         return PT_ERROR_OUT_OF_HOST_MEMORY;
     case vk::Result::eErrorOutOfDeviceMemory:
+    case vk::Result::eErrorFragmentation:
     case vk::Result::eErrorFragmentedPool:
     case vk::Result::eErrorOutOfPoolMemory:
     case vk::Result::eErrorTooManyObjects:
