@@ -22,7 +22,14 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
                            vulkan::LogicalDevice logical_device, double target_seconds) :
     device_(instance, physical_device, std::move(logical_device)),
     pipelines_(device_),
-    target_seconds_(target_seconds) {}
+    target_seconds_(target_seconds) {
+    under_way_.reserve(device_.policy().queue_depth);
+}
+
+// Before what the work under way uses goes. Where it does not end, that is left alone (vulkan/device_object.h).
+RenderDevice::~RenderDevice() {
+    device_.comes_to_rest();
+}
 
 // Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
 Film RenderDevice::make_film(const RenderSettings &settings) {
@@ -42,9 +49,7 @@ void RenderDevice::set_film(Film film) {
     film_ = std::move(film);
 }
 
-void RenderDevice::discard_samples() {
-    if (film_)
-        film_->clear();
+void RenderDevice::discard_samples() noexcept {
     kernel_.reset();
     pass_pixels_ = 0;
 }
@@ -52,6 +57,7 @@ void RenderDevice::discard_samples() {
 void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
     if (kernel_)
         return;
+    film_->clear();
     kernel_.emplace(device_, pipelines_, *film_, scene, camera, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
@@ -78,9 +84,18 @@ std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remai
 RenderDevice::Finished RenderDevice::finish() {
     const Work work = under_way_.front();
     const double seconds = kernel_->finish(work.ticket);
-    under_way_.pop_front();
+    under_way_.erase(under_way_.begin());
     schedule_->measured(work.slice, seconds);
     return {work.slice, seconds};
+}
+
+void RenderDevice::drain() noexcept {
+    try {
+        while (!is_idle())
+            finish();
+    } catch (...) {
+        under_way_.clear(); // the device is lost
+    }
 }
 
 } // namespace pt

@@ -13,8 +13,8 @@
 #include "vulkan/instance.h"
 
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <vector>
 
 namespace pt {
 
@@ -23,6 +23,10 @@ public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
                  vulkan::LogicalDevice logical_device, double target_seconds);
+    // Waits for what is under way, as long as the device's patience allows.
+    ~RenderDevice();
+    RenderDevice(const RenderDevice &) = delete;
+    RenderDevice &operator=(const RenderDevice &) = delete;
 
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
@@ -32,10 +36,10 @@ public:
     Film make_film(const RenderSettings &settings);
     void set_film(Film film);
 
-    // Empties the film. The kernel has to be prepared anew.
-    void discard_samples();
+    // What the film holds is void. The kernel has to be prepared anew.
+    void discard_samples() noexcept;
 
-    // Makes the kernel, unless it is there. After set_film.
+    // Empties the film and makes the kernel, unless it is there. After set_film.
     void prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings);
     const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
 
@@ -59,6 +63,9 @@ public:
     };
     Finished finish();
 
+    // Waits for all slices that were started, and knows nothing of them afterwards.
+    void drain() noexcept;
+
 private:
     struct Work {
         Slice slice;
@@ -71,7 +78,7 @@ private:
     std::optional<Film> film_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_; // of the kernel
-    std::deque<Work> under_way_;
+    std::vector<Work> under_way_;      // in the order of their starts; has room for all that there may be
     std::uint32_t pass_pixels_ = 0;
     std::uint32_t pass_sample_ = 0; // number of the pass's sample
 };

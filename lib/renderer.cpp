@@ -58,7 +58,7 @@ void Renderer::require_alive() const {
         device->device().require_alive();
 }
 
-void Renderer::discard_samples() {
+void Renderer::discard_samples() noexcept {
     for (const auto &device : devices_)
         device->discard_samples();
     samples_done_ = 0;
@@ -180,12 +180,14 @@ void Renderer::take_samples(std::uint32_t end, Job &job) {
     try {
         take();
     } catch (...) {
-        // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are worth nothing.
+        // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
         job.stopped = true;
         try {
             take();
-        } catch (const Error &) {
-            samples_done_ = 0;
+        } catch (...) {
+            for (const auto &device : devices_)
+                device->drain();
+            discard_samples();
         }
         throw;
     }
@@ -243,7 +245,7 @@ pt_stats Renderer::stats(bool with_error) {
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
     for (const auto &device : devices_) {
-        stats.rejected_samples += readable ? device->film().rejected_samples() : 0;
+        stats.rejected_samples += readable && samples_done_ > 0 ? device->film().rejected_samples() : 0;
         stats.device_bytes += device->device().allocated_bytes();
     }
     stats.features = devices_.front()->kernel() ? feature_bits(kernel().features()) : 0;

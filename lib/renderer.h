@@ -38,7 +38,8 @@ struct Progress {
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost.
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that accumulate()
+// keeps whole samples.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -78,7 +79,7 @@ private:
     void use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings);
     void require_alive() const;
     void require_settings() const;
-    void discard_samples();
+    void discard_samples() noexcept;
     bool is_in_pass() const;
     const Kernel &kernel() const { return *devices_.front()->kernel(); }
     std::vector<Film *> films() const;

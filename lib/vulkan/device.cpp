@@ -91,7 +91,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 }
 
 Device::~Device() {
-    if (!hangs())
+    if (comes_to_rest())
         return;
     // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
     // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
@@ -165,6 +165,24 @@ double Device::finish(Ticket ticket) {
     return std::chrono::duration<double>(last_end_ - begin).count();
 }
 
+bool Device::comes_to_rest() noexcept {
+    for (Submission &submission : submissions_) {
+        try {
+            while (submission.pending) {
+                const std::uint64_t step = wait_nanoseconds();
+                submission.pending = handle().waitForFences(*submission.fence, VK_TRUE, step) == vk::Result::eTimeout;
+                if (submission.pending && is_overdue(submission))
+                    return false;
+            }
+        } catch (const vk::DeviceLostError &) {
+            submission.pending = false;
+        } catch (...) {
+            return false; // nobody knows what becomes of it
+        }
+    }
+    return true;
+}
+
 void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &record) const {
     commands.reset(); // the last recording may have failed half-way
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
@@ -176,18 +194,22 @@ void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &
     commands.end();
 }
 
+std::uint64_t Device::wait_nanoseconds() const {
+    return static_cast<std::uint64_t>(std::min(wait_step, policy_.patience).count());
+}
+
 void Device::wait(const Submission &submission) {
-    const std::chrono::nanoseconds step = std::min(wait_step, policy_.patience);
     try {
-        while (handle().waitForFences(*submission.fence, VK_TRUE, static_cast<std::uint64_t>(step.count())) ==
-               vk::Result::eTimeout)
+        while (handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout)
             if (is_overdue(submission))
                 lose("it did not end a submission within " +
                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
                      " ms");
         handle().resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
-        lose(error.what()); // whatever the error is, nobody knows what became of the work
+        // Whatever the error is, nobody knows what became of the work; but what it uses may be destroyed from here on.
+        comes_to_rest();
+        lose(error.what());
     }
 }
 

@@ -72,6 +72,9 @@ public:
     // completion.
     double finish(Ticket ticket);
 
+    // Waits for what is under way, however finish() failed. False if it does not end within the device's patience.
+    bool comes_to_rest() noexcept;
+
     // Both at once.
     double submit(const Record &record) { return finish(start(record)); }
 
@@ -93,6 +96,7 @@ private:
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
+    std::uint64_t wait_nanoseconds() const; // at a time
     void wait(const Submission &submission);
     bool ended(const Submission &submission) const;
     bool is_overdue(const Submission &submission) const;
