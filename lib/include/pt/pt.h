@@ -423,7 +423,8 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * One thread at a time per context. PT_CANCELLED and PT_TARGET_REACHED: fewer samples than asked for, all of them
  * whole. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_INVALID_ARGUMENT: a rule is broken.
  * PT_ERROR_UNSUPPORTED: the scene is beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,
- * PT_ERROR_DEVICE_LOST: the driver said so. After a failure pt_stats.sample_count says what the image has. */
+ * PT_ERROR_DEVICE_LOST: the driver said so. After a failure the whole samples that were taken stay, and
+ * pt_stats.sample_count says how many: none where several devices had begun samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
 /** Writes the mean radiance of the samples so far, or its standard error.
