@@ -108,9 +108,9 @@ std::uint32_t branch_count(const Features &features) {
 namespace {
 
 // Lamps to which the first vertex sends a ray besides those of its branches, where it samples every lamp.
-std::uint32_t further_lamps(const Features &features) {
+std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
     const std::uint32_t lamps = features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
-    return lamps - std::min(lamps, branch_count(features));
+    return lamps - std::min(lamps, branches);
 }
 
 } // namespace
@@ -137,6 +137,7 @@ PointLayout point_layout(const Features &features) {
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
+    const PointLayout layout = point_layout(features);
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
     constants[gpu::ID_SPHERE_COUNT] = features.sphere_count;
     constants[gpu::ID_PLANE_COUNT] = features.plane_count;
@@ -146,8 +147,8 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_GLOSS] = features.gloss ? 1 : 0;
     constants[gpu::ID_MOTION] = features.motion ? 1 : 0;
     constants[gpu::ID_SAMPLER] = features.sampler;
-    constants[gpu::ID_TABLE_BLOCKS] = point_layout(features).block_count();
-    constants[gpu::ID_BRANCH_COUNT] = branch_count(features);
+    constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
+    constants[gpu::ID_BRANCH_COUNT] = layout.branches;
     constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
     constants[gpu::ID_SHARERS] = 1;
     constants[gpu::ID_OVERLAP] = 0;
@@ -161,15 +162,18 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the first
     // vertex, two walks over the lamps to choose among them, and the branches.
     const std::uint64_t surfaces = features.surface_count();
-    const std::uint64_t first_vertex = further_lamps(features) * (1 + surfaces) + 2 * features.lamp_count;
-    return 1 + surfaces + first_vertex + branch_count(features) * loop_trips_per_branch(features);
+    const std::uint32_t branches = branch_count(features);
+    const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + surfaces) + 2 * features.lamp_count;
+    return 1 + surfaces + first_vertex + branches * loop_trips_per_branch(features);
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
     // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray and one
     // to a lamp; an empty scene still costs something.
-    const std::uint64_t vertices = branch_count(features) * (features.max_path_length - 1);
-    return std::max<std::uint64_t>(1, features.surface_count()) * (1 + further_lamps(features) + 2 * vertices);
+    const std::uint32_t branches = branch_count(features);
+    const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
+    return std::max<std::uint64_t>(1, features.surface_count()) *
+           (1 + further_lamps(features, branches) + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {
