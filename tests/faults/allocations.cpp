@@ -1,0 +1,130 @@
+// The global operator new of the fault tests; see allocations.h.
+#include "allocations.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+#include <utility>
+
+namespace {
+
+thread_local bool in_library = false;
+std::size_t allocation_count = 0; // of the library, which is used by one thread
+std::size_t failing_number = 0;
+bool failing_goes_on = false;
+bool failed = false;
+bool threw = false;
+std::atomic<long> live{0}; // what the library made, a thread of the driver may free
+
+// Stands before each allocation; keeps its alignment.
+struct alignas(std::max_align_t) Header {
+    bool of_library;
+};
+
+bool is_to_fail() {
+    if (!in_library)
+        return false;
+    ++allocation_count;
+    const bool fails = failing_number != 0 &&
+                       (failing_goes_on ? allocation_count >= failing_number : allocation_count == failing_number);
+    failed = failed || fails;
+    return fails;
+}
+
+void *allocate(std::size_t size) noexcept {
+    if (is_to_fail())
+        return nullptr;
+    auto *header = static_cast<Header *>(std::malloc(sizeof(Header) + size));
+    if (!header)
+        return nullptr;
+    header->of_library = in_library;
+    live += in_library ? 1 : 0;
+    return header + 1;
+}
+
+void *allocate_or_throw(std::size_t size) {
+    void *const memory = allocate(size);
+    if (!memory) {
+        threw = threw || in_library;
+        throw std::bad_alloc();
+    }
+    return memory;
+}
+
+void release(void *memory) noexcept {
+    if (!memory)
+        return;
+    Header *const header = static_cast<Header *>(memory) - 1;
+    live -= header->of_library ? 1 : 0;
+    std::free(header);
+}
+
+} // namespace
+
+void *operator new(std::size_t size) {
+    return allocate_or_throw(size);
+}
+void *operator new[](std::size_t size) {
+    return allocate_or_throw(size);
+}
+void *operator new(std::size_t size, const std::nothrow_t & /*tag*/) noexcept {
+    return allocate(size);
+}
+void *operator new[](std::size_t size, const std::nothrow_t & /*tag*/) noexcept {
+    return allocate(size);
+}
+void operator delete(void *memory) noexcept {
+    release(memory);
+}
+void operator delete[](void *memory) noexcept {
+    release(memory);
+}
+void operator delete(void *memory, std::size_t /*size*/) noexcept {
+    release(memory);
+}
+void operator delete[](void *memory, std::size_t /*size*/) noexcept {
+    release(memory);
+}
+void operator delete(void *memory, const std::nothrow_t & /*tag*/) noexcept {
+    release(memory);
+}
+void operator delete[](void *memory, const std::nothrow_t & /*tag*/) noexcept {
+    release(memory);
+}
+
+namespace faults {
+
+InLibrary::InLibrary() {
+    in_library = true;
+}
+
+InLibrary::~InLibrary() {
+    in_library = false;
+}
+
+OutOfLibrary::OutOfLibrary() : was_in_library_(std::exchange(in_library, false)) {}
+
+OutOfLibrary::~OutOfLibrary() {
+    in_library = was_in_library_;
+}
+
+void fail_allocation(std::size_t number, bool goes_on) {
+    allocation_count = 0;
+    failing_number = number;
+    failing_goes_on = goes_on;
+    failed = threw = false;
+}
+
+bool allocation_failed() {
+    return failed;
+}
+
+bool allocation_threw() {
+    return threw;
+}
+
+long live_allocations() {
+    return live;
+}
+
+} // namespace faults

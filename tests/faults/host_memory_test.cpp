@@ -1,0 +1,63 @@
+// Host memory that runs out at every place where the library allocates: the call fails as pt.h says, changes nothing, and
+// leaks nothing.
+#include "allocations.h"
+#include "sweep.h"
+#include "table.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+
+namespace {
+
+using namespace faults;
+
+class FailingAllocation : public Injection {
+public:
+    // goes_on: those after it fail too.
+    FailingAllocation(std::size_t number, bool goes_on, Table &table) :
+        number_(number),
+        goes_on_(goes_on),
+        table_(table) {}
+
+    void arm() override { fail_allocation(number_, goes_on_); }
+
+    bool disarm(const std::string &step, pt_result result, const std::string &message) override {
+        const bool failed = allocation_failed();
+        const bool threw = allocation_threw();
+        fail_allocation(0, false);
+        if (!failed)
+            return false;
+        table_.add(step, pt_result_name(result));
+        // Where none throws, those who asked can do without; and pt_destroy returns nothing.
+        if (threw && step != "pt_destroy") {
+            EXPECT_EQ(pt_result_name(result), std::string("PT_ERROR_OUT_OF_HOST_MEMORY"))
+                << step << ", allocation " << number_ << ": " << message;
+            EXPECT_NE(message, "");
+        }
+        return true;
+    }
+
+private:
+    std::size_t number_;
+    bool goes_on_;
+    Table &table_;
+};
+
+void fail_every_allocation(const Setting &setting, bool goes_on) {
+    Table table(goes_on ? "allocations, with all that follow" : "allocations");
+    sweep(setting, undisturbed_images(), Life::all_steps(),
+          [&](std::size_t number) { return std::make_unique<FailingAllocation>(number, goes_on, table); });
+    table.print();
+}
+
+TEST(HostMemoryTest, EveryAllocationMayFail) {
+    fail_every_allocation({.gpu = false, .device_count = 1, .submit_milliseconds = 1}, false);
+}
+
+TEST(HostMemoryTest, EveryAllocationMayBeTheLast) {
+    fail_every_allocation({.gpu = true, .device_count = 2, .submit_milliseconds = 1}, true);
+}
+
+} // namespace

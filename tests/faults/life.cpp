@@ -1,0 +1,306 @@
+// The calls of a life and what is expected of them; see life.h.
+#include "life.h"
+
+#include "allocations.h"
+#include "scene_of.h"
+#include "vulkan_calls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace faults {
+
+namespace {
+
+constexpr uint32_t width = 24;
+constexpr uint32_t height = 20;
+
+// A lamp, a glossy ball that moves, and a floor: long paths, so that a millisecond does not suffice for all pixels.
+struct Scene {
+    std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0},
+                                             {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40},
+                                             {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}}};
+    std::array<pt_sphere, 2> spheres = {{{{3, 2, -8}, 1, {0, 0, 0}, 0, 0}, {{-1, 0, -6}, 1, {1, 0, 0}, 1, 0}}};
+    std::array<pt_plane, 1> planes = {{{{0, 1, 0}, 1, 2, 0}}};
+
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
+};
+
+pt_camera camera() {
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.target[2] = -1;
+    return camera;
+}
+
+pt_render render() {
+    pt_render render = render_of(width, height, 24);
+    render.seed = 7;
+    return render;
+}
+
+// The device that pt_create takes by default, as often as wanted.
+std::string device_list(uint32_t count) {
+    std::string list = "0";
+    for (uint32_t i = 1; i < count; ++i)
+        list += ",0";
+    return list;
+}
+
+int32_t go_on(void * /*user*/, double /*fraction*/) {
+    return 0;
+}
+
+} // namespace
+
+Life::Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected) :
+    setting_(setting),
+    expected_(expected),
+    left_(injected) {
+    pose_as_gpu(setting.gpu);
+}
+
+Life::~Life() {
+    pose_as_gpu(false);
+}
+
+Steps Life::all_steps() {
+    return {"pt_get_devices, count",
+            "pt_get_devices",
+            "pt_create",
+            "pt_get_context_device",
+            "pt_set_scene",
+            "pt_set_camera",
+            "pt_set_render",
+            "pt_accumulate",
+            "pt_readback, radiance",
+            "pt_readback, standard error",
+            "pt_accumulate, to a target",
+            "pt_get_stats",
+            "pt_get_accuracy",
+            "pt_set_scene, again",
+            "pt_set_camera, again",
+            "pt_set_render, smaller",
+            "pt_accumulate, again",
+            "pt_destroy"};
+}
+
+void Life::live(Injection &injection) {
+    injection_ = &injection;
+    try {
+        tell();
+    } catch (const End &) {
+        if (lost_)
+            expect_lost();
+        destroy();
+    }
+}
+
+void Life::tell() {
+    std::vector<pt_device_info> devices(16);
+    auto count = static_cast<uint32_t>(devices.size());
+    look("pt_get_devices, count", [&] { return pt_get_devices(nullptr, &count); });
+    look("pt_get_devices", [&] { return pt_get_devices(devices.data(), &count); });
+
+    const std::string device = device_list(setting_.device_count);
+    pt_create_info create{};
+    create.struct_size = sizeof create;
+    create.device = device.c_str();
+    create.submit_milliseconds = setting_.submit_milliseconds;
+    call("pt_create", [&] { return pt_create(&create, &context_); });
+    look("pt_get_context_device", [&] { return pt_get_context_device(context_, devices.data()); });
+
+    const Scene scene;
+    const pt_scene the_scene = scene.scene();
+    const pt_camera the_camera = camera();
+    pt_render the_render = render();
+    const auto set_scene = [&] { return pt_set_scene(context_, &the_scene); };
+    const auto set_camera = [&] { return pt_set_camera(context_, &the_camera); };
+    const auto set_render = [&] { return pt_set_render(context_, &the_render); };
+    call("pt_set_scene", set_scene);
+    call("pt_set_camera", set_camera);
+    call("pt_set_render", set_render);
+    rows_ = height;
+
+    // In passes that are split over submissions; then up to where the error is estimated, and past it.
+    accumulate_to("pt_accumulate", 2, 0.0);
+    readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
+    readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
+    accumulate_to("", 16, 0.0);
+    accumulate_to("pt_accumulate, to a target", 18, 1e-6);
+    look("pt_get_stats", [&] {
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        return pt_get_stats(context_, &stats);
+    });
+    look("pt_get_accuracy", [&] {
+        std::array<pt_function_accuracy, 16> rows{};
+        uint32_t row_count = rows.size();
+        return pt_get_accuracy(context_, rows.data(), &row_count);
+    });
+
+    // All setters again, which discard samples.
+    call("pt_set_scene, again", set_scene);
+    accumulate_to("", 1, 0.0);
+    call("pt_set_camera, again", set_camera);
+    accumulate_to("", 1, 0.0);
+    the_render.row_count = height / 2;
+    call("pt_set_render, smaller", set_render);
+    rows_ = height / 2;
+    accumulate_to("pt_accumulate, again", 1, 0.0);
+    destroy();
+}
+
+pt_result Life::run(const Function &function) {
+    const InLibrary in_library;
+    return function();
+}
+
+// A call without which the life goes on.
+void Life::look(const std::string &step, const Function &function) {
+    if (left_.contains(step))
+        call(step, function);
+}
+
+// Makes a call, and makes it again if it was made to fail.
+void Life::call(const std::string &step, const Function &function) {
+    const State before = state();
+    call(step, function, [&] {
+        const State after = state();
+        EXPECT_EQ(after.sample_count, before.sample_count) << step;
+        EXPECT_EQ(after.rejected_samples, before.rejected_samples) << step;
+        expect_image(step, after.sample_count);
+    });
+}
+
+void Life::call(const std::string &step, const Function &function, const std::function<void()> &after_failure) {
+    if (left_.empty())
+        throw End();
+    if (left_.erase(step) > 0) {
+        attempted_.insert(step);
+        injection_->arm();
+        const pt_result result = run(function);
+        if (injection_->disarm(step, result, pt_last_error(context_)))
+            met_.insert(step);
+        lost_ = result == PT_ERROR_DEVICE_LOST && context_;
+        if (lost_)
+            throw End();
+        if (result >= 0)
+            return;
+        EXPECT_TRUE(met_.contains(step)) << step << ": " << pt_last_error(context_);
+        after_failure();
+    }
+    EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
+}
+
+// A call that fails keeps the whole samples that it has taken, which may be all. Of several devices none may be left, if memory does not
+// suffice to complete what each has begun.
+void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error) {
+    pt_accumulate_info info{};
+    info.struct_size = sizeof info;
+    info.sample_count = sample_count - state().sample_count;
+    info.progress = &go_on;
+    info.target_error = target_error;
+    const uint32_t before = state().sample_count;
+    call(
+        step, [&] { return info.sample_count == 0 ? PT_OK : pt_accumulate(context_, &info); },
+        [&] {
+            const State after = state();
+            EXPECT_LE(after.sample_count, sample_count) << step;
+            const bool all_gone = setting_.device_count > 1 && after.sample_count == 0;
+            EXPECT_TRUE(after.sample_count >= before || all_gone) << step;
+            expect_image(step, after.sample_count);
+            info.sample_count = sample_count - after.sample_count;
+        });
+    EXPECT_EQ(state().sample_count, sample_count) << step;
+    expect_image(step, sample_count);
+}
+
+void Life::readback(const std::string &step, uint32_t quantity) {
+    Image image(std::size_t{width} * rows_ * 3);
+    const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+    call(step, [&] { return pt_readback(context_, &target); });
+    const auto &images = quantity == PT_QUANTITY_RADIANCE ? expected_.radiance : expected_.standard_error;
+    EXPECT_EQ(image, images.at(state().sample_count)) << step;
+}
+
+void Life::destroy() {
+    const bool injects = left_.erase("pt_destroy") > 0;
+    if (injects)
+        injection_->arm();
+    run([&]() -> pt_result {
+        pt_destroy(context_);
+        return PT_OK;
+    });
+    context_ = nullptr;
+    if (!injects)
+        return;
+    attempted_.insert("pt_destroy");
+    if (injection_->disarm("pt_destroy", PT_OK, ""))
+        met_.insert("pt_destroy");
+}
+
+// Every call says so from then on.
+void Life::expect_lost() {
+    const std::string message = pt_last_error(context_);
+    const pt_camera the_camera = camera();
+    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0};
+    pt_image image{};
+    image.struct_size = sizeof image;
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(pt_set_camera(context_, &the_camera), PT_ERROR_DEVICE_LOST);
+        EXPECT_EQ(pt_last_error(context_), message);
+        EXPECT_EQ(pt_accumulate(context_, &info), PT_ERROR_DEVICE_LOST);
+        EXPECT_EQ(pt_last_error(context_), message);
+    }
+}
+
+Life::State Life::state() {
+    if (!context_)
+        return {};
+    pt_stats stats{};
+    stats.struct_size = offsetof(pt_stats, rmse);
+    EXPECT_EQ(pt_get_stats(context_, &stats), PT_OK) << pt_last_error(context_);
+    return {stats.sample_count, stats.rejected_samples};
+}
+
+// That the films hold what they should of the samples.
+void Life::expect_image(const std::string &step, uint32_t sample_count) {
+    if (!context_ || sample_count == 0)
+        return;
+    Image image(std::size_t{width} * rows_ * 3);
+    const pt_image target{sizeof target, PT_QUANTITY_RADIANCE, image.data(), image.size() * sizeof(float), 0};
+    ASSERT_EQ(pt_readback(context_, &target), PT_OK) << step << ": " << pt_last_error(context_);
+    const Image &whole = expected_.radiance.at(sample_count);
+    EXPECT_TRUE(std::equal(image.begin(), image.end(), whole.begin())) << step << ": another image";
+}
+
+ExpectedImages undisturbed_images() {
+    const Scene scene;
+    const pt_scene the_scene = scene.scene();
+    const pt_camera the_camera = camera();
+    const pt_render the_render = render();
+    pt_context *context = nullptr;
+    EXPECT_EQ(pt_create(nullptr, &context), PT_OK) << pt_last_error(nullptr);
+    EXPECT_EQ(pt_set_scene(context, &the_scene), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(pt_set_camera(context, &the_camera), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
+    ExpectedImages images;
+    for (uint32_t count = 1; count <= 18; ++count) {
+        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0};
+        EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
+        for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
+            Image image(std::size_t{width} * height * 3);
+            const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+            EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
+            (quantity == PT_QUANTITY_RADIANCE ? images.radiance : images.standard_error)[count] = image;
+        }
+    }
+    pt_destroy(context);
+    return images;
+}
+
+} // namespace faults

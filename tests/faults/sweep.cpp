@@ -1,0 +1,55 @@
+// Rounds of lives; see sweep.h.
+#include "sweep.h"
+
+#include "allocations.h"
+#include "vulkan_calls.h"
+
+#include <gtest/gtest.h>
+
+namespace faults {
+
+namespace {
+
+// The thread keeps the message of its last call that failed without a context. One that is longer than all others, made
+// beforehand, leaves that memory as it is.
+void keep_a_long_message() {
+    const std::string no_device(1000, '?');
+    pt_create_info create{};
+    create.struct_size = sizeof create;
+    create.device = no_device.c_str();
+    pt_context *context = nullptr;
+    EXPECT_EQ(pt_create(&create, &context), PT_ERROR_NO_DEVICE);
+}
+
+void expect_nothing_left(std::size_t number, long allocations_before) {
+    for (const auto &[maker, count] : live_objects())
+        ADD_FAILURE() << "place " << number << ": " << count << " objects of " << maker << " are left";
+    EXPECT_EQ(live_allocations(), allocations_before) << "place " << number;
+    forget_objects();
+}
+
+} // namespace
+
+void sweep(const Setting &setting, const ExpectedImages &expected, const Steps &steps,
+           const InjectionAt &injection_at) {
+    keep_a_long_message();
+    Steps wanted = steps;
+    for (std::size_t number = 1; !wanted.empty() && !testing::Test::HasFatalFailure(); ++number) {
+        const std::unique_ptr<Injection> injection = injection_at(number);
+        Steps met;
+        Steps left = wanted;
+        while (!left.empty()) { // a life ends early where its device is lost
+            const long allocations_before = live_allocations();
+            Life life(setting, expected, left);
+            life.live(*injection);
+            heal_devices();
+            expect_nothing_left(number, allocations_before);
+            met.insert(life.met().begin(), life.met().end());
+            for (const std::string &step : life.attempted())
+                left.erase(step);
+        }
+        wanted = met;
+    }
+}
+
+} // namespace faults

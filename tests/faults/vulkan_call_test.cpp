@@ -1,0 +1,133 @@
+// Vulkan calls that fail, every one of them: the call of pt.h fails as it says, changes nothing but that a lost device stays
+// lost, and leaks nothing.
+#include "sweep.h"
+#include "table.h"
+#include "vulkan_calls.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace faults;
+
+// What a call of pt.h returns for a fault in Vulkan.
+pt_result expected_result(const CallFault &fault) {
+    // Of work that cannot be waited for, nobody knows what became; work that does not end is lost with its device.
+    if (fault.function == "vkWaitForFences" || fault.function == "vkResetFences")
+        return PT_ERROR_DEVICE_LOST;
+    if (fault.function == "vkGetFenceStatus") // the wait for it will tell
+        return fault.result == VK_ERROR_DEVICE_LOST ? PT_ERROR_DEVICE_LOST : PT_OK;
+    switch (fault.result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_MEMORY_MAP_FAILED: // no address space
+        return PT_ERROR_OUT_OF_HOST_MEMORY;
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_TOO_MANY_OBJECTS:
+    case VK_ERROR_FRAGMENTATION:
+    case VK_ERROR_FRAGMENTED_POOL:
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+        return PT_ERROR_OUT_OF_DEVICE_MEMORY;
+    case VK_ERROR_DEVICE_LOST:
+    case VK_TIMEOUT:
+        return PT_ERROR_DEVICE_LOST;
+    case VK_ERROR_INVALID_SHADER_NV:
+        return PT_ERROR_SHADER;
+    case VK_ERROR_INITIALIZATION_FAILED:
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return PT_ERROR_NO_DEVICE;
+    case VK_ERROR_LAYER_NOT_PRESENT:
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return fault.function == "vkCreateInstance" ? PT_ERROR_NO_DEVICE : PT_ERROR_UNSUPPORTED;
+    default:
+        return PT_ERROR_INTERNAL;
+    }
+}
+
+// Where a fault was met.
+struct Place {
+    std::string step;
+    std::size_t number;
+    CallFault fault;
+};
+
+class FailingCall : public Injection {
+public:
+    FailingCall(std::size_t number, std::size_t error_index, Table &table, std::vector<Place> &places) :
+        number_(number),
+        error_index_(error_index),
+        table_(table),
+        places_(places) {}
+
+    void arm() override { fail_call(number_, error_index_); }
+
+    bool disarm(const std::string &step, pt_result result, const std::string &message) override {
+        const CallFault fault = call_fault();
+        fail_call(0, 0);
+        if (fault.function.empty())
+            return false;
+        table_.add(fault.function, pt_result_name(result));
+        places_.push_back({step, number_, fault});
+        if (step != "pt_destroy") {
+            EXPECT_EQ(pt_result_name(result), std::string(pt_result_name(expected_result(fault))))
+                << step << ", place " << number_ << ", " << fault.function << ": " << message;
+            EXPECT_TRUE(result >= 0 || !message.empty());
+        }
+        return true;
+    }
+
+private:
+    std::size_t number_;
+    std::size_t error_index_;
+    Table &table_;
+    std::vector<Place> &places_;
+};
+
+// Every call fails once, with its first error; then each function with its other errors, at the first place where it is
+// called, and submissions, where a device may be lost, at all places.
+void fail_every_call(const Setting &setting, const std::string &title) {
+    const ExpectedImages expected = undisturbed_images();
+    Table table(title);
+    std::vector<Place> places;
+    sweep(setting, expected, Life::all_steps(),
+          [&](std::size_t number) { return std::make_unique<FailingCall>(number, 0, table, places); });
+    std::set<std::string> seen;
+    const std::vector<Place> found = std::exchange(places, {});
+    for (const Place &place : found) {
+        if (!seen.insert(place.fault.function).second && place.fault.function != "vkQueueSubmit")
+            continue;
+        for (std::size_t error = 1; error < place.fault.error_count; ++error) {
+            FailingCall injection(place.number, error, table, places);
+            Life life(setting, expected, {place.step});
+            life.live(injection);
+            heal_devices();
+            // A device that hangs is left, and with it what it works with.
+            const bool hangs = places.back().fault.result == VK_TIMEOUT;
+            EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);
+            for (const auto &[maker, count] : live_objects())
+                EXPECT_TRUE(hangs) << place.step << ", " << place.fault.function << ": " << count << " of " << maker;
+            forget_objects();
+        }
+    }
+    table.print();
+}
+
+TEST(VulkanCallTest, EveryCallMayFail) {
+    fail_every_call({.gpu = false, .device_count = 1, .submit_milliseconds = 1}, "CPU");
+}
+
+TEST(VulkanCallTest, EveryCallMayFailOnAGpu) {
+    fail_every_call({.gpu = true, .device_count = 1, .submit_milliseconds = 8}, "GPU");
+}
+
+TEST(VulkanCallTest, EveryCallMayFailOnTwoDevices) {
+    fail_every_call({.gpu = true, .device_count = 2, .submit_milliseconds = 1}, "two GPUs");
+}
+
+} // namespace

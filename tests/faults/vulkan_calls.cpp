@@ -1,0 +1,298 @@
+// A hook for each Vulkan function; see vulkan_calls.h.
+#include "vulkan_calls.h"
+
+#include "allocations.h"
+#include "kept_objects.h"
+#include "vulkan_functions.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+extern "C" PFN_vkVoidFunction __real_vkGetInstanceProcAddr(VkInstance instance, const char *name);
+extern "C" PFN_vkVoidFunction __wrap_vkGetInstanceProcAddr(VkInstance instance, const char *name);
+
+namespace faults {
+
+namespace {
+
+enum class Effect { None, Creates, Destroys };
+
+enum class Call {
+#define FAULTS_NAME(id, ...) id,
+    FAULTS_VULKAN_FUNCTIONS(FAULTS_NAME)
+};
+
+struct Function {
+    const char *name;
+    Effect effect;
+    std::vector<VkResult> errors;
+};
+
+const Function &function(Call call) {
+    static const std::vector<Function> functions = {
+#define FAULTS_FUNCTION(id, effect, ...) {"vk" #id, Effect::effect, {__VA_ARGS__}},
+        FAULTS_VULKAN_FUNCTIONS(FAULTS_FUNCTION)};
+    return functions[static_cast<std::size_t>(call)];
+}
+
+constexpr Effect effects[] = {
+#define FAULTS_EFFECT(id, effect, ...) Effect::effect,
+    FAULTS_VULKAN_FUNCTIONS(FAULTS_EFFECT)};
+
+std::size_t call_count = 0;
+std::size_t failing_number = 0;
+std::size_t failing_error = 0;
+CallFault fault;
+bool posing = false;
+std::set<const void *> lost;                       // devices and queues
+std::set<VkFence> hanging;                         // fences that are not seen to be signalled
+std::map<VkQueue, VkDevice> devices;               // by their queues
+std::multiset<std::pair<const void *, Call>> live; // objects and what made them
+PFN_vkDeviceWaitIdle wait_idle = nullptr;
+PFN_vkGetDeviceProcAddr get_device_function = nullptr;
+
+template <typename... A>
+VkDevice device_of(const std::tuple<A...> &arguments) {
+    const auto first = std::get<0>(arguments);
+    if constexpr (std::is_same_v<decltype(first), const VkQueue>)
+        return devices[first];
+    else if constexpr (std::is_same_v<decltype(first), const VkDevice>)
+        return first;
+    else
+        return VK_NULL_HANDLE;
+}
+
+// What the call returns instead of being made; nothing if it is to be made.
+std::optional<VkResult> result_by_plan(Call call) {
+    const std::vector<VkResult> &errors = function(call).errors;
+    if (errors.empty() || ++call_count != failing_number)
+        return std::nullopt;
+    const bool may_hang = posing || errors.back() != VK_TIMEOUT; // a CPU is waited for without an end
+    const std::size_t error_count = errors.size() - (may_hang ? 0 : 1);
+    fault = {function(call).name, errors[failing_error % error_count], error_count};
+    return fault.result;
+}
+
+// A device that was lost stays lost, and a submission that hangs goes on to hang.
+template <Call call, typename... A>
+std::optional<VkResult> result_by_state(const std::tuple<A...> &arguments) {
+    constexpr bool is_wait = call == Call::WaitForFences || call == Call::GetFenceStatus;
+    if constexpr (is_wait || call == Call::QueueSubmit)
+        if (lost.contains(device_of(arguments)))
+            return VK_ERROR_DEVICE_LOST;
+    if constexpr (call == Call::WaitForFences)
+        if (hanging.contains(*std::get<2>(arguments)))
+            return VK_TIMEOUT;
+    if constexpr (call == Call::GetFenceStatus)
+        if (hanging.contains(std::get<1>(arguments)))
+            return VK_NOT_READY;
+    return std::nullopt;
+}
+
+void note(bool made, Call maker, const void *handle) {
+    if (made) {
+        live.insert({handle, maker});
+    } else if (handle) {
+        const auto object = live.find({handle, maker});
+        if (object == live.end()) {
+            std::fprintf(stderr, "an object of %s is destroyed twice\n", function(maker).name);
+            std::abort();
+        }
+        live.erase(object);
+    }
+}
+
+Call maker_of(Call destroyer) {
+    static const std::unordered_map<std::string_view, Call> makers = [] {
+        std::unordered_map<std::string_view, Call> result;
+#define FAULTS_MAKER(id, ...) result["vk" #id] = Call::id;
+        FAULTS_VULKAN_FUNCTIONS(FAULTS_MAKER)
+        return result;
+    }();
+    const std::string name = function(destroyer).name;
+    if (destroyer == Call::FreeMemory)
+        return Call::AllocateMemory;
+    if (destroyer == Call::DestroyPipeline)
+        return Call::CreateComputePipelines;
+    return makers.at("vkCreate" + name.substr(std::strlen("vkDestroy")));
+}
+
+template <Call call, typename... A>
+void note_effect(const std::tuple<A...> &arguments) {
+    constexpr Effect effect = effects[static_cast<std::size_t>(call)];
+    if constexpr (effect == Effect::Creates)
+        note(true, call, *std::get<sizeof...(A) - 1>(arguments));
+    if constexpr (effect == Effect::Destroys)
+        note(false, maker_of(call), std::get<sizeof...(A) - 2>(arguments));
+    if constexpr (call == Call::GetDeviceQueue)
+        devices[*std::get<3>(arguments)] = std::get<0>(arguments);
+    if constexpr (call == Call::GetPhysicalDeviceProperties)
+        if (posing)
+            std::get<1>(arguments)->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    if constexpr (call == Call::GetPhysicalDeviceProperties2)
+        if (posing)
+            std::get<1>(arguments)->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+}
+
+// Makes a call, as far as it is not for what is kept.
+template <Call call, typename Real, typename... A>
+auto made(Real real, A... values) {
+    [[maybe_unused]] const std::tuple<A...> arguments(values...);
+    if constexpr (call == Call::CreateInstance) {
+        return kept_instance(real, std::get<0>(arguments), std::get<2>(arguments));
+    } else if constexpr (call == Call::CreateDevice) {
+        return kept_device(real, std::get<0>(arguments), std::get<1>(arguments), std::get<3>(arguments));
+    } else if constexpr (call == Call::CreateComputePipelines) {
+        return kept_pipeline(real, std::get<0>(arguments), std::get<3>(arguments), std::get<5>(arguments));
+    } else if constexpr (call == Call::DestroyDevice) {
+        put_back(std::get<0>(arguments));
+    } else if constexpr (call == Call::CreateShaderModule) {
+        const VkResult result = real(values...);
+        note_code(*std::get<3>(arguments), std::get<1>(arguments));
+        return result;
+    } else if constexpr (call != Call::DestroyInstance && call != Call::DestroyPipeline) {
+        return real(values...);
+    }
+}
+
+template <Call call, typename Pointer>
+struct Hook;
+
+template <Call call, typename Result, typename... A>
+struct Hook<call, Result(VKAPI_PTR *)(A...)> {
+    static inline Result(VKAPI_PTR *real)(A...) = nullptr;
+
+    static VKAPI_ATTR Result VKAPI_CALL run(A... values) {
+        const OutOfLibrary out_of_library;
+        const std::tuple<A...> arguments(values...);
+        if constexpr (std::is_same_v<Result, VkResult>) {
+            const std::optional<VkResult> planned = result_by_plan(call);
+            if (planned == VK_TIMEOUT) {
+                if constexpr (call == Call::QueueSubmit)
+                    hanging.insert(std::get<3>(arguments));
+            } else if (planned) {
+                if (planned == VK_ERROR_DEVICE_LOST && device_of(arguments)) {
+                    wait_idle(device_of(arguments)); // a lost device works no more
+                    lost.insert(device_of(arguments));
+                }
+                return *planned;
+            }
+            if (const std::optional<VkResult> result = result_by_state<call>(arguments))
+                return *result;
+            const VkResult result = made<call>(real, values...);
+            if (result == VK_SUCCESS)
+                note_effect<call>(arguments);
+            if (planned == VK_TIMEOUT) // what it uses may go with the call that fails; a GPU's driver copes with that
+                wait_idle(device_of(arguments));
+            return result;
+        } else {
+            if constexpr (effects[static_cast<std::size_t>(call)] != Effect::None)
+                note_effect<call>(arguments); // before another thread can make an object of the same handle
+            made<call>(real, values...);
+            if constexpr (effects[static_cast<std::size_t>(call)] == Effect::None)
+                note_effect<call>(arguments);
+        }
+    }
+};
+
+struct Entry {
+    PFN_vkVoidFunction hook;
+    PFN_vkVoidFunction *real;
+};
+
+const std::unordered_map<std::string_view, Entry> &entries() {
+    static const std::unordered_map<std::string_view, Entry> entries = [] {
+        std::unordered_map<std::string_view, Entry> result;
+#define FAULTS_ENTRY(id, ...)                                                                                          \
+    using Hook##id = Hook<Call::id, PFN_vk##id>;                                                                       \
+    result["vk" #id] = {reinterpret_cast<PFN_vkVoidFunction>(&Hook##id::run),                                          \
+                        reinterpret_cast<PFN_vkVoidFunction *>(&Hook##id::real)};
+        FAULTS_VULKAN_FUNCTIONS(FAULTS_ENTRY)
+        return result;
+    }();
+    return entries;
+}
+
+// Stands for the functions without a hook: a fault in them would not be tried.
+[[noreturn]] void unknown_function() {
+    std::fputs("the library called a Vulkan function that tests/faults/vulkan_functions.h does not list\n", stderr);
+    std::abort();
+}
+
+PFN_vkVoidFunction hooked(const char *name, PFN_vkVoidFunction real) {
+    if (!real)
+        return nullptr;
+    const auto entry = entries().find(name);
+    if (entry == entries().end())
+        return reinterpret_cast<PFN_vkVoidFunction>(&unknown_function);
+    *entry->second.real = real;
+    return entry->second.hook;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice device, const char *name) {
+    const OutOfLibrary out_of_library;
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
+    const PFN_vkVoidFunction real = get_device_function(device, name);
+    if (std::strcmp(name, "vkDeviceWaitIdle") == 0)
+        wait_idle = reinterpret_cast<PFN_vkDeviceWaitIdle>(real);
+    return hooked(name, real);
+}
+
+} // namespace
+
+void fail_call(std::size_t number, std::size_t error_index) {
+    call_count = 0;
+    failing_number = number;
+    failing_error = error_index;
+    fault = {};
+}
+
+CallFault call_fault() {
+    return fault;
+}
+
+void heal_devices() {
+    lost.clear();
+    hanging.clear();
+}
+
+void pose_as_gpu(bool pose) {
+    posing = pose;
+}
+
+std::map<std::string, long> live_objects() {
+    std::map<std::string, long> counts;
+    for (const auto &[handle, maker] : live)
+        ++counts[function(maker).name];
+    return counts;
+}
+
+void forget_objects() {
+    live.clear();
+    put_all_back();
+}
+
+} // namespace faults
+
+PFN_vkVoidFunction __wrap_vkGetInstanceProcAddr(VkInstance instance, const char *name) {
+    using namespace faults;
+    const OutOfLibrary out_of_library;
+    const PFN_vkVoidFunction real = __real_vkGetInstanceProcAddr(instance, name);
+    if (std::strcmp(name, "vkGetInstanceProcAddr") == 0)
+        return reinterpret_cast<PFN_vkVoidFunction>(&__wrap_vkGetInstanceProcAddr);
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
+        get_device_function = reinterpret_cast<PFN_vkGetDeviceProcAddr>(real);
+        return reinterpret_cast<PFN_vkVoidFunction>(&device_function);
+    }
+    return hooked(name, real);
+}
