@@ -10,6 +10,6 @@ target_compile_options(
             $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
 )
 if(PT_SANITIZE)
-  target_compile_options(pt_warnings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_link_options(pt_warnings INTERFACE -fsanitize=address,undefined)
+  target_compile_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE})
 endif()

@@ -1,0 +1,97 @@
+// Two contexts in two threads at a time, and a call that is stopped from another thread. The preset thread runs this with
+// ThreadSanitizer.
+#include "coursework_scene.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 32;
+constexpr uint32_t height = 16;
+
+using Image = std::vector<float>;
+
+// What stops a call, and what sees it run.
+struct Progress {
+    std::atomic<bool> stop{false};
+    std::atomic<int> calls{0};
+    int *unguarded = nullptr; // counts the calls too
+
+    static int32_t report(void *user, double /*fraction*/) {
+        auto *progress = static_cast<Progress *>(user);
+        ++progress->calls;
+        if (progress->unguarded)
+            ++*progress->unguarded;
+        return progress->stop ? 1 : 0;
+    }
+};
+
+// A context's life; returns the result of pt_accumulate, and the image if there is room for it.
+pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
+    pt_create_info create{};
+    create.struct_size = sizeof create;
+    create.submit_milliseconds = 1;
+    pt_context *context = nullptr;
+    EXPECT_EQ(pt_create(&create, &context), PT_OK) << pt_last_error(nullptr);
+    CourseworkScene coursework;
+    const pt_scene scene = coursework.scene();
+    const pt_camera camera = CourseworkScene::camera();
+    pt_render render = render_of(width, height, 3);
+    render.seed = seed;
+    EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0};
+    const pt_result result = pt_accumulate(context, &info);
+    EXPECT_GE(result, PT_OK) << pt_last_error(context);
+    if (image) {
+        image->resize(std::size_t{width} * height * 3);
+        const pt_image target{sizeof target, 0, image->data(), image->size() * sizeof(float), 0};
+        EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
+    }
+    pt_destroy(context);
+    return result;
+}
+
+TEST(ThreadsTest, ContextsInThreadsGiveTheBitsOfContextsOneByOne) {
+    Progress progress;
+    Image alone[2];
+    Image together[2];
+    for (uint64_t seed : {0U, 1U})
+        live(seed, 16, progress, &alone[seed]);
+    std::thread other([&] { live(1, 16, progress, &together[1]); });
+    live(0, 16, progress, &together[0]);
+    other.join();
+    EXPECT_EQ(together[0], alone[0]);
+    EXPECT_EQ(together[1], alone[1]);
+    EXPECT_NE(together[0], together[1]);
+}
+
+TEST(ThreadsTest, AnotherThreadStopsACall) {
+    Progress progress;
+    pt_result result = PT_OK;
+    std::thread renders([&] { result = live(0, UINT32_MAX, progress); });
+    while (progress.calls == 0)
+        std::this_thread::yield();
+    progress.stop = true;
+    renders.join();
+    EXPECT_EQ(result, PT_CANCELLED);
+}
+
+// The negative control: the program's callback races, and the sanitizer has to say so.
+TEST(ThreadsTest, DISABLED_ARaceInACallback) {
+    int unguarded = 0;
+    Progress progress;
+    progress.unguarded = &unguarded;
+    std::thread other([&] { live(1, 64, progress); });
+    live(0, 64, progress);
+    other.join();
+}
+
+} // namespace
