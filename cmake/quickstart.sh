@@ -8,7 +8,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 packages="build-essential cmake ninja-build pkg-config
-    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools spirv-tools
+    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-dev glslang-tools spirv-tools
     libglm-dev libopenimageio-dev libpng-dev nlohmann-json3-dev libcli11-dev libgtest-dev python3
     doxygen file"
 

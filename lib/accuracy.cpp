@@ -1,7 +1,6 @@
 // Arguments, exact values and error bounds of the elementary functions; see accuracy.h.
 #include "accuracy.h"
 
-#include "accuracy.spv.h"
 #include "error.h"
 #include "gpu_layout.h"
 #include "vulkan/buffer.h"
@@ -157,13 +156,13 @@ pt_function_accuracy compare(const ElementaryFunction &function, std::span<const
     return row;
 }
 
-std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device) {
+std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device, std::span<const std::uint32_t> spirv) {
     std::vector<float> arguments;
     for (const ElementaryFunction &function : functions) {
         const std::vector<float> of_function = accuracy_arguments(function);
         arguments.insert(arguments.end(), of_function.begin(), of_function.end());
     }
-    const std::vector<float> values = evaluate(device, accuracy_spirv, arguments);
+    const std::vector<float> values = evaluate(device, spirv, arguments);
 
     std::vector<pt_function_accuracy> rows;
     for (std::size_t i = 0; i < std::size(functions); ++i) {

@@ -40,7 +40,7 @@ std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_
 pt_function_accuracy compare(const ElementaryFunction &function, std::span<const float> arguments,
                              std::span<const float> values);
 
-// One row for each of the elementary functions. Throws pt::Error.
-std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device);
+// One row for each of the elementary functions, as the code of shaders/accuracy.comp has them. Throws pt::Error.
+std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device, std::span<const std::uint32_t> spirv);
 
 } // namespace pt

@@ -61,6 +61,7 @@ CreateSettings validated_create(const pt_create_info &info) {
     CreateSettings settings;
     settings.validation = (info.flags & PT_CREATE_VALIDATION) != 0;
     settings.device = info.device ? info.device : "";
+    settings.shader_directory = info.shader_dir ? info.shader_dir : "";
     settings.log = {info.log, info.log_user};
     settings.submit_milliseconds =
         info.submit_milliseconds == 0 ? default_submit_milliseconds : info.submit_milliseconds;
@@ -131,6 +132,10 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         renderer.set_render(pt::validated_render(pt::copy_in(render, "render")));
     });
+}
+
+pt_result pt_reload_shaders(pt_context *context) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) { renderer.reload_shaders(); });
 }
 
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {

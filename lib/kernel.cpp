@@ -80,6 +80,11 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     }
 }
 
+void Kernel::build(TracePipelines &pipelines) const {
+    pipelines.trace(features_, sharers_, words_, seconds_);
+    pipelines.commit();
+}
+
 std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }

@@ -31,6 +31,10 @@ public:
     const PointLayout &point_layout() const { return layout_; }
     double film_unit() const { return film_unit_; }
 
+    // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the
+    // driver refuses that.
+    void build(TracePipelines &pipelines) const;
+
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 

@@ -19,9 +19,9 @@ constexpr double assumed_tests_per_second = 2.5e8;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           vulkan::LogicalDevice logical_device, double target_seconds) :
+                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds) :
     device_(instance, physical_device, std::move(logical_device)),
-    pipelines_(device_),
+    pipelines_(std::make_unique<TracePipelines>(device_, code)),
     target_seconds_(target_seconds) {
     under_way_.reserve(device_.policy().queue_depth);
 }
@@ -54,11 +54,23 @@ void RenderDevice::discard_samples() noexcept {
     pass_pixels_ = 0;
 }
 
+std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &code) {
+    auto pipelines = std::make_unique<TracePipelines>(device_, code);
+    if (kernel_)
+        kernel_->build(*pipelines);
+    return pipelines;
+}
+
+void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
+    kernel_.reset(); // it uses the old ones
+    pipelines_ = std::move(pipelines);
+}
+
 void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
     if (kernel_)
         return;
     film_->clear();
-    kernel_.emplace(device_, pipelines_, *film_, scene, camera, settings);
+    kernel_.emplace(device_, *pipelines_, *film_, scene, camera, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =

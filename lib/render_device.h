@@ -8,11 +8,13 @@
 #include "render_settings.h"
 #include "scene.h"
 #include "schedule.h"
+#include "shader_source.h"
 #include "trace_pipelines.h"
 #include "vulkan/device.h"
 #include "vulkan/instance.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,7 +24,7 @@ class RenderDevice {
 public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                 vulkan::LogicalDevice logical_device, double target_seconds);
+                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds);
     // Waits for what is under way, as long as the device's patience allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
@@ -38,6 +40,11 @@ public:
 
     // What the film holds is void. The kernel has to be prepared anew.
     void discard_samples() noexcept;
+
+    // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the driver
+    // refuses the code.
+    std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
+    void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
 
     // Empties the film and makes the kernel, unless it is there. After set_film.
     void prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings);
@@ -73,7 +80,7 @@ private:
     };
 
     vulkan::Device device_;
-    TracePipelines pipelines_;
+    std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
     std::optional<Film> film_;
     std::optional<Kernel> kernel_;

@@ -28,7 +28,10 @@ std::vector<pt_device_info> list_devices() {
     return describe_all(vulkan::Instance(Log{}, false));
 }
 
+// The code first: where it does not compile, no device is touched.
 Renderer::Renderer(const CreateSettings &settings) :
+    source_(settings.shader_directory),
+    code_(source_.read()),
     log_(settings.log),
     instance_(settings.vulkan ? vulkan::Instance(settings.vulkan->instance)
                               : vulkan::Instance(log_, settings.validation)) {
@@ -42,14 +45,14 @@ void Renderer::use_own_devices(const CreateSettings &settings) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
     for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
         devices_.push_back(std::make_unique<RenderDevice>(instance_, devices[index],
-                                                          vulkan::LogicalDevice::create(devices[index]),
+                                                          vulkan::LogicalDevice::create(devices[index]), code_,
                                                           settings.submit_milliseconds * 1e-3));
 }
 
 void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
     const vk::raii::PhysicalDevice physical_device = validated_physical_device(instance_.handle(), caller);
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device,
-                                                      vulkan::LogicalDevice::borrow(physical_device, caller),
+                                                      vulkan::LogicalDevice::borrow(physical_device, caller), code_,
                                                       settings.submit_milliseconds * 1e-3));
 }
 
@@ -90,6 +93,25 @@ void Renderer::set_render(const RenderSettings &settings) {
     }
     discard_samples();
     settings_ = settings;
+}
+
+void Renderer::reload_shaders() {
+    require_alive();
+    if (source_.is_embedded())
+        throw Error(PT_ERROR_INVALID_STATE, "no shader_dir: the kernels are those in the library");
+    set_code(source_.read());
+}
+
+void Renderer::set_code(const KernelCode &code) {
+    if (code == code_)
+        return;
+    std::vector<std::unique_ptr<TracePipelines>> pipelines;
+    for (const auto &device : devices_)
+        pipelines.push_back(device->make_pipelines(code));
+    discard_samples();
+    for (std::size_t i = 0; i < pipelines.size(); ++i)
+        devices_[i]->set_pipelines(std::move(pipelines[i]));
+    code_ = code;
 }
 
 void Renderer::require_settings() const {
@@ -260,7 +282,7 @@ pt_stats Renderer::stats(bool with_error) {
 }
 
 std::vector<pt_function_accuracy> Renderer::accuracy() {
-    return measured_accuracy(devices_.front()->device());
+    return measured_accuracy(devices_.front()->device(), code_.accuracy);
 }
 
 } // namespace pt

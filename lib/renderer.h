@@ -9,6 +9,7 @@
 #include "render_device.h"
 #include "render_settings.h"
 #include "scene.h"
+#include "shader_source.h"
 #include "vulkan/caller_vulkan.h"
 #include "vulkan/instance.h"
 
@@ -23,7 +24,8 @@ namespace pt {
 // pt_create_info, checked, with its defaults applied.
 struct CreateSettings {
     bool validation = false;
-    std::string device; // empty: the best
+    std::string device;           // empty: the best
+    std::string shader_directory; // empty: the kernels in the library
     Log log;
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
@@ -54,6 +56,12 @@ public:
     void set_scene(Scene scene);
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
+
+    // Compiles the kernels anew. Those that differ discard the samples so far.
+    void reload_shaders();
+
+    // Replaces the kernels on all devices or, if a driver refuses them, on none.
+    void set_code(const KernelCode &code);
 
     // PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
@@ -89,6 +97,8 @@ private:
     bool finish_slice(Job &job);
     RenderDevice *next_to_finish();
 
+    ShaderSource source_;
+    KernelCode code_;
     Log log_;
     vulkan::Instance instance_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one

@@ -1,10 +1,7 @@
 // Specialises the kernels; see trace_pipelines.h.
 #include "trace_pipelines.h"
 
-#include "commit.spv.h"
-#include "fold.spv.h"
 #include "gpu_layout.h"
-#include "pathtrace.spv.h"
 
 #include <array>
 #include <bit>
@@ -46,7 +43,7 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
 const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> &place,
                                                      std::vector<std::uint32_t> constants) {
     place.reset(); // so that it holds nothing if this one cannot be built
-    vulkan::ComputePipeline pipeline(device_, pathtrace_spirv, bindings, sizeof(gpu::FrameConstants), constants);
+    vulkan::ComputePipeline pipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants);
     return place.emplace(std::move(constants), std::move(pipeline)).pipeline;
 }
 
@@ -69,13 +66,13 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
 
 const vulkan::ComputePipeline &TracePipelines::commit() {
     if (!commit_)
-        commit_.emplace(device_, commit_spirv, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
+        commit_.emplace(device_, code_.commit, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
     return *commit_;
 }
 
 const vulkan::ComputePipeline &TracePipelines::fold() {
     if (!fold_)
-        fold_.emplace(device_, fold_spirv, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
+        fold_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
     return *fold_;
 }
 

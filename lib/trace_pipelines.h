@@ -1,14 +1,16 @@
-// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene. Owned by Renderer, used by
-// Kernel.
+// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene. Owned by
+// RenderDevice, used by Kernel.
 #pragma once
 
 #include "scene_features.h"
+#include "shader_source.h"
 #include "vulkan/compute_pipeline.h"
 #include "vulkan/device.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace pt {
@@ -17,7 +19,9 @@ namespace pt {
 class TracePipelines {
 public:
     // The device must outlive the pipelines.
-    explicit TracePipelines(vulkan::Device &device) : device_(device) {}
+    explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code()) :
+        device_(device),
+        code_(std::move(code)) {}
 
     // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long
     // as many small images do, so a scene that took the place of one with the same features gets a kernel of its own
@@ -42,6 +46,7 @@ private:
     const vulkan::ComputePipeline &build(std::optional<Specialised> &place, std::vector<std::uint32_t> constants);
 
     vulkan::Device &device_;
+    KernelCode code_;
     std::optional<Features> features_;     // of the scene before
     std::optional<Specialised> any_scene_; // reads the scene from a buffer
     std::optional<Specialised> one_scene_; // has the scene's numbers as constants

@@ -8,6 +8,7 @@
 #include "error.h"
 #include "expected_error.h"
 #include "recurrence.spv.h"
+#include "shader_source.h"
 
 #include <gtest/gtest.h>
 
@@ -314,7 +315,7 @@ TEST_F(VulkanTest, ADeviceThatDoesNotEndASubmissionIsLostForGood) {
         error_of([&] { recurrence.values().upload(word, 0); }),
         error_of([&] { recurrence.values().download(word, 0); }),
         error_of([&] { Buffer(device, BufferUse::Storage, 1024, "test"); }),
-        error_of([&] { pt::measured_accuracy(device); }),
+        error_of([&] { pt::measured_accuracy(device, pt::embedded_code().accuracy); }),
     };
     for (const pt::Error &error : later) {
         EXPECT_EQ(error.code(), PT_ERROR_DEVICE_LOST);

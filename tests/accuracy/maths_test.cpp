@@ -6,6 +6,7 @@
 #include "error.h"
 #include "gpu_layout.h"
 #include "probe.h"
+#include "shader_source.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(AccuracyMaths, OfElementaryFunctions) {
-    const std::vector<pt_function_accuracy> rows = pt::measured_accuracy(probe_device());
+    const std::vector<pt_function_accuracy> rows = pt::measured_accuracy(probe_device(), pt::embedded_code().accuracy);
     ASSERT_EQ(rows.size(), pt::elementary_functions().size());
     for (const pt_function_accuracy &row : rows) {
         std::printf("accuracy: %-28s %6u inputs, worst %8.2g of %8.2g ulp at %.9g\n", row.name,

@@ -24,7 +24,8 @@
  *   function names, it can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL; and with
  *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
  * - Threads: different contexts are independent and may be used at the same time; one context is used by one thread
- *   at a time. The library starts no threads, prints nothing, reads no files and has no globals.
+ *   at a time. The library starts no threads, prints nothing, reads no files but those of
+ *   pt_create_info.shader_dir and has no globals.
  * - Callbacks: run inside the call, on the calling thread, must not call back into the same context and must not
  *   throw.
  */
@@ -60,7 +61,7 @@ enum {
     PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little memory left */
     PT_ERROR_OUT_OF_DEVICE_MEMORY = -7, /**< the device has too little memory left, for this image for instance */
     PT_ERROR_DEVICE_LOST = -8,          /**< the device or its driver gave up; the context can only be destroyed */
-    PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel */
+    PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel, or its GLSL does not compile */
     PT_ERROR_INTERNAL = -10             /**< a bug in this library or in the driver */
 };
 
@@ -347,6 +348,12 @@ typedef struct pt_create_info {
      * NULL, and flags 0: the layers are those of the caller's instance, and their messages go where that sends them.
      * The struct is read by pt_create alone. */
     const pt_vulkan *vulkan;
+    /** NULL or empty: the kernels in the library. Else a folder of GLSL files like the library's own shaders/, which are
+     * compiled by pt_create, and again by pt_reload_shaders: pathtrace.comp, commit.comp, fold.comp, accuracy.comp and
+     * what they include, beside the including file or in this folder. A relative path is relative to the working
+     * directory at that time. gpu_layout.h is an agreement with the library's host code: what it says of memory must
+     * stay. The compiler is a module beside the library, pt/libpt-glsl.so; PT_ERROR_UNSUPPORTED without it. */
+    const char *shader_dir;
 } pt_create_info;
 
 /* -- any thread, no context -- */
@@ -373,8 +380,8 @@ PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
  *
  * Any thread, also while other contexts are in use. PT_ERROR_INVALID_ARGUMENT: info breaks a rule.
  * PT_ERROR_NO_DEVICE: there is no Vulkan, or no such device, or none that fits. PT_ERROR_UNSUPPORTED: no validation
- * layer, or a newer struct. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST, PT_ERROR_SHADER: the driver said
- * so. */
+ * layer, or a newer struct. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so.
+ * PT_ERROR_SHADER: the driver, or the compiler of shader_dir. */
 PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
 /** Message of the last call on this context that failed ("" if none did), valid until the next call on it.
@@ -412,6 +419,18 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
  * PT_ERROR_OUT_OF_DEVICE_MEMORY: it has too little memory left. In both cases, render fewer rows at a time.
  * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
+
+/** Compiles the GLSL files of pt_create_info.shader_dir as they are now.
+ *
+ * If they give other kernels than before, these replace them on all devices, and the samples so far are discarded as by
+ * the setters; if they give the same, nothing changes. After a failure the kernels are those of before, and the samples
+ * stay.
+ *
+ * One thread at a time per context. PT_ERROR_SHADER: a file is missing or does not compile, with the compiler's messages
+ * (one line each, with the name of the file and the line) in pt_last_error; or a driver refuses the kernels for the
+ * scene that is being rendered (a scene that no sample was taken of yet is tried by the next pt_accumulate).
+ * PT_ERROR_INVALID_STATE: there is no shader_dir. */
+PT_API pt_result pt_reload_shaders(pt_context *context);
 
 /** Adds samples to every pixel and returns when they are done.
  *

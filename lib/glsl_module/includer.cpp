@@ -1,0 +1,89 @@
+// Finds and reads included files; see includer.h.
+#include "includer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace pt::glsl {
+
+namespace {
+
+// A file that includes itself, by way of others maybe, is fine behind an include guard: it is then open twice.
+constexpr std::ptrdiff_t most_open_times = 2;
+
+// glslang refers to the text until it calls releaseInclude.
+glslang::TShader::Includer::IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
+    auto *const result = new glslang::TShader::Includer::IncludeResult(name, text->data(), text->size(), text.get());
+    text.release();
+    return result;
+}
+
+} // namespace
+
+std::string read_source(const std::filesystem::path &path) {
+    const auto fail = [&] { throw std::runtime_error(path.string() + ": " + std::generic_category().message(errno)); };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rbe"), &std::fclose);
+    if (!file)
+        fail();
+    std::string text;
+    char block[4096];
+    for (std::size_t count = 1; count > 0;) {
+        count = std::fread(block, 1, sizeof block, file.get());
+        text.append(block, count);
+    }
+    if (std::ferror(file.get()) != 0)
+        fail(); // a directory, for one
+    return text;
+}
+
+std::filesystem::path Includer::find(const char *name, const char *including_file) const {
+    const std::filesystem::path beside = std::filesystem::path(including_file).parent_path() / name;
+    std::error_code ignored;
+    return std::filesystem::exists(beside, ignored) ? beside : directory_ / name;
+}
+
+glslang::TShader::Includer::IncludeResult *Includer::refuse(const std::string &reason) {
+    reason_ = reason;
+    return nullptr;
+}
+
+glslang::TShader::Includer::IncludeResult *Includer::includeLocal(const char *name, const char *including_file,
+                                                                  std::size_t /*depth*/) {
+    if (is_endless_)
+        return refuse("not read after that");
+    const std::filesystem::path path = find(name, including_file).lexically_normal();
+    is_endless_ = std::ranges::count(open_files_, path) >= most_open_times;
+    if (is_endless_)
+        return refuse("the file includes itself, without an include guard");
+    try {
+        auto text = std::make_unique<std::string>(read_source(path));
+        open_files_.push_back(path);
+        return hand_over(path.string(), std::move(text));
+    } catch (const std::runtime_error &error) {
+        return refuse(error.what());
+    }
+}
+
+// An empty name says that there is no file, and the text why.
+glslang::TShader::Includer::IncludeResult *
+Includer::includeSystem(const char * /*name*/, const char * /*including_file*/, std::size_t /*depth*/) {
+    const std::string reason = std::exchange(reason_, "");
+    auto kept = std::make_unique<std::string>(reason.empty() ? "only #include \"name\" is known" : reason);
+    return hand_over("", std::move(kept));
+}
+
+void Includer::releaseInclude(IncludeResult *result) {
+    if (!result)
+        return;
+    if (!result->headerName.empty())
+        open_files_.pop_back();
+    delete static_cast<std::string *>(result->userData);
+    delete result;
+}
+
+} // namespace pt::glsl

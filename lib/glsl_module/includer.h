@@ -1,0 +1,40 @@
+// The files that #include lines of a shader ask for. Used by glsl_module.cpp, called back by glslang.
+#pragma once
+
+#include <glslang/Public/ShaderLang.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pt::glsl {
+
+// The whole file; throws std::runtime_error with the system's reason.
+std::string read_source(const std::filesystem::path &path);
+
+// Looks beside the including file, then in the directory. glslang's messages name the files as they were found.
+class Includer : public glslang::TShader::Includer {
+public:
+    Includer(std::filesystem::path directory, const std::filesystem::path &main_file) :
+        directory_(std::move(directory)),
+        open_files_{main_file} {}
+
+    IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t depth) override;
+
+    // Where glslang goes on once a file was not found, so that the reason is given here; and for #include <name>.
+    IncludeResult *includeSystem(const char *name, const char *including_file, std::size_t depth) override;
+
+    void releaseInclude(IncludeResult *result) override;
+
+private:
+    std::filesystem::path find(const char *name, const char *including_file) const;
+    IncludeResult *refuse(const std::string &reason);
+
+    std::filesystem::path directory_;
+    std::vector<std::filesystem::path> open_files_; // each included by the one before
+    std::string reason_;                            // why the last #include line was refused
+    bool is_endless_ = false;                       // a file includes itself: no line is followed any more
+};
+
+} // namespace pt::glsl

@@ -1,0 +1,42 @@
+// Where the kernels come from: the SPIR-V that is embedded in the library, or GLSL files that are compiled when they are
+// asked for. Owned by Renderer; its devices make pipelines of what it gives.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+// The SPIR-V of all kernels.
+struct KernelCode {
+    std::span<const std::uint32_t> pathtrace;
+    std::span<const std::uint32_t> commit;
+    std::span<const std::uint32_t> fold;
+    std::span<const std::uint32_t> accuracy;
+    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> compiled; // what these refer to; empty if embedded
+
+    // The same words, wherever they are.
+    bool operator==(const KernelCode &other) const;
+};
+
+KernelCode embedded_code();
+
+class ShaderSource {
+public:
+    // A folder with pathtrace.comp, commit.comp, fold.comp, accuracy.comp and what they include; empty: the embedded code.
+    explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
+
+    bool is_embedded() const { return directory_.empty(); }
+
+    // Compiles the files as they are now. Throws PT_ERROR_SHADER with the compiler's log, PT_ERROR_UNSUPPORTED if the
+    // compiler's module cannot be loaded.
+    KernelCode read() const;
+
+private:
+    std::string directory_;
+};
+
+} // namespace pt
