@@ -15,10 +15,10 @@ namespace cli {
 
 class Context {
 public:
-    explicit Context(const pt_create_info &info) {
+    explicit Context(const pt_create_info &info) : has_given_shaders_(info.shader_dir != nullptr) {
         const pt_result result = pt_create(&info, &context_);
         if (result < 0) {
-            throw Failure(exit_code_of(result), pt_last_error(nullptr));
+            throw Failure(code_of(result), pt_last_error(nullptr));
         }
     }
     Context(const Context &) = delete;
@@ -31,8 +31,16 @@ public:
     // For calls whose arguments the user has no part in, or named on the command line.
     void require(pt_result result) const {
         if (result < 0) {
-            throw Failure(exit_code_of(result), last_error());
+            throw Failure(code_of(result), last_error());
         }
+    }
+
+    // Without a read-out of the image.
+    std::uint32_t sample_count() const {
+        pt_stats stats{};
+        stats.struct_size = offsetof(pt_stats, rmse);
+        require(pt_get_stats(context_, &stats));
+        return stats.sample_count;
     }
 
     // Includes the estimate of the error, which takes a read-out of the image.
@@ -62,6 +70,12 @@ public:
     }
 
 private:
+    // Shaders that the user gave are what a scene file is: the user's to mend.
+    ExitCode code_of(pt_result result) const {
+        return result == PT_ERROR_SHADER && has_given_shaders_ ? ExitCode::scene : exit_code_of(result);
+    }
+
+    bool has_given_shaders_;
     pt_context *context_ = nullptr;
 };
 

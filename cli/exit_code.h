@@ -25,12 +25,13 @@ inline constexpr const char *exit_code_help =
     "  0    done\n"
     "  1    internal error, a message of the validation layer, or a failed selftest\n"
     "  2    usage: a wrong option or value\n"
-    "  3    scene: the scene file is not valid\n"
+    "  3    scene: the scene file, or a shader of --shader-dir, is not valid\n"
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
     "  130  SIGINT: the samples done so far were written, if there were any\n"
-    "  143  SIGTERM: the same\n";
+    "  143  SIGTERM: the same\n"
+    "A --watch that either signal ends while it waits for changes has done its work: 0.\n";
 
 class Failure : public std::runtime_error {
 public:
@@ -40,6 +41,11 @@ public:
 private:
     ExitCode code_;
 };
+
+// Of a program that a signal ended.
+constexpr int exit_code_of_signal(int signal) {
+    return static_cast<int>(ExitCode::signal) + signal;
+}
 
 // A failed call of pt.h whose arguments are not the user's. Where they are, the caller knows better: usage or scene.
 constexpr ExitCode exit_code_of(pt_result result) {

@@ -1,5 +1,5 @@
 // Owns one open file descriptor.
-// Called by text_file and atomic_file.
+// Called by text_file, atomic_file and directory_events.
 #pragma once
 
 #include <unistd.h>

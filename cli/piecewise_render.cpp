@@ -1,9 +1,7 @@
 // Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole.
-// Called by render_command.
+// Called by render_picture.
 #include "piecewise_render.h"
 
-#include "interrupt.h"
-#include "render_samples.h"
 #include "scene_setup.h"
 
 #include <algorithm>
@@ -61,7 +59,7 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
 }
 
 PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
-                             bool with_standard_error, const ImageWriter &writer, Progress &progress) {
+                             bool with_standard_error, const Stop &stop, Progress &progress) {
     const pt_render &render = settings.render;
     const std::size_t row_values = std::size_t{3} * render.width;
     PiecewiseImage image{};
@@ -75,7 +73,7 @@ PiecewiseImage render_pieces(const Context &context, const RenderSettings &setti
         }
         const double height = render.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        take_samples(context, settings, writer, progress);
+        take_samples(context, settings, stop, progress);
 
         const pt_stats stats = context.read_stats();
         if (stats.sample_count == 0) {
@@ -87,7 +85,7 @@ PiecewiseImage render_pieces(const Context &context, const RenderSettings &setti
             context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
         }
         image.rows_done += piece.row_count;
-        if (interrupt_signal() != 0 || writer.failed()) {
+        if (stop()) {
             break;
         }
     }

@@ -1,11 +1,11 @@
 // Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole. A
 // sample does not depend on the piece that it is taken in: the image has the same bits.
-// Called by render_command.
+// Called by render_picture.
 #pragma once
 
 #include "context.h"
-#include "image_file.h"
 #include "progress.h"
+#include "render_samples.h"
 #include "render_settings.h"
 #include "scene_file.h"
 
@@ -26,8 +26,8 @@ struct PiecewiseImage {
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows);
 
-// After fit_pieces. Ends early, between or within pieces, once a signal has come or the writer has failed.
+// After fit_pieces. Ends early, between or within pieces, once it is to stop.
 PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
-                             bool with_standard_error, const ImageWriter &writer, Progress &progress);
+                             bool with_standard_error, const Stop &stop, Progress &progress);
 
 } // namespace cli

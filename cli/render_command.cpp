@@ -2,158 +2,24 @@
 // Called by main.
 #include "render_command.h"
 
-#include "context.h"
-#include "device_text.h"
 #include "exit_code.h"
-#include "image_file.h"
 #include "interrupt.h"
-#include "message.h"
-#include "piecewise_render.h"
-#include "progress.h"
+#include "render_context.h"
 #include "render_output.h"
-#include "render_report.h"
+#include "render_picture.h"
 #include "render_settings.h"
 #include "scene_file.h"
-#include "scene_setup.h"
 #include "vector_width.h"
+#include "watch_command.h"
 
 #include <chrono>
-#include <csignal>
-#include <iostream>
-#include <unistd.h>
 
 namespace cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// Messages of the validation layer. Each means a mistake in this program or its library.
-struct ValidationLog {
-    std::uint64_t count = 0;
-
-    static void receive(void *user, std::int32_t level, const char *line) {
-        if (level == PT_LOG_ERROR || level == PT_LOG_WARNING) {
-            ++static_cast<ValidationLog *>(user)->count;
-            print_message(std::string("validation: ") + line);
-        }
-    }
-};
-
-pt_create_info create_info(const RenderOptions &options, ValidationLog &log) {
-    pt_create_info info{};
-    info.struct_size = sizeof(pt_create_info);
-    info.device = options.device.empty() ? nullptr : options.device.c_str();
-    info.submit_milliseconds = options.submit_milliseconds;
-    if (options.validation) {
-        info.flags = PT_CREATE_VALIDATION;
-        info.log = &ValidationLog::receive;
-        info.log_user = &log;
-    }
-    return info;
-}
-
-PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options,
-                                    const RenderSettings &settings, std::uint32_t rows, const ImageWriter &writer) {
-    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
-    Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
-                      pixel_count, settings.sample_count, Clock::now());
-    return render_pieces(context, settings, rows, !options.standard_error.empty(), writer, progress);
-}
-
-// What an image in pieces takes of memory, before it is rendered.
-void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
-    const std::uint64_t values = std::uint64_t{3} * render.width * render.height;
-    const std::uint64_t host_bytes = values * sizeof(float) * (options.standard_error.empty() ? 1 : 2);
-    print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
-                  " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
-                  memory_text(host_bytes) + " for the image");
-}
-
-void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
-    if (report.stats.rejected_samples > 0) {
-        print_message("warning: " + std::to_string(report.stats.rejected_samples) +
-                      " samples were left out: not finite, negative or too bright");
-    }
-    std::cout << "wrote ";
-    for (const std::string &path : written) {
-        std::cout << path << (&path == &written.back() ? ": " : ", ");
-    }
-    std::cout << summary_text(report) << '\n' << error_text(report) << std::endl;
-}
-
-ExitCode write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
-                       std::span<const float> radiance, std::span<const float> standard_error,
-                       Clock::time_point start) {
-    const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
-    report.total_seconds = seconds_since(start);
-    if (!options.stats.empty()) {
-        write_stats(options.stats, report);
-    }
-    if (!options.quiet && !written.empty()) {
-        print_summary(report, written);
-    }
-    return written.size() == output_count(options) ? ExitCode::done : ExitCode::file;
-}
-
-void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
-    const std::string signal = interrupt_signal() == SIGINT ? "SIGINT" : "SIGTERM";
-    const bool whole = rows_done == settings.render.height;
-    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
-    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " +
-                  std::to_string(settings.sample_count) + " samples per pixel" +
-                  (done == 0 ? "; nothing was written"
-                   : whole   ? ""
-                             : " in " + rows + "; the others are black"));
-}
-
-ExitCode render(const RenderOptions &options, const SceneFile &file, const RenderSettings &settings, ValidationLog &log,
-                Clock::time_point start) {
-    RenderReport report{};
-    report.scene = file.path;
-    report.render = settings.render;
-    report.requested_sample_count = settings.sample_count;
-    report.target_error = settings.target_error;
-
-    const Clock::time_point create_start = Clock::now();
-    const pt_create_info info = create_info(options, log);
-    const Context context(info);
-    context.require(pt_get_context_device(context.get(), &report.device));
-    describe_scene(context, file);
-    const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
-    if (rows < settings.render.height && !options.quiet) {
-        print_pieces(context, options, settings.render, rows);
-    }
-    report.create_seconds = seconds_since(create_start);
-
-    // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
-    ImageWriter writer;
-    if (needs_module(options)) {
-        writer.load_module();
-    }
-    const Clock::time_point accumulate_start = Clock::now();
-    const PiecewiseImage image = render_with_progress(context, options, settings, rows, writer);
-    report.accumulate_seconds = seconds_since(accumulate_start);
-    report.total_seconds = seconds_since(start);
-
-    report.stats = image.stats;
-    if (interrupt_signal() != 0) {
-        print_interruption(settings, report.stats.sample_count, image.rows_done);
-        if (report.stats.sample_count == 0) {
-            return ExitCode::done; // as far as this function is concerned
-        }
-    }
-    writer.wait();
-    return write_outputs(writer, options, report, image.radiance, image.standard_error, start);
-}
-
-} // namespace
-
-int run_render(const RenderOptions &options) {
-    const Clock::time_point start = Clock::now();
+int render_once(const RenderOptions &options, ValidationLog &log) {
+    RenderTimes times{};
+    times.start = std::chrono::steady_clock::now();
     check_extensions(options);
     const SceneFile file = read_scene_file(options.scene);
     const RenderSettings settings = merge_settings(options, file);
@@ -161,16 +27,22 @@ int run_render(const RenderOptions &options) {
     catch_interrupts();
     choose_vector_width(file.surface_count());
 
+    times.create_start = std::chrono::steady_clock::now();
+    const Context context(render_create_info(options, log));
+    const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
+    if (outcome == Outcome::not_all_written) {
+        return static_cast<int>(ExitCode::file);
+    }
+    return interrupt_signal() == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(interrupt_signal());
+}
+
+} // namespace
+
+int run_render(const RenderOptions &options) {
     ValidationLog log;
-    const ExitCode code = render(options, file, settings, log, start);
+    const int code = options.watch ? watch(options, log) : render_once(options, log);
     // Only now, for the layer reports leaks when the context goes.
-    if (log.count > 0) {
-        return static_cast<int>(ExitCode::internal);
-    }
-    if (code == ExitCode::done && interrupt_signal() != 0) {
-        return static_cast<int>(ExitCode::signal) + interrupt_signal();
-    }
-    return static_cast<int>(code);
+    return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }
 
 } // namespace cli

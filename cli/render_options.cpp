@@ -90,6 +90,19 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
         ->group(group);
 }
 
+void add_editing_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Editing";
+    command
+        .add_flag("--watch", options.watch,
+                  "Render again whenever the scene or a shader of --shader-dir changes, until Ctrl-C")
+        ->group(group);
+    command
+        .add_option("--shader-dir", options.shader_dir,
+                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/")
+        ->type_name("DIR")
+        ->group(group);
+}
+
 } // namespace
 
 const char *const render_help =
@@ -98,7 +111,9 @@ const char *const render_help =
     "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
     "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
     "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
-    "A file that cannot be written whole is left as it was.\n";
+    "A file that cannot be written whole is left as it was.\n\n"
+    "With --watch, what is wrong with a scene or a shader is told once, and the picture stays as it was until that is\n"
+    "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
     command.add_option("scene", options.scene, "Scene file (JSON)")->required()->type_name("SCENE");
@@ -106,6 +121,7 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     add_picture_options(command, options);
     add_sampling_options(command, options);
     add_device_options(command, options);
+    add_editing_options(command, options);
     add_reporting(command, options.progress, options.quiet);
 }
 

@@ -37,6 +37,9 @@ struct RenderOptions {
     std::uint32_t piece_rows = 0;          // 0: as many as the device has memory for
     bool validation = false;
 
+    std::string shader_dir; // empty: the library's own kernels
+    bool watch = false;
+
     std::string progress = "auto";
     bool quiet = false;
 };

@@ -1,8 +1,7 @@
-// Owns the taking of samples by `pt render`: until there are enough, the target error is reached or a signal comes.
-// Called by render_command.
+// Owns the taking of samples by `pt render`: until there are enough, the target error is reached or they are to stop.
+// Called by piecewise_render.
 #include "render_samples.h"
 
-#include "interrupt.h"
 #include "sample_forecast.h"
 
 #include <algorithm>
@@ -13,16 +12,14 @@ namespace {
 // What the library's progress callback needs, and the samples before and in the present call.
 struct Watch {
     Progress &progress;
-    const ImageWriter &writer;
+    const Stop &stop;
     std::uint32_t before;
     std::uint32_t within;
-
-    bool stopped() const { return interrupt_signal() != 0 || writer.failed(); }
 
     static std::int32_t receive(void *user, double fraction) {
         const auto *watch = static_cast<Watch *>(user);
         watch->progress.update_samples(watch->before + fraction * watch->within, Progress::Clock::now());
-        return watch->stopped() ? 1 : 0;
+        return watch->stop() ? 1 : 0;
     }
 };
 
@@ -52,7 +49,7 @@ void reach_target(const Context &context, const RenderSettings &settings, Watch 
             watch.progress.expect(watch.before);
             watch.progress.update_samples(watch.before, Progress::Clock::now());
         }
-        if (result != PT_OK || watch.stopped()) {
+        if (result != PT_OK || watch.stop()) {
             return;
         }
     }
@@ -60,10 +57,9 @@ void reach_target(const Context &context, const RenderSettings &settings, Watch 
 
 } // namespace
 
-void take_samples(const Context &context, const RenderSettings &settings, const ImageWriter &writer,
-                  Progress &progress) {
-    Watch watch{progress, writer, 0, settings.sample_count};
-    if (watch.stopped()) {
+void take_samples(const Context &context, const RenderSettings &settings, const Stop &stop, Progress &progress) {
+    Watch watch{progress, stop, 0, settings.sample_count};
+    if (stop()) {
         return;
     }
     if (settings.target_error > 0.0) {

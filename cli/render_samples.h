@@ -1,16 +1,18 @@
-// Owns the taking of samples by `pt render`: until there are enough, the target error is reached or a signal comes.
-// Called by render_command.
+// Owns the taking of samples by `pt render`: until there are enough, the target error is reached or they are to stop.
+// Called by piecewise_render.
 #pragma once
 
 #include "context.h"
-#include "image_file.h"
 #include "progress.h"
 #include "render_settings.h"
 
+#include <functional>
+
 namespace cli {
 
-// Also ends once the writer has failed, as nothing could be written.
-void take_samples(const Context &context, const RenderSettings &settings, const ImageWriter &writer,
-                  Progress &progress);
+// Says that no more samples are to be taken: a signal has come, or nothing would become of them. True for good then.
+using Stop = std::function<bool()>;
+
+void take_samples(const Context &context, const RenderSettings &settings, const Stop &stop, Progress &progress);
 
 } // namespace cli

@@ -1,5 +1,5 @@
 // Owns the reading of a whole file.
-// Called by the scene file reader.
+// Called by the scene file reader and source_files.
 #pragma once
 
 #include <string>

@@ -83,6 +83,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
 void Kernel::build(TracePipelines &pipelines) const {
     pipelines.trace(features_, sharers_, words_, seconds_);
     pipelines.commit();
+    pipelines.fold();
 }
 
 std::uint32_t Kernel::max_samples() const {

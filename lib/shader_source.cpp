@@ -27,11 +27,16 @@ std::string own_directory() {
     return path.substr(0, path.rfind('/') + 1); // empty without a slash
 }
 
-// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries. It stays
-// loaded: what glslang keeps for the next compilation is in there.
+// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries; never in
+// the working directory, as a path without the library's would mean. It stays loaded: what glslang keeps for the next
+// compilation is in there.
 pt_compile_glsl_fn load_compiler() {
+    const std::string directory = own_directory();
     std::string reasons;
-    for (const std::string &path : {own_directory() + "pt/" + module_name, std::string(module_name)}) {
+    for (const std::string &path :
+         {directory.empty() ? directory : directory + "pt/" + module_name, std::string(module_name)}) {
+        if (path.empty())
+            continue;
         if (void *const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
             if (void *const symbol = dlsym(module, PT_COMPILE_GLSL_SYMBOL))
                 return reinterpret_cast<pt_compile_glsl_fn>(symbol);

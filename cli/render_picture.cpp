@@ -1,0 +1,130 @@
+// Owns one rendering on a context: from a scene to the files of its picture.
+// Called by render_command and watch_command.
+#include "render_picture.h"
+
+#include "device_text.h"
+#include "image_file.h"
+#include "interrupt.h"
+#include "message.h"
+#include "piecewise_render.h"
+#include "progress.h"
+#include "render_output.h"
+#include "render_report.h"
+#include "scene_setup.h"
+
+#include <csignal>
+#include <iostream>
+#include <span>
+#include <unistd.h>
+#include <vector>
+
+namespace cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options,
+                                    const RenderSettings &settings, std::uint32_t rows, const Stop &stop) {
+    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
+    Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
+                      pixel_count, settings.sample_count, Clock::now());
+    return render_pieces(context, settings, rows, !options.standard_error.empty(), stop, progress);
+}
+
+// What an image in pieces takes of memory, before it is rendered.
+void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
+    const std::uint64_t values = std::uint64_t{3} * render.width * render.height;
+    const std::uint64_t host_bytes = values * sizeof(float) * (options.standard_error.empty() ? 1 : 2);
+    print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
+                  " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
+                  memory_text(host_bytes) + " for the image");
+}
+
+void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
+    if (report.stats.rejected_samples > 0) {
+        print_message("warning: " + std::to_string(report.stats.rejected_samples) +
+                      " samples were left out: not finite, negative or too bright");
+    }
+    std::cout << "wrote ";
+    for (const std::string &path : written) {
+        std::cout << path << (&path == &written.back() ? ": " : ", ");
+    }
+    std::cout << summary_text(report) << '\n' << error_text(report) << std::endl;
+}
+
+// Whether all images could be written.
+bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
+                   std::span<const float> radiance, std::span<const float> standard_error, Clock::time_point start) {
+    const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
+    report.total_seconds = seconds_since(start);
+    if (!options.stats.empty()) {
+        write_stats(options.stats, report);
+    }
+    if (!options.quiet && !written.empty()) {
+        print_summary(report, written);
+    }
+    return written.size() == output_count(options);
+}
+
+void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
+    const std::string signal = interrupt_signal() == SIGINT ? "SIGINT" : "SIGTERM";
+    const bool whole = rows_done == settings.render.height;
+    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
+    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " +
+                  std::to_string(settings.sample_count) + " samples per pixel" +
+                  (done == 0 ? "; nothing was written"
+                   : whole   ? ""
+                             : " in " + rows + "; the others are black"));
+}
+
+} // namespace
+
+Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
+                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded) {
+    RenderReport report{};
+    report.scene = file.path;
+    report.render = settings.render;
+    report.requested_sample_count = settings.sample_count;
+    report.target_error = settings.target_error;
+
+    context.require(pt_get_context_device(context.get(), &report.device));
+    describe_scene(context, file);
+    const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
+    if (rows < settings.render.height && !options.quiet) {
+        print_pieces(context, options, settings.render, rows);
+    }
+    report.create_seconds = seconds_since(times.create_start);
+
+    // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
+    ImageWriter writer;
+    if (needs_module(options)) {
+        writer.load_module();
+    }
+    const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
+    const Clock::time_point accumulate_start = Clock::now();
+    const PiecewiseImage image = render_with_progress(context, options, settings, rows, stop);
+    report.accumulate_seconds = seconds_since(accumulate_start);
+    report.total_seconds = seconds_since(times.start);
+
+    report.stats = image.stats;
+    const bool interrupted = interrupt_signal() != 0;
+    if (interrupted) {
+        print_interruption(settings, report.stats.sample_count, image.rows_done);
+        if (report.stats.sample_count == 0) {
+            return Outcome::interrupted;
+        }
+    } else if (superseded()) {
+        return Outcome::superseded;
+    }
+    writer.wait();
+    if (!write_outputs(writer, options, report, image.radiance, image.standard_error, times.start)) {
+        return Outcome::not_all_written;
+    }
+    return interrupted ? Outcome::interrupted : Outcome::written;
+}
+
+} // namespace cli

@@ -1,0 +1,67 @@
+// Owns the knowledge of which files a picture is made of: the scene, and the kernels with what they include.
+// Called by source_watch.
+#include "source_files.h"
+
+#include "exit_code.h"
+#include "text_file.h"
+
+#include <algorithm>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+namespace {
+
+std::optional<std::string> contents_of(const std::filesystem::path &path) {
+    try {
+        return read_file(path.string());
+    } catch (const Failure &) {
+        return std::nullopt;
+    }
+}
+
+// The name in a line `#include "name"`, blanks allowed; empty for other lines. Lines that the preprocessor would skip
+// count too: a file too many does no harm.
+std::string_view included_name(std::string_view line) {
+    const auto skip = [&](std::string_view word) {
+        line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+        const bool found = line.substr(0, word.size()) == word;
+        line.remove_prefix(found ? word.size() : 0);
+        return found;
+    };
+    if (!skip("#") || !skip("include") || !skip("\"")) {
+        return {};
+    }
+    const std::size_t end = line.find('"');
+    return end == std::string_view::npos ? std::string_view() : line.substr(0, end);
+}
+
+} // namespace
+
+SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir) {
+    SourceFiles files{{scene, contents_of(scene)}};
+    std::vector<std::filesystem::path> to_read;
+    if (!shader_dir.empty()) {
+        to_read = {shader_dir / "pathtrace.comp", shader_dir / "commit.comp", shader_dir / "accuracy.comp"};
+    }
+    while (!to_read.empty()) {
+        const std::filesystem::path path = to_read.back().lexically_normal();
+        to_read.pop_back();
+        const auto [file, is_new] = files.try_emplace(path);
+        if (!is_new) {
+            continue;
+        }
+        file->second = contents_of(path);
+        std::istringstream lines(file->second.value_or(""));
+        for (std::string line; std::getline(lines, line);) {
+            if (const std::string_view name = included_name(line); !name.empty()) {
+                to_read.push_back(path.parent_path() / name);
+                to_read.push_back(shader_dir / name);
+            }
+        }
+    }
+    return files;
+}
+
+} // namespace cli

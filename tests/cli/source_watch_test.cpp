@@ -1,0 +1,147 @@
+// Which files a picture is made of, and when they count as changed: by notifications and by polling alike.
+#include "source_watch.h"
+#include "temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+namespace {
+
+using std::chrono::milliseconds;
+using Method = DirectoryEvents::Method;
+
+constexpr milliseconds long_enough{60'000};
+
+TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
+    const TemporaryFolder folder;
+    folder.write("scene", "{}");
+    EXPECT_EQ(read_source_files(folder.file("scene"), ""), (SourceFiles{{folder.file("scene"), "{}"}}));
+
+    folder.write("pathtrace.comp",
+                 "#include \"a\"\n  #  include \"sub/b\" // remark\n#include <none>\n#included \"no\"\n"
+                 "// #include \"no\"\n#include \"open\n");
+    std::filesystem::create_directory(folder.file("sub"));
+    folder.write("sub/b", "#include \"a\"\n#include \"../c\"");
+    folder.write("c", "#include \"pathtrace.comp\"\n");
+    const SourceFiles files = read_source_files(folder.file("scene"), folder.file("."));
+    std::vector<std::pair<std::string, bool>> found;
+    for (const auto &[path, contents] : files) {
+        found.emplace_back(path.lexically_relative(folder.file("")).string(), contents.has_value());
+    }
+    const std::vector<std::pair<std::string, bool>> expected{
+        {"../c", false},          {"a", false},    {"accuracy.comp", false}, {"c", true},    {"commit.comp", false},
+        {"pathtrace.comp", true}, {"scene", true}, {"sub/a", false},         {"sub/b", true}};
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(files.at(folder.file("c")), "#include \"pathtrace.comp\"\n");
+}
+
+class SourceWatchTest : public testing::TestWithParam<Method> {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directory(folder.file("shaders"));
+        folder.write("scene", "1");
+        folder.write("shaders/pathtrace.comp", "#include \"part\"\n");
+    }
+
+    SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders"), GetParam()}; }
+
+    // Waits for a change, which takes several calls.
+    static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
+        const auto end = std::chrono::steady_clock::now() + long_enough;
+        while (!watch.changed(long_enough)) {
+            ASSERT_LT(std::chrono::steady_clock::now(), end);
+        }
+        EXPECT_EQ(watch.changed_names(), names);
+        watch.begin();
+        EXPECT_FALSE(watch.changed(milliseconds{0}));
+    }
+
+    // For longer than it takes to poll and to settle.
+    static void expect_nothing(SourceWatch &watch) {
+        const auto end = std::chrono::steady_clock::now() + milliseconds{400};
+        while (std::chrono::steady_clock::now() < end) {
+            EXPECT_FALSE(watch.changed(milliseconds{100}));
+        }
+    }
+
+    TemporaryFolder folder;
+};
+
+INSTANTIATE_TEST_SUITE_P(Methods, SourceWatchTest, testing::Values(Method::notified, Method::polled));
+
+TEST_P(SourceWatchTest, SeesEachWayToSave) {
+    SourceWatch sources = watch();
+    folder.write("scene", "2");
+    expect_change(sources, {folder.file("scene")});
+    EXPECT_EQ(sources.scene_text(), "2");
+    folder.write("new", "3");
+    std::filesystem::rename(folder.file("new"), folder.file("scene"));
+    expect_change(sources, {folder.file("scene")});
+    std::filesystem::remove(folder.file("scene"));
+    expect_change(sources, {folder.file("scene")});
+    EXPECT_EQ(sources.scene_text(), std::nullopt);
+    folder.write("scene", "3");
+    folder.write("shaders/part", "text");
+    expect_change(sources, {folder.file("scene"), folder.file("shaders/part")});
+}
+
+TEST_P(SourceWatchTest, SeesAFolderThatIsReplaced) {
+    SourceWatch sources = watch();
+    std::filesystem::rename(folder.file("shaders"), folder.file("aside"));
+    expect_change(sources, {folder.file("shaders/pathtrace.comp")});
+    std::filesystem::rename(folder.file("aside"), folder.file("shaders"));
+    expect_change(sources, {folder.file("shaders/pathtrace.comp")});
+    folder.write("shaders/part", "text");
+    expect_change(sources, {folder.file("shaders/part")});
+}
+
+TEST_P(SourceWatchTest, SeesBehindALink) {
+    folder.write("shaders/target", "1");
+    std::filesystem::remove(folder.file("scene"));
+    std::filesystem::create_symlink(folder.file("shaders/target"), folder.file("scene"));
+    SourceWatch sources = watch();
+    folder.write("shaders/target", "2");
+    expect_change(sources, {folder.file("scene")});
+}
+
+TEST_P(SourceWatchTest, PassesOverWhatIsNoChange) {
+    SourceWatch sources = watch();
+    folder.write("scene", "1");
+    folder.write("shaders/other", "text");
+    std::filesystem::last_write_time(folder.file("scene"), std::filesystem::file_time_type::clock::now());
+    expect_nothing(sources);
+    folder.write("scene", "2");
+    expect_change(sources, {folder.file("scene")});
+}
+
+// Between two looks the files are as before: nothing is told. begin() takes a change for known.
+TEST_P(SourceWatchTest, ComparesWithTheBeginning) {
+    SourceWatch sources = watch();
+    folder.write("scene", "2");
+    folder.write("scene", "1");
+    expect_nothing(sources);
+    folder.write("scene", "2");
+    sources.begin();
+    expect_nothing(sources);
+}
+
+TEST(DirectoryEvents, AreNotifiedOnThisSystem) {
+    DirectoryEvents notified;
+    ASSERT_EQ(notified.method(), Method::notified);
+    const TemporaryFolder folder;
+    notified.watch(folder.file("none/deeper")); // what exists of it is watched
+    notified.wait(milliseconds{0});
+    EXPECT_FALSE(notified.wait(milliseconds{0}));
+    folder.write("none", "");
+    EXPECT_TRUE(notified.wait(milliseconds{1000})) << "before the look every two seconds";
+    EXPECT_EQ(DirectoryEvents(Method::polled).method(), Method::polled);
+}
+
+} // namespace
+} // namespace cli

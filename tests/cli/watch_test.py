@@ -1,0 +1,145 @@
+"""Tests of `pt render --watch` with scenes that change. Arguments: see command_line.py."""
+
+import json
+import os
+import signal
+
+from command_line import PT, main, read_png
+from watching import WatchTest, scene_text
+
+
+class Scenes(WatchTest):
+    def setUp(self):
+        super().setUp()
+        self.write("s.json", scene_text(3))
+
+    def width(self):
+        return read_png(self.path("a.png"))[0]
+
+    def test_each_way_to_save(self):
+        pt = self.watch()
+        pt.line_with("wrote a.png: 3x2")
+        pt.line_with("watching s.json; Ctrl-C ends")
+        self.write("s.json", scene_text(4))
+        pt.line_with("pt: changed: s.json")
+        pt.line_with("wrote a.png: 4x2")
+        self.assertEqual(self.width(), 4)
+        self.save("s.json", scene_text(5))
+        pt.line_with("wrote a.png: 5x2")
+        self.save("s.json", scene_text(6))  # the file that the last save brought is watched too
+        pt.line_with("wrote a.png: 6x2")
+        self.write("other.json", scene_text(9))
+        os.utime(self.path("s.json"))
+        self.save("s.json", scene_text(6))
+        self.save("s.json", scene_text(7))
+        pt.line_with("wrote a.png: 7x2")
+        self.assertEqual(self.width(), 7)
+        self.assertEqual(pt.end(), 0)
+        self.assertEqual(pt.count("wrote"), 5, pt.seen)
+
+    def test_a_wrong_scene_is_told_once_and_waited_out(self):
+        pt = self.watch()
+        pt.line_with("watching")
+        with open(self.path("a.png"), "rb") as file:
+            picture = file.read()
+        self.save("s.json", "{")
+        pt.line_with("pt: s.json:1:2: syntax error")
+        self.save("s.json", scene_text(-1))
+        pt.line_with("width")
+        os.remove(self.path("s.json"))
+        pt.line_with("pt: cannot read s.json: No such file or directory")
+        with open(self.path("a.png"), "rb") as file:
+            self.assertEqual(file.read(), picture)
+        self.write("s.json", scene_text(4))
+        pt.line_with("wrote a.png: 4x2")
+        self.assertEqual(pt.end(signal.SIGTERM), 0)
+        self.assertEqual(pt.count("syntax error"), 1)
+        self.assertEqual(pt.count("cannot read"), 1)
+
+    def test_a_scene_may_be_wrong_at_first(self):
+        self.write("s.json", "{")
+        pt = self.watch()
+        pt.line_with("pt: s.json:1:2: syntax error")
+        pt.line_with("watching")
+        self.assertEqual(self.files(), ["s.json"])
+        self.save("s.json", scene_text(4))
+        pt.line_with("wrote a.png: 4x2")
+        self.assertEqual(pt.end(), 0)
+
+    def test_a_folder_may_be_replaced(self):
+        os.mkdir(self.path("folder"))
+        self.write("folder/s.json", scene_text(3))
+        os.remove(self.path("s.json"))
+        os.symlink("folder/s.json", self.path("s.json"))
+        pt = self.watch()
+        pt.line_with("watching")
+        os.rename(self.path("folder"), self.path("aside"))
+        pt.line_with("cannot read s.json")
+        os.mkdir(self.path("folder"))
+        self.write("folder/s.json", scene_text(4))
+        pt.line_with("wrote a.png: 4x2")
+        self.write("folder/s.json", scene_text(5))
+        pt.line_with("wrote a.png: 5x2")
+        self.assertEqual(pt.end(), 0)
+
+    def test_what_no_edit_can_mend_ends_it(self):
+        for code, arguments, environment in ((6, ["-o", "none/b.png"], {}), (2, ["-o", "b.tiff"], {}),
+                                             (4, [], {"FAKE_PT_FAIL": "create:-5", "FAKE_PT_MESSAGE": "none"}),
+                                             (5, [], {"FAKE_PT_FAIL": "accumulate:-8", "FAKE_PT_MESSAGE": "lost"})):
+            with self.subTest(code=code):
+                self.expect(code, "render", "s.json", "--watch", "-o", "a.png", *arguments, **environment)
+        os.remove(self.path("s.json"))
+        self.expect(6, "render", "s.json", "--watch", "-o", "a.png", error="cannot read s.json")
+        os.mkfifo(self.path("s.json"))
+        self.expect(2, "render", "s.json", "--watch", "-o", "a.png", error="not a regular file")
+
+    def test_a_change_stops_the_rendering(self):
+        pt = self.watch("--progress", "json", "--spp", "1000", FAKE_PT_SAMPLE_MS=200)
+        pt.line_with('"fraction"')
+        self.write("s.json", "{")
+        pt.line_with("syntax error")
+        self.assertNotIn("a.png", self.files())
+        self.write("s.json", scene_text(4))
+        pt.line_with('"fraction"')
+        self.assertEqual(pt.end(), 130)  # with what there is
+        self.assertEqual(pt.count("pt: stopped by SIGINT"), 1)
+        self.assertEqual(pt.count("wrote"), int("a.png" in self.files()))
+
+    def test_other_options_go_with_it(self):
+        pt = self.watch("--piece-rows", "1", "--spp", "100", "--error", "5%", "--stats", "stats.json", "--standard-error", "e.exr",
+                        "-q")
+        # Without a line to wait for, the file is looked at: it appears whole.
+        self.await_stats(pt, 3)
+        self.write("s.json", scene_text(5))
+        self.await_stats(pt, 5)
+        self.assertEqual(self.files(), ["a.png", "e.exr", "s.json", "stats.json"])
+        self.assertEqual(pt.end(), 0)
+        self.assertEqual(pt.seen, [])
+
+    def await_stats(self, pt, width):
+        while pt.process.poll() is None:
+            if os.path.exists(self.path("stats.json")):
+                stats = json.loads(self.read("stats.json"))
+                if stats["width"] == width:
+                    self.assertTrue(stats["target_reached"])
+                    return
+        self.fail("".join(pt.seen))
+
+
+class RealDevice(WatchTest):
+    program = PT
+
+    def test_a_scene(self):
+        self.write("s.json", scene_text(3, 0.25))
+        pt = self.watch()
+        pt.line_with("wrote a.png: 3x2")
+        self.save("s.json", scene_text(4, 0.5))
+        pt.line_with("wrote a.png: 4x2")
+        self.assertEqual(read_png(self.path("a.png")), (4, 2, [[188] * 12] * 2))  # sRGB of 0.5
+        self.save("s.json", scene_text(4, -1))
+        pt.line_with("emission")
+        self.assertEqual(pt.end(), 0)
+
+
+if __name__ == "__main__":
+    main()
