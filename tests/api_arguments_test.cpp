@@ -147,7 +147,8 @@ TEST(Api, EveryFunctionRefusesANullContext) {
     const pt_result results[] = {pt_set_scene(nullptr, &scene),   pt_set_camera(nullptr, &camera),
                                  pt_set_render(nullptr, &render), pt_accumulate(nullptr, &info),
                                  pt_readback(nullptr, &target),   pt_get_context_device(nullptr, &device),
-                                 pt_get_stats(nullptr, &stats),   pt_get_accuracy(nullptr, nullptr, &count)};
+                                 pt_get_stats(nullptr, &stats),   pt_get_accuracy(nullptr, nullptr, &count),
+                                 pt_reload_shaders(nullptr)};
     for (const pt_result result : results)
         EXPECT_EQ(result, PT_ERROR_INVALID_ARGUMENT);
     EXPECT_STREQ(pt_last_error(nullptr), "context = NULL: must not be NULL");

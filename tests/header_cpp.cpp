@@ -36,6 +36,7 @@ static_assert(std::is_same_v<decltype(&pt_get_context_device), pt_result (*)(pt_
 static_assert(std::is_same_v<decltype(&pt_set_scene), pt_result (*)(pt_context *, const pt_scene *)>);
 static_assert(std::is_same_v<decltype(&pt_set_camera), pt_result (*)(pt_context *, const pt_camera *)>);
 static_assert(std::is_same_v<decltype(&pt_set_render), pt_result (*)(pt_context *, const pt_render *)>);
+static_assert(std::is_same_v<decltype(&pt_reload_shaders), pt_result (*)(pt_context *)>);
 static_assert(std::is_same_v<decltype(&pt_accumulate), pt_result (*)(pt_context *, const pt_accumulate_info *)>);
 static_assert(std::is_same_v<decltype(&pt_readback), pt_result (*)(pt_context *, const pt_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
