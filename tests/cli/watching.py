@@ -4,9 +4,10 @@ import json
 import os
 import queue
 import signal
+import subprocess
 import threading
 
-from command_line import CommandLineTest
+from command_line import CommandLineTest, default_signals
 
 PATIENCE = 100  # seconds; nothing takes so long that comes at all
 
@@ -19,19 +20,17 @@ def scene_text(width, emission=1.0):
 
 
 class Watching:
-    """A running program, whose lines are read as they come."""
+    """A running program, whose lines are read as they come; those of both streams from one pipe, in their order."""
 
     def __init__(self, process):
         self.process = process
         self.lines = queue.Queue()
         self.seen = []
-        self.readers = [threading.Thread(target=self.read, args=(stream,), daemon=True)
-                        for stream in (process.stdout, process.stderr)]
-        for reader in self.readers:
-            reader.start()
+        self.reader = threading.Thread(target=self.read, daemon=True)
+        self.reader.start()
 
-    def read(self, stream):
-        for line in stream:
+    def read(self):
+        for line in self.process.stdout:
             self.lines.put(line)
 
     def line_with(self, text):
@@ -48,8 +47,7 @@ class Watching:
         """Sends a signal, and returns the exit code."""
         self.process.send_signal(number)
         code = self.process.wait(timeout=PATIENCE)
-        for reader in self.readers:
-            reader.join()
+        self.reader.join()
         while not self.lines.empty():
             self.seen.append(self.lines.get())
         return code
@@ -61,12 +59,14 @@ class Watching:
 
 class WatchTest(CommandLineTest):
     def watch(self, *arguments, **environment):
-        process = self.start("render", "s.json", "--watch", "-o", "a.png", *arguments, **environment)
-        self.addCleanup(process.stderr.close)
-        self.addCleanup(process.stdout.close)
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        return Watching(process)
+        names = {name: str(value) for name, value in environment.items()}
+        process = subprocess.Popen([self.program, "render", "s.json", "--watch", "-o", "a.png", *arguments],
+                                   cwd=self.folder, env={**os.environ, **names}, text=True, preexec_fn=default_signals,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        watching = Watching(process)
+        for undo in (process.stdout.close, watching.reader.join, process.wait, process.kill):  # the last is called first
+            self.addCleanup(undo)
+        return watching
 
     def save(self, name, text):
         """As editors do: a new file takes the old one's name."""
