@@ -19,6 +19,8 @@ constexpr std::uint32_t events =
 
 constexpr std::chrono::milliseconds notified_interval{2000};
 constexpr std::chrono::milliseconds polled_interval{250};
+// A directory in which others are busy must not keep this program busy.
+constexpr std::chrono::milliseconds least_interval{20};
 
 // Where the directory, or the next of its parents, would appear.
 std::filesystem::path nearest_existing(std::filesystem::path directory) {
@@ -27,6 +29,12 @@ std::filesystem::path nearest_existing(std::filesystem::path directory) {
         directory = directory.parent_path();
     }
     return directory.empty() ? "." : directory;
+}
+
+// Whether a descriptor has something to read before then; a signal ends the wait.
+bool poll_until(pollfd *descriptors, nfds_t count, std::chrono::steady_clock::time_point end) {
+    const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+    return poll(descriptors, count, std::max(static_cast<int>(milliseconds.count()), 0)) > 0;
 }
 
 } // namespace
@@ -46,12 +54,16 @@ void DirectoryEvents::watch(const std::filesystem::path &directory) {
 }
 
 bool DirectoryEvents::wait(std::chrono::milliseconds timeout) {
-    const auto interval = notifications_.is_open() ? notified_interval : polled_interval;
-    const auto to_next_look = std::chrono::ceil<std::chrono::milliseconds>(last_look_ + interval - Clock::now());
+    const Clock::time_point end = Clock::now() + timeout;
+    const Clock::time_point next_look = last_look_ + (notifications_.is_open() ? notified_interval : polled_interval);
+    const Clock::time_point earliest_look = last_look_ + least_interval;
     pollfd descriptor{notifications_.get(), POLLIN, 0}; // a negative one is ignored
-    const auto milliseconds = std::clamp(to_next_look, std::chrono::milliseconds{0}, timeout);
-    const bool told = poll(&descriptor, 1, static_cast<int>(milliseconds.count())) > 0;
-    if (!told && Clock::now() < last_look_ + interval) {
+    poll_until(nullptr, 0, std::min(earliest_look, end));
+    if (Clock::now() < earliest_look) {
+        return false;
+    }
+    const bool told = poll_until(&descriptor, 1, std::min(next_look, end));
+    if (!told && Clock::now() < next_look) {
         return false;
     }
     last_look_ = Clock::now();
