@@ -10,8 +10,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <string>
-#include <thread>
 
 namespace {
 
@@ -151,11 +151,9 @@ TEST_F(ShaderSourceTest, AShaderWithoutMainIsRefused) {
 }
 
 TEST_F(ShaderSourceTest, ThreadsMayCompileAtTheSameTime) {
-    KernelCode other;
-    std::thread thread([&] { other = ShaderSource(PT_TEST_SHADER_DIR).read(); });
+    auto other = std::async(std::launch::async, [] { return ShaderSource(PT_TEST_SHADER_DIR).read(); });
     const KernelCode own = compiled();
-    thread.join();
-    EXPECT_TRUE(own == other);
+    EXPECT_TRUE(own == other.get());
     EXPECT_TRUE(own == pt::embedded_code());
 }
 
