@@ -33,7 +33,7 @@ KernelOrder kernel_order(const Scene &scene, const Camera &camera) {
             order.spheres.push_back(sphere);
         }
     }
-    std::ranges::stable_partition(order.spheres, [&](const Sphere &sphere) {
+    std::stable_partition(order.spheres.begin(), order.spheres.end(), [&](const Sphere &sphere) {
         return scene.materials[sphere.material].emission != glm::vec3(0.0F);
     });
     for (const Plane &plane : scene.planes) {

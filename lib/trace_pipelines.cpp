@@ -44,7 +44,7 @@ const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> 
                                                      std::vector<std::uint32_t> constants) {
     place.reset(); // so that it holds nothing if this one cannot be built
     vulkan::ComputePipeline pipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants);
-    return place.emplace(std::move(constants), std::move(pipeline)).pipeline;
+    return place.emplace(Specialised{std::move(constants), std::move(pipeline)}).pipeline;
 }
 
 const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,

@@ -8,7 +8,6 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
-#include <ranges>
 
 namespace pt::vulkan {
 
@@ -162,8 +161,9 @@ namespace {
 // The items of a list of indices and UUIDs, separated by commas; empty if it is none: names may have commas.
 std::vector<std::string> listed(const std::string &wanted) {
     std::vector<std::string> items;
-    for (const auto item : std::views::split(wanted, ',')) {
-        const std::string text(item.begin(), item.end());
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+        end = wanted.find(',', begin);
+        const std::string text = wanted.substr(begin, end - begin);
         std::string digits = lower_case(text);
         std::erase(digits, '-');
         if (!is_index(text) && !is_uuid(digits))
