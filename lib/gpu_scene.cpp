@@ -63,7 +63,7 @@ public:
     Writer(std::vector<glm::vec4> &words, const Features &features) : words_(words), features_(features) {}
 
     void material(std::uint32_t surface, const Material &material) {
-        const std::uint32_t count = features_.surface_count();
+        const std::uint64_t count = features_.surface_count();
         // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
         words_[count + surface] = glm::vec4(material.emission + 0.0F, mean(material.emission));
         words_[2 * count + surface] = glm::vec4(material.diffuse, specular_probability(material));
@@ -86,8 +86,8 @@ public:
     }
 
 private:
-    std::uint32_t motion_words() const { return (features_.gloss ? 4 : 3) * features_.surface_count(); }
-    std::uint32_t curvature_words() const { return motion_words() + (features_.motion ? features_.sphere_count : 0); }
+    std::uint64_t motion_words() const { return (features_.gloss ? 4 : 3) * std::uint64_t{features_.surface_count()}; }
+    std::uint64_t curvature_words() const { return motion_words() + (features_.motion ? features_.sphere_count : 0); }
 
     std::vector<glm::vec4> &words_;
     const Features &features_;

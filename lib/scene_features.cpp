@@ -92,8 +92,8 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
     return features;
 }
 
-std::uint32_t scene_word_count(const Features &features) {
-    const std::uint32_t words_per_surface = features.gloss ? 4 : 3;
+std::uint64_t scene_word_count(const Features &features) {
+    const std::uint64_t words_per_surface = features.gloss ? 4 : 3;
     return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0) +
            (features.curvature ? features.plane_count : 0);
 }
@@ -163,7 +163,8 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     // vertex, two walks over the lamps to choose among them, and the branches.
     const std::uint64_t surfaces = features.surface_count();
     const std::uint32_t branches = branch_count(features);
-    const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + surfaces) + 2 * features.lamp_count;
+    const std::uint64_t first_vertex =
+        further_lamps(features, branches) * (1 + surfaces) + 2 * std::uint64_t{features.lamp_count};
     return 1 + surfaces + first_vertex + branches * loop_trips_per_branch(features);
 }
 

@@ -33,8 +33,8 @@ struct Features {
 
 Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
 
-// Length of the scene buffer in words of four floats (gpu_layout.h has its layout).
-std::uint32_t scene_word_count(const Features &features);
+// Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30 surfaces.
+std::uint64_t scene_word_count(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise, and
 // the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with six
