@@ -18,6 +18,6 @@ struct Camera {
 };
 
 // Takes over a camera whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
-Camera validated_camera(const pt_camera &camera);
+Camera validated_camera(const pt_camera &source);
 
 } // namespace pt

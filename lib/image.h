@@ -16,6 +16,6 @@ struct Image {
 
 // Checks that an image whose struct_size is settled holds width x height pixels, both >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
-Image validated_image(const pt_image &image, std::uint32_t width, std::uint32_t height);
+Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height);
 
 } // namespace pt

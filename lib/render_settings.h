@@ -20,6 +20,6 @@ struct RenderSettings {
 };
 
 // Takes over settings whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
-RenderSettings validated_render(const pt_render &render);
+RenderSettings validated_render(const pt_render &source);
 
 } // namespace pt
