@@ -1,0 +1,45 @@
+// The fuzzer's bytes as a sequence of values. Where the bytes are used up every value is 0, so a prefix of an input is
+// an input. Used by all that makes scenes from bytes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <type_traits>
+
+namespace fuzz {
+
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+    // The bits of a T.
+    template <typename T>
+    requires std::is_trivially_copyable_v<T> T raw() {
+        T value{};
+        const std::size_t size = std::min(sizeof(T), bytes_.size());
+        if (size > 0)
+            std::memcpy(&value, bytes_.data(), size);
+        bytes_ = bytes_.subspan(size);
+        return value;
+    }
+
+    // In [0, count) for count <= 256.
+    std::uint32_t below(std::uint32_t count) { return raw<std::uint8_t>() % count; }
+
+    // 0 of the bytes means no.
+    bool one_in(std::uint32_t count) { return below(count) == count - 1; }
+
+    template <typename T, std::size_t Count>
+    T choice(const T (&values)[Count]) {
+        static_assert(Count <= 256);
+        return values[below(Count)];
+    }
+
+private:
+    std::span<const std::uint8_t> bytes_;
+};
+
+} // namespace fuzz

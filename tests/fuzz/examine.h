@@ -1,0 +1,29 @@
+// What must hold for every input, in two flavours: examine_numbers.cpp (host, no device) and examine_image.cpp
+// (rendered). A program links one of them. What does not hold ends the process.
+#pragma once
+
+#include "input.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace fuzz {
+
+// The input, and with it neighbours of it that the bytes choose.
+void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> bytes);
+
+// -- of the flavour --
+
+// An input and its neighbours.
+void examine(std::span<const Input> family);
+
+// How many neighbours are worth their time.
+extern const std::uint32_t neighbour_count;
+
+// -- of both --
+
+// Prints what and aborts, unless it holds.
+void require(bool holds, std::string_view what);
+
+} // namespace fuzz

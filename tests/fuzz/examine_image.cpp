@@ -1,0 +1,171 @@
+// On a device: what the library accepts renders to finite images of which no sample is left out, the same however the
+// samples are split over calls. See examine.h; the environment is that of tests/context_fixture.h.
+#include "examine.h"
+
+#include "camera.h"
+#include "error.h"
+#include "render_settings.h"
+#include "scene.h"
+#include "scene_features.h"
+
+#include <pt/pt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fuzz {
+
+namespace {
+
+void complain(void *, std::int32_t level, const char *line) {
+    require(level == PT_LOG_INFO, line);
+}
+
+struct DestroyContext {
+    void operator()(pt_context *context) const { pt_destroy(context); }
+};
+
+// One for all inputs, so that kernels are built only where the scene needs another one.
+pt_context *context() {
+    static const std::unique_ptr<pt_context, DestroyContext> created = [] {
+        pt_create_info info{};
+        info.struct_size = sizeof info;
+        info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
+        info.device = std::getenv("PT_TEST_DEVICE");
+        info.log = complain;
+        pt_context *context = nullptr;
+        require(pt_create(&info, &context) == PT_OK, pt_last_error(nullptr));
+        return std::unique_ptr<pt_context, DestroyContext>(context);
+    }();
+    return created.get();
+}
+
+// Whether the samples exist, and the image needs no seconds, by its ray-surface tests to within a small factor.
+bool can_be_rendered(const Input &input) {
+    constexpr double most_pixels = 64;
+    constexpr double most_tests = 4e6;
+    const pt_render &render = input.render;
+    const double pixels = static_cast<double>(render.width) * render.height;
+    const double surfaces = static_cast<double>(1 + input.spheres.size() + input.planes.size());
+    const double rays = 8.0 * (render.max_path_length == 0 ? 6 : render.max_path_length);
+    const bool has_indices = std::uint64_t{render.first_sample} + input.sample_count <= std::uint64_t{1} << 32;
+    return has_indices && pixels <= most_pixels && pixels * input.sample_count * surfaces * rays <= most_tests;
+}
+
+bool conserves_energy(const pt_material &material) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (static_cast<double>(material.diffuse[i]) + material.specular[i] > 1.0)
+            return false;
+    return true;
+}
+
+// With materials that conserve energy a sample has at most the expectation K * L, for K the path length and L the
+// brightest emission, so that by Markov's inequality it exceeds the limit of 2^20 L with a probability of at most K /
+// 2^20. Plain Halton points are no random numbers: the first is 0 in all dimensions, and under estimators that do not
+// follow the lobe a sharp one is met just there.
+bool may_lose_samples(const Input &input) {
+    const bool follows_lobe = input.render.estimator == PT_ESTIMATOR_BEST ||
+                              input.render.estimator == PT_ESTIMATOR_BSDF || input.render.estimator == PT_ESTIMATOR_MIS;
+    return !std::ranges::all_of(input.materials, conserves_energy) ||
+           (input.render.sampler == PT_SAMPLER_HALTON && !follows_lobe);
+}
+
+bool accepted(pt_result result) {
+    if (result != PT_OK)
+        require(result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_INVALID_SCENE ||
+                    result == PT_ERROR_UNSUPPORTED,
+                std::string(pt_result_name(result)) + ": " + pt_last_error(context()));
+    return result == PT_OK;
+}
+
+bool set_all(const Input &input) {
+    const SizedStruct scene(input.scene(), input.struct_sizes[0], input.tail_byte);
+    const SizedStruct camera(input.camera, input.struct_sizes[1], input.tail_byte);
+    const SizedStruct render(input.render, input.struct_sizes[2], input.tail_byte);
+    return accepted(pt_set_scene(context(), scene.as<pt_scene>())) &&
+           accepted(pt_set_camera(context(), camera.as<pt_camera>())) &&
+           accepted(pt_set_render(context(), render.as<pt_render>()));
+}
+
+// A result of a call that has no reason to fail.
+void require_done(pt_result result) {
+    require(result == PT_OK, std::string(pt_result_name(result)) + ": " + pt_last_error(context()));
+}
+
+void take_samples(std::uint32_t count) {
+    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0};
+    require_done(pt_accumulate(context(), &info));
+}
+
+using Pixels = std::array<float, 3 * 64>;
+
+Pixels read_pixels(std::uint32_t quantity) {
+    Pixels pixels{};
+    const pt_image image{sizeof image, quantity, pixels.data(), sizeof pixels, 0};
+    require_done(pt_readback(context(), &image));
+    return pixels;
+}
+
+void require_stats(const Input &input) {
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    require_done(pt_get_stats(context(), &stats));
+    require(stats.sample_count == input.sample_count, "all samples were taken");
+    require(stats.rejected_samples == 0 || may_lose_samples(input),
+            "samples were left out: " + std::to_string(stats.rejected_samples));
+}
+
+void examine_one(const Input &input) {
+    if (!set_all(input))
+        return;
+    take_samples(input.sample_count);
+    const Pixels radiance = read_pixels(PT_QUANTITY_RADIANCE);
+    require(std::ranges::all_of(radiance, [](float x) { return x >= 0.0F && std::isfinite(x); }),
+            "radiance is finite and not negative");
+    require(std::ranges::none_of(read_pixels(PT_QUANTITY_STANDARD_ERROR), [](float x) { return std::isnan(x); }),
+            "standard errors are numbers");
+    require_stats(input);
+    if (input.sample_count == 1)
+        return;
+    require(set_all(input), "what was accepted is accepted again");
+    take_samples(1);
+    take_samples(input.sample_count - 1);
+    const Pixels split = read_pixels(PT_QUANTITY_RADIANCE);
+    require(std::memcmp(radiance.data(), split.data(), sizeof radiance) == 0,
+            "the bits do not depend on how samples are split over calls");
+}
+
+// What the kernel is built for; nothing if the input is refused.
+std::optional<pt::Features> features(const Input &input) {
+    try {
+        return pt::features_of(pt::validated_scene(input.scene()), pt::validated_camera(input.camera),
+                               pt::validated_render(input.render));
+    } catch (const pt::Error &) {
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+// A kernel takes a thousand times as long to build as such an image, so those that need another one are left to other
+// inputs. The first image is made by a kernel for this scene alone, the others by one for all scenes with its features.
+const std::uint32_t neighbour_count = 255;
+
+void examine(std::span<const Input> family) {
+    const Input &first = family.front();
+    const std::optional<pt::Features> first_features = features(first);
+    if (!can_be_rendered(first))
+        return;
+    for (const Input &input : family)
+        if (features(input) == first_features)
+            examine_one(input);
+}
+
+} // namespace fuzz

@@ -1,0 +1,189 @@
+// Without a device: what the library accepts is what pt.h promises and becomes finite numbers for the kernel; what it
+// refuses has a code and a message. See examine.h.
+#include "examine.h"
+
+#include "camera.h"
+#include "error.h"
+#include "gpu_scene.h"
+#include "render_settings.h"
+#include "scene.h"
+#include "scene_features.h"
+#include "struct_size.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace fuzz {
+
+namespace {
+
+void require_refusal(const pt::Error &error) {
+    const std::string_view message = error.what();
+    require(error.code() == PT_ERROR_INVALID_ARGUMENT || error.code() == PT_ERROR_INVALID_SCENE ||
+                error.code() == PT_ERROR_UNSUPPORTED,
+            "the code of what is refused is the argument's");
+    require(message.find(" = ") != std::string_view::npos && message.find(": ") != std::string_view::npos,
+            "the message of what is refused names a field, its value and a rule");
+}
+
+// Nothing if it is refused.
+template <typename Validate>
+auto accepted(Validate validate) -> std::optional<decltype(validate())> {
+    try {
+        return validate();
+    } catch (const pt::Error &error) {
+        require_refusal(error);
+        return std::nullopt;
+    }
+}
+
+bool is_length(double x) {
+    return x == 0.0 || (std::abs(x) >= 1e-18 && std::abs(x) <= 1e18);
+}
+
+bool is_positive_length(double x) {
+    return x >= 1e-18 && x <= 1e18;
+}
+
+bool are_lengths(const glm::dvec3 &v) {
+    return is_length(v.x) && is_length(v.y) && is_length(v.z);
+}
+
+bool is_colour(const glm::vec3 &colour) {
+    const auto in_range = [](float x) { return x >= 0.0F && x <= 1e18F; };
+    return in_range(colour.r) && in_range(colour.g) && in_range(colour.b);
+}
+
+// Squares, their sum, the root and the quotient round once each, at 2^-53 of the value or less.
+bool is_unit(const glm::dvec3 &v) {
+    return std::abs(glm::length(v) - 1.0) <= 8 * 0x1p-53;
+}
+
+void require_scene(const pt::Scene &scene) {
+    for (const pt::Material &material : scene.materials) {
+        require(is_colour(material.diffuse) && is_colour(material.specular) && is_colour(material.emission),
+                "colours lie in [0, 1e18]");
+        require(material.glossiness >= 0.0F && material.glossiness <= 1e9F, "glossiness lies in [0, 1e9]");
+    }
+    for (const pt::Sphere &sphere : scene.spheres) {
+        require(are_lengths(sphere.center) && are_lengths(sphere.motion), "centres and motions are lengths");
+        require(is_positive_length(sphere.radius), "radii lie in [1e-18, 1e18]");
+        require(sphere.material < scene.materials.size(), "spheres have a material");
+    }
+    for (const pt::Plane &plane : scene.planes) {
+        require(is_unit(plane.normal), "planes' normals are unit vectors");
+        require(is_length(plane.offset), "planes' offsets are lengths");
+        require(plane.material < scene.materials.size(), "planes have a material");
+    }
+}
+
+void require_camera(const pt::Camera &camera) {
+    // The least angle between up and the viewing direction leaves errors of 5 * 2^-53 / 2^-26 (camera.cpp), and twice
+    // that between two vectors.
+    constexpr double rounding = 10 * 0x1p-27;
+    require(are_lengths(camera.position), "the camera's position is made of lengths");
+    require(is_unit(camera.forward) && is_unit(camera.right) && std::abs(glm::length(camera.up) - 1.0) <= rounding,
+            "the camera's axes are unit vectors");
+    require(std::abs(glm::dot(camera.forward, camera.right)) <= rounding &&
+                std::abs(glm::dot(camera.forward, camera.up)) <= rounding &&
+                std::abs(glm::dot(camera.right, camera.up)) <= rounding,
+            "the camera's axes are perpendicular");
+    require(camera.tan_half_fov >= std::tan(0.5e-8) && std::isfinite(camera.tan_half_fov),
+            "the field of view lies in [1e-8, pi)");
+    require(camera.shutter_open >= 0.0 && camera.shutter_open <= camera.shutter_close && camera.shutter_close <= 1.0,
+            "the shutter opens before it closes, in [0, 1]");
+}
+
+void require_settings(const pt::RenderSettings &settings) {
+    require(settings.width >= 1 && settings.height >= 1 &&
+                std::uint64_t{settings.width} * settings.height <= UINT32_MAX,
+            "the image has between 1 and 2^32 - 1 pixels");
+    require(settings.row_count >= 1 &&
+                std::uint64_t{settings.first_row} + settings.row_count <= std::uint64_t{settings.height},
+            "the rows lie in the image");
+    require(settings.max_path_length >= 1 && settings.max_path_length <= 1024, "path lengths lie in [1, 1024]");
+    require(settings.estimator >= PT_ESTIMATOR_UNIFORM && settings.estimator <= PT_ESTIMATOR_MIS &&
+                settings.sampler >= PT_SAMPLER_RANDOM && settings.sampler <= PT_SAMPLER_SOBOL,
+            "the methods are known");
+}
+
+void require_features(const pt::Features &features, const pt::Scene &scene) {
+    require(features.surface_count() == scene.spheres.size() + scene.planes.size(), "no surface is lost");
+    require(features.lamp_count <= features.sphere_count, "lamps are spheres");
+    require(features.gloss || !(pt::feature_bits(features) & PT_FEATURE_GLOSS), "gloss is said where it is");
+    require(pt::branch_count(features) >= 1, "a path leaves its first vertex");
+    // What the point table's size and the schedule are computed from.
+    require(pt::point_layout(features).block_count() <= pt::sequence_dimensions, "a block has a dimension of its own");
+    require(pt::loop_trips_per_sample(features) < (std::uint64_t{1} << 62),
+            "the loop trips of a sample can be counted");
+}
+
+// The kernel squares all that is a length and adds three squares.
+bool is_gpu_length(float x) {
+    return std::abs(x) <= 3.0001e18F;
+}
+
+void require_words(const std::vector<glm::vec4> &words, const pt::Features &features) {
+    require(words.size() == pt::scene_word_count(features), "the scene has as many words as it is said to have");
+    for (const glm::vec4 &word : words)
+        for (int i = 0; i < 4; ++i)
+            require(is_gpu_length(word[i]), "the scene's words are numbers whose squares are numbers");
+    const auto spheres = std::span(words).first(features.sphere_count);
+    require(std::ranges::all_of(spheres, [](const glm::vec4 &sphere) { return sphere.w >= 1e-18F * (1 - 0x1p-24F); }),
+            "the kernel's radii are at least 1e-18");
+    const auto planes = std::span(words).subspan(features.sphere_count, features.plane_count);
+    require(std::ranges::all_of(planes,
+                                [](const glm::vec4 &plane) {
+                                    // A unit vector, each component rounded to float32.
+                                    return std::abs(glm::length(glm::dvec3(plane)) - 1.0) <= 2 * 0x1p-24;
+                                }),
+            "the kernel's normals are unit vectors");
+    const auto diffuse = std::span(words).subspan(2 * features.surface_count(), features.surface_count());
+    require(std::ranges::all_of(diffuse, [](const glm::vec4 &word) { return word.w >= 0.0F && word.w <= 1.0F; }),
+            "probabilities lie in [0, 1]");
+}
+
+void require_frame(const pt::Scene &scene, const pt::Camera &camera, const pt::RenderSettings &settings) {
+    const double unit = pt::film_unit(scene);
+    int exponent = 0;
+    require(std::frexp(unit, &exponent) == 0.5 && std::abs(exponent) <= 121, "the film's unit is a power of two");
+    const pt::gpu::FrameConstants frame = pt::frame_constants(camera, settings, unit);
+    require(std::isnormal(frame.film_scale), "the film's scale is a normal number");
+    const float distance = glm::length(frame.camera_forward);
+    require(distance > 0.0F && distance <= 1e18F, "the distance of the image plane is a length");
+}
+
+void examine_one(const Input &input) {
+    const SizedStruct scene_struct(input.scene(), input.struct_sizes[0], input.tail_byte);
+    const SizedStruct camera_struct(input.camera, input.struct_sizes[1], input.tail_byte);
+    const SizedStruct render_struct(input.render, input.struct_sizes[2], input.tail_byte);
+    const auto scene = accepted([&] { return pt::validated_scene(pt::copy_in(scene_struct.as<pt_scene>(), "scene")); });
+    const auto camera =
+        accepted([&] { return pt::validated_camera(pt::copy_in(camera_struct.as<pt_camera>(), "camera")); });
+    const auto settings =
+        accepted([&] { return pt::validated_render(pt::copy_in(render_struct.as<pt_render>(), "render")); });
+    if (scene)
+        require_scene(*scene);
+    if (camera)
+        require_camera(*camera);
+    if (settings)
+        require_settings(*settings);
+    if (!scene || !camera || !settings)
+        return;
+    const pt::Features features = pt::features_of(*scene, *camera, *settings);
+    require_features(features, *scene);
+    require_words(pt::gpu_scene(*scene, *camera, features), features);
+    require_frame(*scene, *camera, *settings);
+}
+
+} // namespace
+
+const std::uint32_t neighbour_count = 4;
+
+void examine(std::span<const Input> family) {
+    std::ranges::for_each(family, examine_one);
+}
+
+} // namespace fuzz

@@ -1,0 +1,203 @@
+// Scenes from bytes; see input.h.
+#include "input.h"
+
+#include "numbers.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace fuzz {
+
+namespace {
+
+constexpr std::uint32_t most_surfaces_read = 12;
+constexpr std::uint32_t most_copies = 128; // of the surfaces, so that some scenes are larger than a uniform buffer
+
+template <std::size_t Count>
+void read_lengths(Numbers &numbers, double (&lengths)[Count]) {
+    for (double &length : lengths)
+        length = numbers.length();
+}
+
+// As a rule such a material reflects no more than it receives.
+pt_material material(Numbers &numbers, ByteReader &bytes) {
+    pt_material material{};
+    const bool emits = bytes.one_in(4);
+    const bool shines = bytes.one_in(2);
+    const bool gains = bytes.one_in(32);
+    const auto reflectance = [&](float most) { return gains ? numbers.colour() : std::min(numbers.colour(), most); };
+    for (std::size_t i = 0; i < 3; ++i) {
+        material.emission[i] = emits ? numbers.colour() : 0.0F;
+        material.diffuse[i] = reflectance(1.0F);
+        material.specular[i] = shines ? reflectance(1.0F - material.diffuse[i]) : 0.0F;
+    }
+    material.glossiness = shines ? numbers.glossiness() : 0.0F;
+    return material;
+}
+
+pt_sphere sphere(Numbers &numbers, ByteReader &bytes, std::uint32_t material_count) {
+    pt_sphere sphere{};
+    read_lengths(numbers, sphere.center);
+    sphere.radius = numbers.positive_length();
+    if (bytes.one_in(8))
+        read_lengths(numbers, sphere.motion);
+    sphere.material = numbers.count(material_count);
+    sphere.reserved = numbers.count(1);
+    return sphere;
+}
+
+pt_plane plane(Numbers &numbers, std::uint32_t material_count) {
+    pt_plane plane{};
+    for (double &component : plane.normal)
+        component = numbers.component();
+    plane.offset = numbers.length();
+    plane.material = numbers.count(material_count);
+    plane.reserved = numbers.count(1);
+    return plane;
+}
+
+void read_camera(Numbers &numbers, ByteReader &bytes, pt_camera &camera) {
+    camera.struct_size = sizeof camera;
+    camera.target[2] = -1.0;
+    if (bytes.one_in(2)) {
+        read_lengths(numbers, camera.position);
+        read_lengths(numbers, camera.target);
+    }
+    if (bytes.one_in(4))
+        for (double &component : camera.up)
+            component = numbers.component();
+    if (bytes.one_in(4))
+        camera.vertical_fov = numbers.field_of_view();
+    if (bytes.one_in(4)) {
+        const double open = numbers.share();
+        const double close = numbers.share();
+        camera.shutter_open = std::min(open, close);
+        camera.shutter_close = std::max(open, close);
+    }
+    camera.reserved = numbers.count(1);
+}
+
+void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {
+    static constexpr std::uint32_t lengths[] = {0, 1, 2, 3, 6, 8, 12, 40, 1024};
+    render.struct_size = sizeof render;
+    render.width = 1 + numbers.count(8);
+    render.height = 1 + numbers.count(4);
+    render.max_path_length = bytes.choice(lengths);
+    render.estimator = numbers.count(PT_ESTIMATOR_MIS + 1);
+    render.sampler = numbers.count(PT_SAMPLER_SOBOL + 1);
+    render.seed = bytes.raw<std::uint64_t>();
+    render.first_sample = bytes.one_in(8) ? bytes.raw<std::uint32_t>() : 0;
+    render.first_row = numbers.count(render.height > 0 && render.height <= 4 ? render.height : 1);
+    render.row_count = bytes.one_in(8) ? numbers.count(3) : 0;
+    render.reserved = numbers.count(1);
+}
+
+// What the structs say of themselves.
+void read_claims(ByteReader &bytes, Input &input) {
+    input.claims.has_materials = !bytes.one_in(32);
+    input.claims.has_spheres = !bytes.one_in(32);
+    input.claims.has_planes = !bytes.one_in(32);
+    if (bytes.one_in(32))
+        input.claims.more_spheres = (1U << 30) | bytes.raw<std::uint32_t>();
+    if (bytes.one_in(32))
+        input.claims.fewer_materials = bytes.below(256);
+    for (std::uint32_t &size : input.struct_sizes) {
+        if (bytes.one_in(16))
+            size = bytes.one_in(4) ? bytes.raw<std::uint32_t>() : bytes.below(256);
+    }
+    input.tail_byte = bytes.one_in(8) ? 1 : 0;
+}
+
+template <typename Surface>
+void repeat(std::vector<Surface> &surfaces, std::uint32_t copies) {
+    const std::size_t once = surfaces.size();
+    surfaces.reserve(once * (copies + 1));
+    for (std::size_t i = 0; i < once * copies; ++i) {
+        surfaces.push_back(surfaces[i]);
+    }
+}
+
+} // namespace
+
+pt_scene Input::scene() const {
+    const auto count = [](const auto &elements) { return static_cast<std::uint32_t>(elements.size()); };
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = count(materials) - std::min(count(materials), claims.fewer_materials);
+    scene.sphere_count = count(spheres) | claims.more_spheres;
+    scene.plane_count = count(planes);
+    scene.materials = claims.has_materials ? materials.data() : nullptr;
+    scene.spheres = claims.has_spheres ? spheres.data() : nullptr;
+    scene.planes = claims.has_planes ? planes.data() : nullptr;
+    return scene;
+}
+
+Input decoded_input(ByteReader bytes) {
+    Input input;
+    const bool wild = bytes.one_in(4);
+    Numbers numbers(bytes, wild);
+    const std::uint32_t material_count = 1 + bytes.below(4);
+    const std::uint32_t sphere_count = bytes.below(most_surfaces_read);
+    const std::uint32_t plane_count = bytes.below(most_surfaces_read / 2);
+    input.sample_count = 1 + bytes.below(4);
+    read_render(numbers, bytes, input.render);
+    read_camera(numbers, bytes, input.camera);
+    for (std::uint32_t i = 0; i < material_count; ++i)
+        input.materials.push_back(material(numbers, bytes));
+    for (std::uint32_t i = 0; i < sphere_count; ++i)
+        input.spheres.push_back(sphere(numbers, bytes, material_count));
+    for (std::uint32_t i = 0; i < plane_count; ++i)
+        input.planes.push_back(plane(numbers, material_count));
+    if (wild)
+        read_claims(bytes, input);
+    if (bytes.one_in(16)) {
+        const std::uint32_t copies = bytes.below(most_copies);
+        repeat(input.spheres, copies);
+        repeat(input.planes, copies);
+    }
+    return input;
+}
+
+void change_one_number(Input &input, ByteReader &bytes) {
+    Numbers numbers(bytes, false);
+    const auto any = [&](auto &elements) -> auto & {
+        return elements[bytes.raw<std::uint16_t>() % elements.size()];
+    };
+    const auto component = [&](auto &values) -> auto & {
+        return values[bytes.below(3)];
+    };
+    const std::uint32_t kind = bytes.below(8);
+    if (kind < 4 && !input.spheres.empty()) {
+        pt_sphere &sphere = any(input.spheres);
+        if (kind == 0)
+            sphere.radius = numbers.positive_length();
+        else if (kind == 1 && component(sphere.motion) != 0.0)
+            component(sphere.motion) = numbers.length();
+        else
+            component(sphere.center) = numbers.length();
+    } else if (kind < 6 && !input.planes.empty()) {
+        pt_plane &plane = any(input.planes);
+        (kind == 4 ? plane.offset : component(plane.normal)) = kind == 4 ? numbers.length() : numbers.component();
+    } else if (kind == 6 && !input.materials.empty()) {
+        pt_material &material = any(input.materials);
+        if (component(material.emission) > 0.0F)
+            component(material.emission) = numbers.colour();
+        else if (material.glossiness > 0.0F)
+            material.glossiness = numbers.glossiness();
+        else
+            component(material.diffuse) = std::min(numbers.colour(), 1.0F);
+    } else {
+        component(bytes.one_in(2) ? input.camera.target : input.camera.position) = numbers.length();
+    }
+}
+
+void SizedStruct::copy(const void *value, std::size_t known_size, std::uint32_t size, std::uint8_t tail_byte) {
+    // The size itself is always read, and what is beyond 64 KiB is refused unread.
+    constexpr std::size_t largest = 65536;
+    const std::size_t length = std::clamp<std::size_t>(size, sizeof(std::uint32_t), largest);
+    bytes_ = std::make_unique<std::uint8_t[]>(length);
+    std::fill_n(bytes_.get(), length, tail_byte);
+    std::memcpy(bytes_.get(), value, std::min(known_size, length));
+}
+
+} // namespace fuzz

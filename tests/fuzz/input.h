@@ -1,0 +1,67 @@
+// What one run hands to the library. Made by the targets from bytes or a scene file, varied by neighbours, judged by
+// examine.h.
+#pragma once
+
+#include "byte_reader.h"
+
+#include <pt/pt.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace fuzz {
+
+struct Input {
+    std::vector<pt_material> materials;
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_plane> planes;
+    pt_camera camera{};
+    pt_render render{};
+    std::uint32_t sample_count = 1;
+
+    // Where given: what pt_scene says instead of the truth. It never promises more than is there, unless what it says
+    // is refused by itself.
+    struct SceneClaims {
+        bool has_materials = true;
+        bool has_spheres = true;
+        bool has_planes = true;
+        std::uint32_t more_spheres = 0; // 2^30 or more
+        std::uint32_t fewer_materials = 0;
+    } claims;
+    std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
+    std::uint8_t tail_byte = 0; // what follows the structs whose size is too large
+
+    pt_scene scene() const; // points into this object
+};
+
+// Any bytes give an input.
+Input decoded_input(ByteReader bytes);
+
+// Changes one number into another that obeys the rules as far as they concern that number alone; what the kernel must
+// contain for the scene stays the same as a rule.
+void change_one_number(Input &input, ByteReader &bytes);
+
+// A struct of a given size in memory of just that size, so that AddressSanitizer notices who reads beyond it.
+class SizedStruct {
+public:
+    template <typename T>
+    SizedStruct(T value, std::uint32_t size, std::uint8_t tail_byte) {
+        value.struct_size = size;
+        copy(&value, sizeof value, size, tail_byte);
+    }
+
+    template <typename T>
+    const T *as() const {
+        return reinterpret_cast<const T *>(bytes_.get());
+    }
+
+private:
+    void copy(const void *value, std::size_t known_size, std::uint32_t size, std::uint8_t tail_byte);
+
+    std::unique_ptr<std::uint8_t[]> bytes_;
+};
+
+} // namespace fuzz
