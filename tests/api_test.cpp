@@ -105,6 +105,16 @@ TEST_F(ApiTest, SampleIndicesEndAt32Bits) {
     expect_image(2);
 }
 
+// 2^32 indices are one more than a pixel's count of samples can hold.
+TEST_F(ApiTest, PixelsHoldAtMost32BitsOfSamples) {
+    set_all();
+    accumulate(1);
+    const pt_accumulate_info info = samples(UINT32_MAX);
+    expect_failure(pt_accumulate(context(), &info), PT_ERROR_INVALID_ARGUMENT,
+                   "accumulate.sample_count = 4294967295: a pixel holds at most 2^32 - 1 samples (it has 1)");
+    expect_image(1);
+}
+
 TEST_F(ApiTest, TellsItsDevice) {
     pt_device_info device{};
     ASSERT_EQ(pt_get_context_device(context(), &device), PT_OK) << message();

@@ -4,6 +4,7 @@
 #include "expected_error.h"
 #include "film_sums.spv.h"
 #include "probe.h"
+#include "vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace {
@@ -164,6 +166,29 @@ TEST(Film, LostSamplesAreAnError) {
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
     // Not even if the other part has one too many.
     EXPECT_EQ(error_of([] { estimates({9, 5, 0}, {9, 3, 0}, {4, 4}); }).code(), PT_ERROR_INTERNAL);
+}
+
+using FilmStrips = VulkanFixture;
+
+// Word p of plane i of a film that is cut into strips is 100 i + p, and pieces of it are read that begin and end anywhere.
+TEST_F(FilmStrips, AreReadAsOne) {
+    constexpr std::uint32_t film_pixels = 16;
+    pt::Film film(device(), 4, 4, 6);
+    ASSERT_EQ(film.strips().size(), 3U);
+    for (pt::Film::Strip &strip : film.strips()) {
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t plane = 0; plane < pt::Film::words_per_pixel; ++plane)
+            for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
+                words.push_back(100 * plane + strip.first_pixel + i);
+        strip.words.upload(std::as_bytes(std::span(words)), 0);
+    }
+    for (std::uint32_t first = 0; first < film_pixels; ++first)
+        for (std::uint32_t count = 1; first + count <= film_pixels; ++count) {
+            std::vector<std::uint32_t> words(count * pt::Film::words_per_pixel);
+            film.download(first, count, words);
+            for (std::uint32_t i = 0; i < words.size(); ++i)
+                ASSERT_EQ(words[i], 100 * (i / count) + first + i % count) << first << ", " << count;
+        }
 }
 
 } // namespace
