@@ -3,8 +3,8 @@
 // image_file.cpp, implemented by image_module.cpp. Plain C types, no exceptions across it.
 #pragma once
 
-#include <stddef.h>
-#include <stdint.h>
+#include <cstddef>
+#include <cstdint>
 
 extern "C" {
 
@@ -27,18 +27,18 @@ struct pt_image_data {
 };
 
 // Receives the whole encoded file. Must not throw.
-typedef void (*pt_image_sink)(void *user, const void *bytes, size_t size);
+using pt_image_sink = void (*)(void *user, const void *bytes, size_t size);
 
 // Encodes an image in memory. Returns 0, or -1 with a zero-terminated reason in message.
-typedef int32_t (*pt_encode_image_fn)(const pt_image_data *image, pt_image_sink sink, void *user, char *message,
-                                      size_t message_size);
+using pt_encode_image_fn = int32_t (*)(const pt_image_data *image, pt_image_sink sink, void *user, char *message,
+                                       size_t message_size);
 
 // Receives a whole image, R, G, B triples row by row from the top. Must not throw.
-typedef void (*pt_radiance_sink)(void *user, uint32_t width, uint32_t height, const float *radiance);
+using pt_radiance_sink = void (*)(void *user, uint32_t width, uint32_t height, const float *radiance);
 
 // Reads the channels R, G and B of a file in any format that OpenImageIO knows. Returns like pt_encode_image.
-typedef int32_t (*pt_decode_image_fn)(const char *path, pt_radiance_sink sink, void *user, char *message,
-                                      size_t message_size);
+using pt_decode_image_fn = int32_t (*)(const char *path, pt_radiance_sink sink, void *user, char *message,
+                                       size_t message_size);
 }
 
 #define PT_ENCODE_IMAGE_SYMBOL "pt_encode_image"
