@@ -114,7 +114,6 @@ Film::Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, st
                            vulkan::Buffer(device, vulkan::BufferUse::Storage, pass_bytes, "split pass")});
         first += count;
     }
-    clear();
 }
 
 void Film::clear() {

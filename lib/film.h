@@ -40,7 +40,7 @@ public:
     static constexpr std::uint64_t words_per_pixel = std::uint64_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
     static constexpr std::uint64_t bytes_per_pixel = words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
 
-    // Zeroed. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
+    // Holds nothing of meaning before clear(). Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
     Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t pixel_count() const { return width_ * height_; }

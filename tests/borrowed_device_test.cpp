@@ -87,7 +87,8 @@ protected:
         const CallerVulkan handles = this->handles(with_lock);
         Instance instance(handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), 0.05);
+        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(),
+                                0.05);
         const QueueSpy spy(device.device().handle());
         const CourseworkScene coursework;
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
