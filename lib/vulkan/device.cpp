@@ -106,7 +106,8 @@ Device::~Device() {
 }
 
 bool Device::hangs() const {
-    return !std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
+    return gave_up_ &&
+           !std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
 // Whether a submission has come to an end by now, be it by the loss of the device.
@@ -171,13 +172,16 @@ bool Device::comes_to_rest() noexcept {
             while (submission.pending) {
                 const std::uint64_t step = wait_nanoseconds();
                 submission.pending = handle().waitForFences(*submission.fence, VK_TRUE, step) == vk::Result::eTimeout;
-                if (submission.pending && is_overdue(submission))
+                if (submission.pending && is_overdue(submission)) {
+                    gave_up_ = true;
                     return false;
+                }
             }
         } catch (const vk::DeviceLostError &) {
             submission.pending = false;
         } catch (...) {
-            return false; // nobody knows what becomes of it
+            gave_up_ = true; // nobody knows what becomes of it
+            return false;
         }
     }
     return true;
@@ -201,10 +205,12 @@ std::uint64_t Device::wait_nanoseconds() const {
 void Device::wait(const Submission &submission) {
     try {
         while (handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout)
-            if (is_overdue(submission))
+            if (is_overdue(submission)) {
+                gave_up_ = true;
                 lose("it did not end a submission within " +
                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
                      " ms");
+            }
         handle().resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
         // Whatever the error is, nobody knows what became of the work; but what it uses may be destroyed from here on.

@@ -114,6 +114,7 @@ private:
     vk::raii::PipelineCache pipeline_cache_ = nullptr;
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_;
+    bool gave_up_ = false; // on a submission whose end was not seen
 };
 
 // Makes what the dispatches before it wrote visible to those after it.
