@@ -7,6 +7,7 @@
 #include "message.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace cli {
 namespace {

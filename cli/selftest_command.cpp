@@ -11,6 +11,7 @@
 #include "vector_width.h"
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 namespace cli {
 

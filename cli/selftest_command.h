@@ -2,9 +2,11 @@
 // Called by main.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace cli {
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 namespace cli {
 namespace {

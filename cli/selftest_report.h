@@ -6,7 +6,7 @@
 
 #include <pt/pt.h>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
