@@ -19,12 +19,12 @@ public:
 
     explicit DirectoryEvents(Method method = Method::notified);
 
-    // What is in it, not in directories below. To be called again after every event: a directory may have been replaced. One
-    // that is not there is told of once it is.
+    // What is in it, not in directories below. To be called again after every event: a directory may have been
+    // replaced. One that is not there is told of once it is.
     void watch(const std::filesystem::path &directory);
 
-    // Waits until something may have happened, or for so long, or until a signal comes. Returns whether something may have.
-    // Anything of old counts, too: what is to be known of the directories is to be read after watch().
+    // Waits until something may have happened, or for so long, or until a signal comes. Returns whether something may
+    // have. Anything of old counts, too: what is to be known of the directories is to be read after watch().
     bool wait(std::chrono::milliseconds timeout);
 
     Method method() const { return notifications_.is_open() ? Method::notified : Method::polled; }

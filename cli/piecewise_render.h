@@ -21,8 +21,8 @@ struct PiecewiseImage {
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
 };
 
-// Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that is 0,
-// all of them; halved until the device has the memory. Throws Failure.
+// Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that
+// is 0, all of them; halved until the device has the memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows);
 

@@ -25,8 +25,8 @@ struct RenderTimes {
     std::chrono::steady_clock::time_point create_start;
 };
 
-// Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far; so does
-// superseded(), but then nothing is written. Throws Failure.
+// Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far;
+// so does superseded(), but then nothing is written. Throws Failure.
 Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
                        const RenderSettings &settings, const RenderTimes &times, const Stop &superseded);
 

@@ -9,8 +9,8 @@
 
 namespace cli {
 
-// Their contents by path; nothing for a file that is not there. One that an #include line may mean is listed in both places
-// where it is looked for: it may come to be there.
+// Their contents by path; nothing for a file that is not there. One that an #include line may mean is listed in both
+// places where it is looked for: it may come to be there.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
 // shader_dir may be empty: the kernels in the library are no files. Scene files include none.

@@ -23,8 +23,8 @@ public:
     const SourceFiles &files() const { return begun_; }
     const std::optional<std::string> &scene_text() const { return begun_.at(scene_); }
 
-    // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits for so
-    // long at the most, until something happens in their directories or a signal comes.
+    // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits
+    // for so long at the most, until something happens in their directories or a signal comes.
     bool changed(std::chrono::milliseconds timeout);
 
     // Those that differ.

@@ -7,8 +7,8 @@
 
 namespace cli {
 
-// Returns the exit code once a signal has come: 0 if it came while waiting. Throws Failure where no change of a source could
-// help, and for the first picture where the fault is not in a scene or shader.
+// Returns the exit code once a signal has come: 0 if it came while waiting. Throws Failure where no change of a
+// source could help, and for the first picture where the fault is not in a scene or shader.
 int watch(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

@@ -4,7 +4,9 @@
 find_program(PT_GCOVR gcovr REQUIRED)
 
 function(pt_report_coverage)
-  set(report ${PT_GCOVR} --root ${PROJECT_SOURCE_DIR} --filter ${PROJECT_SOURCE_DIR}/lib/ --exclude-throw-branches ${PROJECT_BINARY_DIR})
+  set(report ${PT_GCOVR} --root ${PROJECT_SOURCE_DIR} --filter ${PROJECT_SOURCE_DIR}/lib/ --exclude-throw-branches
+             ${PROJECT_BINARY_DIR}
+  )
   set(runs)
   foreach(test IN LISTS ARGN)
     list(APPEND runs COMMAND ${test} --gtest_brief=1)

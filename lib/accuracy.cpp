@@ -50,17 +50,18 @@ constexpr ElementaryFunction functions[] = {
     // an ulp: 3.4. c = 1 + p, |p| <= 0.293, errs by 6.4 u of p, the remainder 0.4 u, and half an ulp: 2.8.
     {"sine (sin_cos_turn)", sine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
-    // Below 1/4: 1 + y tail errs by 1.3 u (half of u for the sum, 0.8 u of at most 0.16 for the rest) and 0.2 u for the
-    // polynomial, the products by u and half an ulp: 3. From 1/4 on log2 errs by 2^-21, which is 5.5 u of the logarithm, and
-    // 1 - y by u / 2, which is 0.7 u: at 1/4, where an ulp is u / 2, 12.5, and half for the product.
+    // Below 1/4: 1 + y tail errs by 1.3 u (half of u for the sum, 0.8 u of at most 0.16 for the rest) and 0.2 u for
+    // the polynomial, the products by u and half an ulp: 3. From 1/4 on log2 errs by 2^-21, which is 5.5 u of the
+    // logarithm, and 1 - y by u / 2, which is 0.7 u: at 1/4, where an ulp is u / 2, 12.5, and half for the product.
     {"log(1 - x) (log_one_minus)", [](double x) { return std::log1p(-x); }, 13.5, 0x1p-100F, 0x1.fffffep-1F,
      complements},
     // exp2 of y, |y| <= 99.5, errs by 3 + 2 |y| ulp; y by 1.2 u of itself, for constant and product: 0.85 |y| u.
     {"exp(x) (exp_negative)", [](double x) { return std::exp(x); }, 290.0, -0x1p-100F, -69.0F, logarithms},
-    // r errs by 0.3 u: the sum a quarter, the small half of ln 2 the rest. e = r (1 + w), |w| <= 0.2: 2.2 u of e for w,
-    // the sum and the product; 0.1 u for the remainder. k = 0: the result is -e, 1.2 u before and half an ulp for its last
-    // product, 0.3 u for the remainder. k = -1 is worst at r = ln(2) / 2, where the result is 0.29: half of the 1.4 u of e
-    // above, and u / 2 is an ulp there: 1.9 with the last rounding. For smaller k the result grows and the share of e falls.
+    // r errs by 0.3 u: the sum a quarter, the small half of ln 2 the rest. e = r (1 + w), |w| <= 0.2: 2.2 u of e for
+    // w, the sum and the product; 0.1 u for the remainder. k = 0: the result is -e, 1.2 u before and half an ulp for
+    // its last product, 0.3 u for the remainder. k = -1 is worst at r = ln(2) / 2, where the result is 0.29: half of
+    // the 1.4 u of e above, and u / 2 is an ulp there: 1.9 with the last rounding. For smaller k the result grows and
+    // the share of e falls.
     {"1 - exp(x) (one_minus_exp)", [](double x) { return -std::expm1(x); }, 2.5, -0x1p-100F, -69.0F, logarithms},
     // The specification's bounds themselves: for sqrt the 2 ulp of inversesqrt are at most 4 u, and the division's 2.5.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},

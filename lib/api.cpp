@@ -1,5 +1,5 @@
-// The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in Renderer and in
-// the validated_* functions. Called by programs through pt.h.
+// The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in
+// Renderer and in the validated_* functions. Called by programs through pt.h.
 #include "accuracy.h"
 #include "guard.h"
 #include "image.h"

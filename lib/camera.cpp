@@ -13,15 +13,15 @@ namespace {
 
 constexpr double default_vertical_fov = std::numbers::pi / 4.0;
 
-// The angle between up and the viewing direction must have at least this sine. With u = 2^-53, rounding moves forward by at
-// most 2 u (a subtraction, then a division), up by u and each of the two products in a component of their cross product by
-// u, in all less than 5 u; division by the sine s makes that 5 u / s in the camera's unit vectors. It is lost in their
-// rounding to float32, 2^-24, as long as s >= 5 * 2^-53 / 2^-24 = 5 * 2^-29 < 2^-26.
+// The angle between up and the viewing direction must have at least this sine. With u = 2^-53, rounding moves forward
+// by at most 2 u (a subtraction, then a division), up by u and each of the two products in a component of their cross
+// product by u, in all less than 5 u; division by the sine s makes that 5 u / s in the camera's unit vectors. It is
+// lost in their rounding to float32, 2^-24, as long as s >= 5 * 2^-53 / 2^-24 = 5 * 2^-29 < 2^-26.
 constexpr double min_sine = 0x1p-26;
 
-// The kernel holds the distance of the image plane, height / (2 tan(fov / 2)) pixels, as a length: at most 1e18. That is
-// kept for any height below 2^32 if tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no such margin is needed: the largest
-// double below pi leaves a distance above 1e-16.
+// The kernel holds the distance of the image plane, height / (2 tan(fov / 2)) pixels, as a length: at most 1e18. That
+// is kept for any height below 2^32 if tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no such margin is needed: the
+// largest double below pi leaves a distance above 1e-16.
 constexpr double min_vertical_fov = 1e-8;
 
 glm::dvec3 vector(const double (&components)[3]) {

@@ -57,19 +57,19 @@ bool is_check(std::uint32_t sample_count) {
 }
 
 double exaggeration(std::uint32_t sampler) {
-    // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of the two runs of
-    // N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too much by 3
-    // for p = 2.
+    // If the mean square error falls as N^-p, the expectation of a quarter of the squared difference of the two runs
+    // of N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too
+    // much by 3 for p = 2.
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(3.0);
 }
 
 double squared_limit(double mean, double standard_error, double median) {
-    // The square of the mean exceeds that of the limit by the variance, on average, and the square of the standard error
-    // is what estimates the variance, so their difference has the right expectation. (For equal parts it is the product
-    // of their means.) It keeps a pixel with a rare bright sample, a firefly, from hiding its error by it. Half as much
-    // again is taken off, since the error is divided by it, and of the two the larger goes with the larger. Where it
-    // happens to be small, the neighbours know better, and a fraction of the mean bounds what is made of a pixel that a
-    // single sample lit.
+    // The square of the mean exceeds that of the limit by the variance, on average, and the square of the standard
+    // error is what estimates the variance, so their difference has the right expectation. (For equal parts it is the
+    // product of their means.) It keeps a pixel with a rare bright sample, a firefly, from hiding its error by it.
+    // Half as much again is taken off, since the error is divided by it, and of the two the larger goes with the
+    // larger. Where it happens to be small, the neighbours know better, and a fraction of the mean bounds what is
+    // made of a pixel that a single sample lit.
     const double least = 0.25 * mean;
     const double limit =
         std::max({mean * mean - 1.5 * standard_error * standard_error, median * median, least * least});
@@ -112,8 +112,8 @@ void ErrorEstimator::finish_band() {
     standard_error_.clear();
 }
 
-// The root of the mean over tiles, which are independent of each other: the variance of their sum is estimated by the sum of
-// the squares of their deviations from the mean. That their expectations differ too only adds to it.
+// The root of the mean over tiles, which are independent of each other: the variance of their sum is estimated by the
+// sum of the squares of their deviations from the mean. That their expectations differ too only adds to it.
 Interval ErrorEstimator::root_mean(double Tile::*squares, double exaggeration) const {
     double value_count = 0.0;
     double sum = 0.0;

@@ -1,4 +1,5 @@
-// The error of an image, estimated from the standard errors of its pixels. Pure arithmetic; Renderer feeds it with the film.
+// The error of an image, estimated from the standard errors of its pixels. Pure arithmetic; Renderer feeds it with
+// the film.
 #pragma once
 
 #include <cstddef>
@@ -26,15 +27,16 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // What is known without samples.
 ErrorEstimate unknown_error();
 
-// The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of two.
+// The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of
+// two.
 std::uint32_t next_check(std::uint32_t sample_count);
 bool is_check(std::uint32_t sample_count);
 
 // Factor >= 1 by which the error that the film's parts show may exceed the true one, with a sampler of pt.h.
 double exaggeration(std::uint32_t sampler);
 
-// Square of a pixel's limit, for the denominator of the relative error, in one channel of a pixel: from its mean and standard
-// error, and the median of the means about it.
+// Square of a pixel's limit, for the denominator of the relative error, in one channel of a pixel: from its mean and
+// standard error, and the median of the means about it.
 double squared_limit(double mean, double standard_error, double median);
 
 class ErrorEstimator {

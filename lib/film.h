@@ -22,8 +22,9 @@ struct PixelEstimates {
                                        // nothing if it was not asked for
 };
 
-// Reads the film words of consecutive pixels (both parts, planes of plane_pixels words, gpu_layout.h). A pixel that does
-// not hold the expected samples, accepted or rejected, is PT_ERROR_INTERNAL, which tells that a driver lost work.
+// Reads the film words of consecutive pixels (both parts, planes of plane_pixels words, gpu_layout.h). A pixel that
+// does not hold the expected samples, accepted or rejected, is PT_ERROR_INTERNAL, which tells that a driver lost
+// work.
 PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t plane_pixels, double unit,
                                const PartCounts &expected, bool with_standard_error);
 
@@ -40,7 +41,8 @@ public:
     static constexpr std::uint64_t words_per_pixel = std::uint64_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
     static constexpr std::uint64_t bytes_per_pixel = words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
 
-    // Holds nothing of meaning before clear(). Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for sizes beyond the device.
+    // Holds nothing of meaning before clear(). Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
+    // sizes beyond the device.
     Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t pixel_count() const { return width_ * height_; }

@@ -47,8 +47,8 @@ KernelOrder kernel_order(const Scene &scene, const Camera &camera) {
 }
 
 // The lobes are chosen by what they can reflect, but the diffuse one with twice the weight: it gathers from the whole
-// hemisphere, so its samples vary more. (Measured on the coursework scene with six vertices: a tenth less error than with
-// equal weights.) Neither is ever left to chance.
+// hemisphere, so its samples vary more. (Measured on the coursework scene with six vertices: a tenth less error than
+// with equal weights.) Neither is ever left to chance.
 float specular_probability(const Material &material) {
     const float specular = mean(material.specular);
     const float diffuse = 2.0F * mean(material.diffuse);

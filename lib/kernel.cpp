@@ -13,8 +13,8 @@ namespace pt {
 
 namespace {
 
-// Tables of points for one slice, 4 MiB at the most: one for each dispatch. A slice of 48 dispatches of 1023 samples is cut
-// at no more than 13 powers of two, the first of them 8.
+// Tables of points for one slice, 4 MiB at the most: one for each dispatch. A slice of 48 dispatches of 1023 samples
+// is cut at no more than 13 powers of two, the first of them 8.
 constexpr std::uint32_t max_tables = 64;
 constexpr std::uint32_t max_full_dispatches = 48;
 
@@ -90,8 +90,8 @@ std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }
 
-// The samples of a slice as batches of one dispatch each, all of one part of the film. Their tables are free: slices end in
-// the order in which they were started, and there is room for all that are under way.
+// The samples of a slice as batches of one dispatch each, all of one part of the film. Their tables are free: slices
+// end in the order in which they were started, and there is room for all that are under way.
 std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std::uint32_t sample_count) {
     std::vector<Batch> batches;
     const std::uint32_t end = first_sample + sample_count;

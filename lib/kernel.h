@@ -38,9 +38,9 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in
-    // sample_parts.h; with the last slice of a split pass adds the pass to the film. At most the device's queue_depth of
-    // slices may be under way.
+    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in sample_parts.h; with
+    // the last slice of a split pass adds the pass to the film. At most the device's queue_depth of slices may be
+    // under way.
     vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
 
     // Waits for a slice and returns the seconds it took.

@@ -12,8 +12,8 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes on a message line by line. Never throws, whatever the function does: drivers and layers call this from within,
-    // and their frames are not to be unwound. A line that cannot be delivered is dropped.
+    // Passes on a message line by line. Never throws, whatever the function does: drivers and layers call this from
+    // within, and their frames are not to be unwound. A line that cannot be delivered is dropped.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;

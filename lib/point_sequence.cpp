@@ -15,7 +15,8 @@ namespace pt {
 
 namespace {
 
-// Primitive polynomial over GF(2), its bits the coefficients from the highest power down, and initial direction numbers.
+// Primitive polynomial over GF(2), its bits the coefficients from the highest power down, and initial direction
+// numbers.
 struct SobolDimension {
     std::uint32_t polynomial;
     std::array<std::uint32_t, 9> initial;
@@ -121,8 +122,8 @@ constexpr std::array<Matrix, sequence_dimensions> sobol_matrices = [] {
     return matrices;
 }();
 
-// The direction numbers that a bit of the index adds in all dimensions: a point of the table is made of rows of this, many
-// dimensions at a time, which takes a tenth of the time of one coordinate after the other.
+// The direction numbers that a bit of the index adds in all dimensions: a point of the table is made of rows of this,
+// many dimensions at a time, which takes a tenth of the time of one coordinate after the other.
 using Row = std::array<std::uint32_t, sequence_dimensions>;
 constexpr std::array<Row, 32> sobol_rows = [] {
     std::array<Row, 32> rows{};
@@ -179,9 +180,9 @@ std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension) {
     return static_cast<std::uint32_t>((Wide{reversed} << 32) / power);
 }
 
-// With the digits reversed, those before a digit are its lower bits, which carries of sums and products respect (Laine and
-// Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are those of N. Vegdahl's
-// search for a hash with better avalanche (2021).
+// With the digits reversed, those before a digit are its lower bits, which carries of sums and products respect
+// (Laine and Karras 2011; Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020). The constants are those
+// of N. Vegdahl's search for a hash with better avalanche (2021).
 std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     std::uint32_t v = reversed_bits(coordinate);
     v ^= v * 0x3d20adeaU;
@@ -205,7 +206,8 @@ namespace {
 // A point in all dimensions of a layout.
 using Point = std::vector<std::uint32_t>;
 
-// The seeds of Sobol's scrambling, one for each dimension. Indices of 2^32 and more repeat points, with seeds of their own.
+// The seeds of Sobol's scrambling, one for each dimension. Indices of 2^32 and more repeat points, with seeds of
+// their own.
 std::vector<std::uint32_t> scrambling_seeds(std::uint64_t seed, std::uint64_t repetition, std::uint32_t dimensions) {
     std::vector<std::uint32_t> seeds;
     std::uint64_t state = mixed(seed) + repetition;

@@ -41,8 +41,8 @@ public:
     // What the film holds is void. The kernel has to be prepared anew.
     void discard_samples() noexcept;
 
-    // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the driver
-    // refuses the code.
+    // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
+    // driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
 

@@ -178,8 +178,9 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, 
     return PT_OK;
 }
 
-// Takes samples up to a number of them. Devices are dealt samples in order, and none is left out once one is begun: what is
-// done in the end is a range without gaps. Only a device that is alone may stop within a pass, and will go on there.
+// Takes samples up to a number of them. Devices are dealt samples in order, and none is left out once one is begun:
+// what is done in the end is a range without gaps. Only a device that is alone may stop within a pass, and will go on
+// there.
 void Renderer::take_samples(std::uint32_t end, Job &job) {
     std::uint32_t dealt = samples_done_ + (is_in_pass() ? 1 : 0);
     const auto deal = [&](RenderDevice &device) {
@@ -230,7 +231,8 @@ bool Renderer::finish_slice(Job &job) {
     return true;
 }
 
-// The device whose slice ends first, waiting for it only if it is alone: of several it is the first that is seen to be done.
+// The device whose slice ends first, waiting for it only if it is alone: of several it is the first that is seen to
+// be done.
 RenderDevice *Renderer::next_to_finish() {
     constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
     if (devices_.size() == 1)

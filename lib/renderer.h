@@ -40,8 +40,8 @@ struct Progress {
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that accumulate()
-// keeps whole samples.
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that
+// accumulate() keeps whole samples.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);

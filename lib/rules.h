@@ -1,5 +1,5 @@
-// Rules for the caller's numbers, and the list of those that were broken. Used by scene, camera, render_settings, image and
-// api.cpp.
+// Rules for the caller's numbers, and the list of those that were broken. Used by scene, camera, render_settings,
+// image and api.cpp.
 #pragma once
 
 #include <pt/pt.h>
@@ -28,8 +28,8 @@ using Rule = const char *(*)(double value);
 const char *finite_rule(double value);
 
 // Lengths are 0 or have a magnitude in [1e-18, 1e18], so that in float32 their squares are normal numbers and sums of
-// squares are finite: 1e-36 > 2^-126 = 1.18e-38, and 3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38 is the largest squared distance
-// of a sphere from the camera, each of whose components adds up three lengths (centre, motion, position).
+// squares are finite: 1e-36 > 2^-126 = 1.18e-38, and 3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38 is the largest squared
+// distance of a sphere from the camera, each of whose components adds up three lengths (centre, motion, position).
 const char *length_rule(double value);
 const char *positive_length_rule(double value);
 

@@ -8,8 +8,8 @@
 
 namespace pt {
 
-// A vector times 2^-exponent, its largest component in [1/2, 1). Powers of two round nothing (components below 2^-1000 of
-// the largest apart), so vectors that differ by one of them have the same direction to the last bit.
+// A vector times 2^-exponent, its largest component in [1/2, 1). Powers of two round nothing (components below
+// 2^-1000 of the largest apart), so vectors that differ by one of them have the same direction to the last bit.
 struct ScaledVector {
     glm::dvec3 vector;
     int exponent;
@@ -22,7 +22,8 @@ inline ScaledVector scaled(const glm::dvec3 &v) {
     return {{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent), std::ldexp(v.z, -exponent)}, exponent};
 }
 
-// v / |v| for a finite v that is not 0. By division: a product with 1 / |v| would round twice, and axes would not stay exact.
+// v / |v| for a finite v that is not 0. By division: a product with 1 / |v| would round twice, and axes would not
+// stay exact.
 inline glm::dvec3 unit_vector(const glm::dvec3 &v) {
     const glm::dvec3 vector = scaled(v).vector;
     return vector / glm::length(vector);

@@ -34,9 +34,9 @@ const char *colour_rule(double value) {
     return value <= 1e18 ? nullptr : "must be <= 1e18";
 }
 
-// The lobe about the mirror direction r falls as exp(-n a^2 / 2) with the angle a, by e at a = sqrt(2 / n). float32 unit
-// vectors are off by up to d = 2^-23, which changes n a^2 / 2 there by n a d = sqrt(2 n) d: 0.5 % of the lobe for n = 1e9.
-// A sharper lobe would show the rounding of directions rather than the material.
+// The lobe about the mirror direction r falls as exp(-n a^2 / 2) with the angle a, by e at a = sqrt(2 / n). float32
+// unit vectors are off by up to d = 2^-23, which changes n a^2 / 2 there by n a d = sqrt(2 n) d: 0.5 % of the lobe
+// for n = 1e9. A sharper lobe would show the rounding of directions rather than the material.
 const char *glossiness_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";

@@ -15,7 +15,8 @@ bool emits(const Material &material) {
     return material.emission != glm::vec3(0.0F);
 }
 
-// Where the centre of a sphere is as the shutter opens and as it closes, relative to the camera; in between on a straight line.
+// Where the centre of a sphere is as the shutter opens and as it closes, relative to the camera; in between on a
+// straight line.
 using Way = std::array<glm::dvec3, 2>;
 
 Way way_of(const Sphere &sphere, const Camera &camera) {
@@ -39,8 +40,8 @@ std::vector<CurvedPlane> planes_about(const Scene &scene, const Camera &camera) 
     return planes;
 }
 
-// Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and no plane
-// comes between two points of it.
+// Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
+// no plane comes between two points of it.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double radius) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         const double side = plane.offset < 0.0 ? -1.0 : 1.0;
@@ -159,8 +160,8 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
-    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the first
-    // vertex, two walks over the lamps to choose among them, and the branches.
+    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
+    // first vertex, two walks over the lamps to choose among them, and the branches.
     const std::uint64_t surfaces = features.surface_count();
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex =
@@ -169,8 +170,8 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
-    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray and one
-    // to a lamp; an empty scene still costs something.
+    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
+    // and one to a lamp; an empty scene still costs something.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
     return std::max<std::uint64_t>(1, features.surface_count()) *

@@ -33,17 +33,19 @@ struct Features {
 
 Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
 
-// Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30 surfaces.
+// Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30
+// surfaces.
 std::uint64_t scene_word_count(const Features &features);
 
-// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise, and
-// the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with six
-// vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where scene and path are so long
-// that a sample is a long job by itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
+// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the
+// noise, and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework
+// scene with six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where scene
+// and path are so long that a sample is a long job by itself, they do not branch: some drivers stop a kernel after
+// 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
-// What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences have;
-// none without a sequence.
+// What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences
+// have; none without a sequence.
 PointLayout point_layout(const Features &features);
 
 // Values of the specialization constants, by constant_id.

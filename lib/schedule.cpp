@@ -26,8 +26,8 @@ Slice Schedule::next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_
     return {0, pixel_count_, static_cast<std::uint32_t>(affordable_samples), true};
 }
 
-// The next of as few equal ranges as the budget allows. Equal ones, since a small last one would waste the overhead of a
-// submission: they are larger than half of the budget wherever one does not do.
+// The next of as few equal ranges as the budget allows. Equal ones, since a small last one would waste the overhead
+// of a submission: they are larger than half of the budget wherever one does not do.
 Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
     const std::uint64_t left = pixel_count_ - pass_pixels_done;
     const std::uint64_t granularity = limits_.pixel_granularity;
@@ -39,11 +39,11 @@ Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
     return {pass_pixels_done, static_cast<std::uint32_t>(std::min(left, workgroups * granularity)), 1, false};
 }
 
-// A submission takes an overhead, about 0.1 ms, and a time per path; the two cannot be told apart from one measurement. So
-// what a slice took more, or less, than its share of the target is taken to be what a slice of the whole budget would have
-// taken more: exact for slices of that size, and small slices, which are mostly overhead, change little. Repeated, it
-// converges to the budget that takes target_seconds with its overhead: the step is x -> x t / (o + x / r) for overhead o and
-// rate r, whose only stable fixed point is x = r (t - o).
+// A submission takes an overhead, about 0.1 ms, and a time per path; the two cannot be told apart from one
+// measurement. So what a slice took more, or less, than its share of the target is taken to be what a slice of the
+// whole budget would have taken more: exact for slices of that size, and small slices, which are mostly overhead,
+// change little. Repeated, it converges to the budget that takes target_seconds with its overhead: the step is x -> x
+// t / (o + x / r) for overhead o and rate r, whose only stable fixed point is x = r (t - o).
 void Schedule::measured(const Slice &slice, double seconds) {
     if (!(seconds >= 0.0))
         return;

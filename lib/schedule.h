@@ -1,5 +1,5 @@
-// Cuts rendering into submissions to the device that each take about the same time. No clock and no device in here: Renderer
-// asks for the next slice, runs it, and reports how long it took.
+// Cuts rendering into submissions to the device that each take about the same time. No clock and no device in here:
+// Renderer asks for the next slice, runs it, and reports how long it took.
 #pragma once
 
 #include <cstdint>
@@ -25,9 +25,9 @@ class Schedule {
 public:
     Schedule(std::uint32_t pixel_count, const ScheduleLimits &limits);
 
-    // What to do next, when remaining_samples >= 1 samples are still to be started or finished, and in the first of them
-    // pass_pixels_done pixels are done already (0 unless a split pass is under way). A split pass ends as one: it goes on
-    // from there, whatever the budget has become.
+    // What to do next, when remaining_samples >= 1 samples are still to be started or finished, and in the first of
+    // them pass_pixels_done pixels are done already (0 unless a split pass is under way). A split pass ends as one:
+    // it goes on from there, whatever the budget has become.
     Slice next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_done) const;
 
     // Learns from the time a slice took. Times that are no numbers >= 0 tell nothing and are passed over.

@@ -19,7 +19,8 @@ namespace {
 
 constexpr const char *module_name = "libpt-glsl.so";
 
-// With a slash at its end, of the file that this function is in: the shared library, or the program that it is linked into.
+// With a slash at its end, of the file that this function is in: the shared library, or the program that it is linked
+// into.
 std::string own_directory() {
     Dl_info info{};
     const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
@@ -27,9 +28,9 @@ std::string own_directory() {
     return path.substr(0, path.rfind('/') + 1); // empty without a slash
 }
 
-// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries; never in
-// the working directory, as a path without the library's would mean. It stays loaded: what glslang keeps for the next
-// compilation is in there.
+// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries;
+// never in the working directory, as a path without the library's would mean. It stays loaded: what glslang keeps for
+// the next compilation is in there.
 pt_compile_glsl_fn load_compiler() {
     const std::string directory = own_directory();
     std::string reasons;

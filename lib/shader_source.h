@@ -1,5 +1,5 @@
-// Where the kernels come from: the SPIR-V that is embedded in the library, or GLSL files that are compiled when they are
-// asked for. Owned by Renderer; its devices make pipelines of what it gives.
+// Where the kernels come from: the SPIR-V that is embedded in the library, or GLSL files that are compiled when they
+// are asked for. Owned by Renderer; its devices make pipelines of what it gives.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,8 @@ KernelCode embedded_code();
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, commit.comp, fold.comp, accuracy.comp and what they include; empty: the embedded code.
+    // A folder with pathtrace.comp, commit.comp, fold.comp, accuracy.comp and what they include; empty: the embedded
+    // code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }

@@ -1,5 +1,5 @@
-// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default. Used by
-// api.cpp to read the caller's structs and to write the results.
+// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default. Used
+// by api.cpp to read the caller's structs and to write the results.
 #pragma once
 
 #include "error.h"
@@ -30,8 +30,9 @@ inline std::uint32_t struct_size_of(const void *user, const char *name) {
     return size;
 }
 
-// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct, from an
-// older header, is read as if zeros followed; a longer one, from a newer header, must not ask for what is unknown here.
+// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
+// from an older header, is read as if zeros followed; a longer one, from a newer header, must not ask for what is
+// unknown here.
 template <typename T>
 T copy_in(const T *user, const char *name) {
     const std::uint32_t size = struct_size_of(user, name);

@@ -1,5 +1,5 @@
-// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene. Owned by
-// RenderDevice, used by Kernel.
+// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene.
+// Owned by RenderDevice, used by Kernel.
 #pragma once
 
 #include "scene_features.h"

@@ -1,5 +1,5 @@
-// The contract of pt.h on a real device: calls without a context, null pointers, and callers compiled with an older or a
-// newer header.
+// The contract of pt.h on a real device: calls without a context, null pointers, and callers compiled with an older
+// or a newer header.
 #include "api_fixture.h"
 
 #include <cstdlib>

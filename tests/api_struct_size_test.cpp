@@ -1,5 +1,5 @@
-// The growth rule of structs on a real device, for each struct and each size that it can have had: callers compiled with
-// older and newer headers get what the struct would say with zeros in place of what they do not know.
+// The growth rule of structs on a real device, for each struct and each size that it can have had: callers compiled
+// with older and newer headers get what the struct would say with zeros in place of what they do not know.
 #include "api_fixture.h"
 
 #include <cstring>
@@ -28,8 +28,8 @@ T with_tail(const T &value, uint32_t size, int byte) {
     return copy;
 }
 
-// The sizes at which a call makes something else of an older struct, behind which other things lie in memory, than of the
-// whole struct with zeros there. None should.
+// The sizes at which a call makes something else of an older struct, behind which other things lie in memory, than of
+// the whole struct with zeros there. None should.
 template <typename T, typename Call>
 std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     std::vector<uint32_t> misread;

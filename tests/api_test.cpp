@@ -1,5 +1,5 @@
-// The contract of pt.h on a real device: states, messages, progress, and that a failed call changes nothing. The rules of
-// single fields have their own tests, without a device.
+// The contract of pt.h on a real device: states, messages, progress, and that a failed call changes nothing. The
+// rules of single fields have their own tests, without a device.
 #include "api_fixture.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // A program's own Vulkan: instance with the validation layer, device and queue, made without the library. What the
-// layer says is kept, until the instance is destroyed. PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in context_fixture.h.
+// layer says is kept, until the instance is destroyed. PT_TEST_DEVICE and PT_TEST_NO_VALIDATION as in
+// context_fixture.h.
 #pragma once
 
 #include "vulkan/device_choice.h"

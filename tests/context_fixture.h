@@ -1,6 +1,6 @@
 // Tests on a real device through pt.h. The validation layer watches: what it or the library warns of fails the test.
-// From the environment: PT_TEST_DEVICE chooses the device as pt_create_info.device does; with PT_TEST_NO_VALIDATION set,
-// contexts are made without the layer, for leak checks.
+// From the environment: PT_TEST_DEVICE chooses the device as pt_create_info.device does; with PT_TEST_NO_VALIDATION
+// set, contexts are made without the layer, for leak checks.
 #pragma once
 
 #include <pt/pt.h>

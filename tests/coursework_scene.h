@@ -1,5 +1,5 @@
-// The coursework scene through pt.h: two lamps, two balls, a floor and three walls, glossy or diffuse. Used by the tests
-// that render.
+// The coursework scene through pt.h: two lamps, two balls, a floor and three walls, glossy or diffuse. Used by the
+// tests that render.
 #pragma once
 
 #include "scene_of.h"

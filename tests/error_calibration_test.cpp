@@ -37,9 +37,10 @@ struct Judgement {
     bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
 };
 
-// What the stated error over the true one may be in these cases; over many, 5% of all are below 0.9 (shaders/README.md). Random samples: both come from tens of thousands of values, of which the
-// brightest few hundred weigh most, so either scatters by some per cent. Sequences: up to 2^p - 1 with 1 <= p <= 2 more in mean
-// square (error_estimate.cpp), hence sqrt(3), and more where the denominators err: up to the factor 2 that is promised.
+// What the stated error over the true one may be in these cases; over many, 5% of all are below 0.9
+// (shaders/README.md). Random samples: both come from tens of thousands of values, of which the brightest few hundred
+// weigh most, so either scatters by some per cent. Sequences: up to 2^p - 1 with 1 <= p <= 2 more in mean square
+// (error_estimate.cpp), hence sqrt(3), and more where the denominators err: up to the factor 2 that is promised.
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
@@ -135,8 +136,9 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
     return estimator.result(1.0).relative_rmse.estimate;
 }
 
-// Parts put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are the first
-// digit of the first dimension, the place in the pixel, so that each part would see one half of every pixel.
+// Parts put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are
+// the first digit of the first dimension, the place in the pixel, so that each part would see one half of every
+// pixel.
 TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
     constexpr uint32_t sample_count = 64;
     std::vector<Image> samples;

@@ -45,8 +45,8 @@ TEST(ErrorEstimate, OfAnImageWithAnUnknownPixelIsUnknown) {
     }
 }
 
-// Two tiles of 8 x 8 pixels with the squares 64 * 3 * 1 and 64 * 3 * 4: their mean is 2.5 a value; their deviations from it are
-// 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum.
+// Two tiles of 8 x 8 pixels with the squares 64 * 3 * 1 and 64 * 3 * 4: their mean is 2.5 a value; their deviations
+// from it are 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)

@@ -1,5 +1,5 @@
-// Every estimator with every sampler has the same mean; uneven and many lamps against closed forms; Russian roulette against
-// the exact light of an enclosure. Run alone with --gtest_filter=Estimator*.
+// Every estimator with every sampler has the same mean; uneven and many lamps against closed forms; Russian roulette
+// against the exact light of an enclosure. Run alone with --gtest_filter=Estimator*.
 #include "batch_fixture.h"
 #include "coursework_scene.h"
 #include "floor_radiance.h"
@@ -59,7 +59,8 @@ class Estimator : public BatchFixture {};
 
 // ---- All estimators, all samplers --------------------------------------------------------------------------------
 
-// A lamp so large that directions find it by chance, over a floor with a diffuse and a glossy ball: finite variance for all.
+// A lamp so large that directions find it by chance, over a floor with a diffuse and a glossy ball: finite variance
+// for all.
 ListedScene large_lamp() {
     const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},
@@ -165,8 +166,8 @@ TEST_F(Estimator, FindsBothLampsOfRatio1e8) {
         }
 }
 
-// A black ball hides the bright lamp from the middle of the floor, which only the dim one lights. With two lamps each is
-// sampled at every vertex; with dark company there are enough to choose among.
+// A black ball hides the bright lamp from the middle of the floor, which only the dim one lights. With two lamps each
+// is sampled at every vertex; with dark company there are enough to choose among.
 TEST_F(Estimator, FindsTheDimLampWhereTheBrightOneIsHidden) {
     for (const bool with_company : {false, true}) {
         std::vector<FloorLamp> lamps = ratio_1e8;
@@ -212,9 +213,9 @@ TEST_F(Estimator, WeighsManyUnevenLamps) {
 
 // ---- Russian roulette ----------------------------------------------------------------------------------------------
 
-// A lamp of radius 1 and radiance 100 in the middle of a diffuse shell of radius 10 and albedo 1/2. A wall point sees the lamp
-// in the share q = (r / R)^2 of its directions by the cosine, and else the wall, which is the same everywhere:
-// radiance = rho Le q sum over j <= L - 2 of (rho (1 - q))^j.
+// A lamp of radius 1 and radiance 100 in the middle of a diffuse shell of radius 10 and albedo 1/2. A wall point sees
+// the lamp in the share q = (r / R)^2 of its directions by the cosine, and else the wall, which is the same
+// everywhere: radiance = rho Le q sum over j <= L - 2 of (rho (1 - q))^j.
 double enclosure(uint32_t max_path_length) {
     constexpr double q = 0.01;
     double sum = 0.0;
@@ -229,8 +230,8 @@ TEST_F(Estimator, RouletteIsUnbiased) {
     const ListedScene shell{
         {diffuse(0.5F), lamp(100)}, {{{0, 0, -2}, 1, {0, 0, 0}, 1, 0}, {{0, 0, -2}, 10, {0, 0, 0}, 0, 0}}, {}};
     set_up(shell.scene(), CourseworkScene::camera());
-    // The lamp, 3 away, covers what is within tan(asin(1/3)) = 0.354 of the image's middle, in units of its height 1: the
-    // first 4 and last 4 columns of 16, beyond 0.5, show the wall alone.
+    // The lamp, 3 away, covers what is within tan(asin(1/3)) = 0.354 of the image's middle, in units of its height 1:
+    // the first 4 and last 4 columns of 16, beyond 0.5, show the wall alone.
     std::vector<std::size_t> wall;
     for (std::size_t pixel = 0; pixel < 128; ++pixel)
         if (pixel % 16 < 4 || pixel % 16 >= 12)

@@ -195,8 +195,8 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
     EXPECT_EQ(image, uninterrupted);
 }
 
-// The check at which the error was low enough is that of an uninterrupted call, and so are the bits, however the samples come
-// there: in submissions of any length, over calls, after cancellations.
+// The check at which the error was low enough is that of an uninterrupted call, and so are the bits, however the
+// samples come there: in submissions of any length, over calls, after cancellations.
 TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
@@ -251,9 +251,9 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     EXPECT_EQ(stats().sample_count, 16U);
 }
 
-// Standard errors of n samples against the images of the first a of them, the largest power of two below n, and of the
-// others, each rendered by itself: |A - B| sqrt(a b) / n. In calls that end before, at and after the numbers at which the
-// parts of the film are folded, and across several of them.
+// Standard errors of n samples against the images of the first a of them, the largest power of two below n, and of
+// the others, each rendered by itself: |A - B| sqrt(a b) / n. In calls that end before, at and after the numbers at
+// which the parts of the film are folded, and across several of them.
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
@@ -272,8 +272,8 @@ TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
         readback(image);
         return image;
     };
-    // The largest deviation from the standard errors of two parts, over what rounding explains: of the two images and of
-    // the standard error to float32.
+    // The largest deviation from the standard errors of two parts, over what rounding explains: of the two images and
+    // of the standard error to float32.
     const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
         double worst = 0.0;
         for (std::size_t i = 0; i < found.size(); ++i) {
@@ -321,9 +321,9 @@ TEST_F(ExactnessTest, FirstSampleContinuesTheSequence) {
     }
 }
 
-// A sphere that emits 0.1 around the camera: every sample is exactly the float32 nearest to 0.1, so the mean of any number
-// of them is too. Loop trips in all go far beyond the 65,535 after which a known driver stops a kernel: the count kept by
-// the kernel, checked at readback, shows that no sample is lost.
+// A sphere that emits 0.1 around the camera: every sample is exactly the float32 nearest to 0.1, so the mean of any
+// number of them is too. Loop trips in all go far beyond the 65,535 after which a known driver stops a kernel: the
+// count kept by the kernel, checked at readback, shows that no sample is lost.
 TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
     const Image image = image_inside_a_lamp(0.1F, 1U << 20);
     EXPECT_EQ(image, Image(image.size(), 0.1F));

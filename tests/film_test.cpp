@@ -170,7 +170,8 @@ TEST(Film, LostSamplesAreAnError) {
 
 using FilmStrips = VulkanFixture;
 
-// Word p of plane i of a film that is cut into strips is 100 i + p, and pieces of it are read that begin and end anywhere.
+// Word p of plane i of a film that is cut into strips is 100 i + p, and pieces of it are read that begin and end
+// anywhere.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
     pt::Film film(device(), 4, 4, 6);

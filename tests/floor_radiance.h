@@ -1,5 +1,5 @@
-// What a pixel sees of a diffuse floor under spherical lamps, in closed form over a quadrature of the pixel and of time. Used
-// by the tests that render such scenes.
+// What a pixel sees of a diffuse floor under spherical lamps, in closed form over a quadrature of the pixel and of
+// time. Used by the tests that render such scenes.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -15,11 +15,11 @@ struct FloorLamp {
     glm::dvec3 motion{0};
 };
 
-// Mean radiance of a pixel of CourseworkScene::camera() that sees nothing but the floor y = -1, of diffuse albedo 0.8, lit by
-// lamps wholly above it and in full sight. The irradiance of a uniform sphere is that of the point at its centre with its
-// power: pi L (r / d)^2 cos (Snyder 1996); reflected, albedo / pi times that.
-// Gauss-Legendre with 2 nodes in each of cells of the pixel's sides and of time: the error is below cells^-4 / 4320 times
-// the fourth derivative.
+// Mean radiance of a pixel of CourseworkScene::camera() that sees nothing but the floor y = -1, of diffuse albedo
+// 0.8, lit by lamps wholly above it and in full sight. The irradiance of a uniform sphere is that of the point at its
+// centre with its power: pi L (r / d)^2 cos (Snyder 1996); reflected, albedo / pi times that. Gauss-Legendre with 2
+// nodes in each of cells of the pixel's sides and of time: the error is below cells^-4 / 4320 times the fourth
+// derivative.
 inline double floor_radiance(std::span<const FloorLamp> lamps, uint32_t width, uint32_t height, uint32_t column,
                              uint32_t row, int cells = 16) {
     const auto node = [&](int i) { return (i / 2 + 0.5 + (i % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0)) / cells; };

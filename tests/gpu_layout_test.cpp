@@ -104,8 +104,8 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
     EXPECT_EQ(pt::gpu_scene(scene, camera_at(camera.position + shift), features), expected);
 }
 
-// A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp that
-// is 2048 times as large as far away, and then it counts as a lamp no more.
+// A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp
+// that is 2048 times as large as far away, and then it counts as a lamp no more.
 TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     pt::Scene scene = small_scene();
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});

@@ -1,5 +1,5 @@
-// pt.h as C++, and its binary interface: numbers and types that programs were compiled with must never change. Sizes and
-// offsets are in abi/struct_layout.txt.
+// pt.h as C++, and its binary interface: numbers and types that programs were compiled with must never change. Sizes
+// and offsets are in abi/struct_layout.txt.
 #include <pt/pt.h>
 
 #include <type_traits>

@@ -1,5 +1,5 @@
-// Rays against one sphere as the device meets it, from huge ones held as planes with a curvature to rays that start a few
-// ulp from a surface, compared with long double. Run alone with --gtest_filter=Intersection*.
+// Rays against one sphere as the device meets it, from huge ones held as planes with a curvature to rays that start a
+// few ulp from a surface, compared with long double. Run alone with --gtest_filter=Intersection*.
 #include "gpu_scene.h"
 #include "intersection.spv.h"
 #include "probe.h"
@@ -84,12 +84,12 @@ struct Reference {
 
 // The largest error of distance, position and normal, each as a multiple of what rounding explains: 1 is the bound.
 //
-// The height of a ray's origin x is n . x + o + k / 2 |y|^2 with y = x + o n. Rounding n, o and k on the host and each of
-// at most ten operations on the device leaves it off by at most 8 eps S with S = |x| + |o| + |y| (1 + k |y|), and its
-// slope along the ray by 8 eps (1 + k |y|). With c, the cosine at which the ray meets the surface, the distance t changes
-// by 1 / c of an error of the height, and by t / c of one of the slope; twice that leaves room for the root's own
-// rounding: 16 eps (S + t (1 + k |y|)) / c. A point on the surface is off it by the error of the height there alone, its
-// normal by k times that, and by rounding.
+// The height of a ray's origin x is n . x + o + k / 2 |y|^2 with y = x + o n. Rounding n, o and k on the host and
+// each of at most ten operations on the device leaves it off by at most 8 eps S with S = |x| + |o| + |y| (1 + k |y|),
+// and its slope along the ray by 8 eps (1 + k |y|). With c, the cosine at which the ray meets the surface, the
+// distance t changes by 1 / c of an error of the height, and by t / c of one of the slope; twice that leaves room for
+// the root's own rounding: 16 eps (S + t (1 + k |y|)) / c. A point on the surface is off it by the error of the
+// height there alone, its normal by k times that, and by rounding.
 struct Worst {
     double distance = 0, position = 0, normal = 0;
     int missed = 0, compared = 0;
@@ -218,9 +218,9 @@ TEST(Intersection, CurvedPlanesAreMetFromFarAway) {
     expect_within_bounds(worst);
 }
 
-// Rays that leave the surface: outside they never meet it again, inside they meet the far wall, whatever the rounding of
-// their origin. A chord of length t = 2 s / k carries the error 8 eps of the slope s as 16 eps R = 8 eps t / s, which the
-// bound allows.
+// Rays that leave the surface: outside they never meet it again, inside they meet the far wall, whatever the rounding
+// of their origin. A chord of length t = 2 s / k carries the error 8 eps of the slope s as 16 eps R = 8 eps t / s,
+// which the bound allows.
 TEST(Intersection, RaysThatLeaveAHugeSphereMeetItAgainFromInsideOnly) {
     for (const double radius : {1e3, 1e6, 1e9}) {
         RandomRays random(3);
@@ -259,8 +259,8 @@ bool met_by_sign(const Ball &ball, const Ray &ray) {
 }
 
 // Rays that start on no sphere, but up to 64 ulp from this one: it lets none through, and from outside holds up none
-// that leads away. Rounding of the squared distance and of the squared radius leaves the side of an origin within 3 eps r
-// of the surface undecided; there a ray that leads inwards is met all the same, at once or on the far side.
+// that leads away. Rounding of the squared distance and of the squared radius leaves the side of an origin within 3
+// eps r of the surface undecided; there a ray that leads inwards is met all the same, at once or on the far side.
 TEST(Intersection, NothingLeaksThroughASphereNearItsSurface) {
     RandomRays random(4);
     const Ball ball{{0, 0, 0}, 3.0};

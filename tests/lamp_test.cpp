@@ -84,8 +84,8 @@ constexpr std::uint32_t samples = 1U << 20;
 // One false alarm in a million, over the at most 20 chi-squares of this file together.
 const double bound = statistics::normal_quantile(1e-6 / 20);
 
-// Chi-square deviate of the directions towards one lamp against the density that they state, times density_error, over cells
-// of equal solid angle.
+// Chi-square deviate of the directions towards one lamp against the density that they state, times density_error,
+// over cells of equal solid angle.
 double direction_deviate(const std::vector<Drawn> &drawn, const Lamp &lamp, const Viewpoint &from,
                          double density_error) {
     constexpr int bands = 15;
@@ -134,10 +134,10 @@ TEST(LampDirections, DoNotDependOnTheChoice) {
     EXPECT_LT(direction_deviate(nearest, uneven_lamps[0], {}, 1.0), bound);
 }
 
-// The one density is stated twice, for a sample and for a direction that hits the lamp, by the same function: as far as they
-// differ the weights of multiple importance sampling do not sum to 1. It is 1 / solid angle; float32 leaves a few 2^-24, and
-// more where the lamp is near: 1 - (r / d)^2 cancels, by a factor 1 / (1 - (r / d)^2) below 20 here. A compiler may round
-// each of the two in its own way, fusing products and sums.
+// The one density is stated twice, for a sample and for a direction that hits the lamp, by the same function: as far
+// as they differ the weights of multiple importance sampling do not sum to 1. It is 1 / solid angle; float32 leaves a
+// few 2^-24, and more where the lamp is near: 1 - (r / d)^2 cancels, by a factor 1 / (1 - (r / d)^2) below 20 here. A
+// compiler may round each of the two in its own way, fusing products and sums.
 TEST(LampDensity, IsTheSameForBothTechniquesAndRight) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 6, 1U << 16);
     for (const Drawn &sample : drawn)
@@ -190,8 +190,8 @@ TEST(LampChoice, ProbabilitiesSumToOne) {
     EXPECT_NEAR(probability_sum(draw(uneven_lamps, {}, 8, 64), uneven_lamps.size()), 1.0, 16 * 0x1p-24);
 }
 
-// As it is documented: nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly. And so never below a tenth
-// of the even share for a lamp that is partly above the horizon, however dim; 0 for one below it.
+// As it is documented: nine tenths by radiance (r / d)^2 min(1, (n . v + r) / d), one tenth evenly. And so never
+// below a tenth of the even share for a lamp that is partly above the horizon, however dim; 0 for one below it.
 TEST(LampChoice, HasTheDocumentedProbability) {
     const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 9, 64);
     std::vector<double> weights;

@@ -45,8 +45,8 @@ protected:
 
 // ---- A moving disc -------------------------------------------------------------------------------------------------
 
-// Share of time and place in a pixel of 64 x 32 for which the sphere covers it: exact integrals over time (the interval in
-// which a direction meets the sphere), quadrature over the pixel.
+// Share of time and place in a pixel of 64 x 32 for which the sphere covers it: exact integrals over time (the
+// interval in which a direction meets the sphere), quadrature over the pixel.
 struct Covered {
     uint32_t column;
     uint32_t row;
@@ -86,8 +86,8 @@ TEST_F(Motion, DiscCoversTheExactShare) {
     EXPECT_GT(worst_coverage(batches), allowed(disc_batches));
 }
 
-// Plain Halton has no seed, so its error is bounded as a quadrature: 1024 points in base 2 by 3 by 5 of an indicator whose
-// boundary crosses the cells of 4096 points: the random error sqrt(p (1 - p) / n) bounds it from above.
+// Plain Halton has no seed, so its error is bounded as a quadrature: 1024 points in base 2 by 3 by 5 of an indicator
+// whose boundary crosses the cells of 4096 points: the random error sqrt(p (1 - p) / n) bounds it from above.
 TEST_F(Motion, HaltonCoversTheExactShare) {
     set_up_sphere(moving_disc(1), 1, 0);
     pt_render render = render_of(64, 32, 1);
@@ -153,8 +153,8 @@ TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
     EXPECT_GT(worst, allowed(lamp_batches));
 }
 
-// The mean of frozen times is the integral over time by the midpoint rule. With 64 of them its error is below 1e-4 of the
-// value: step^2 / 24 times the second derivative, which is below (6 / 2)^2 * 3 here.
+// The mean of frozen times is the integral over time by the midpoint rule. With 64 of them its error is below 1e-4 of
+// the value: step^2 / 24 times the second derivative, which is below (6 / 2)^2 * 3 here.
 TEST_F(Motion, LampIsTheMeanOfFrozenTimes) {
     pt_render render = render_of(16, 8, 2);
     constexpr uint32_t times = 64;

@@ -1,5 +1,5 @@
-// Contexts on the caller's own Vulkan, through pt.h. What the layer in the caller's instance says, leaks included, fails
-// the test.
+// Contexts on the caller's own Vulkan, through pt.h. What the layer in the caller's instance says, leaks included,
+// fails the test.
 #include "caller_vulkan.h"
 #include "context_fixture.h"
 #include "coursework_scene.h"

@@ -57,8 +57,8 @@ void gauss_legendre(int count, std::vector<double> &nodes, std::vector<double> &
     }
 }
 
-// A quadrature of the sphere about an axis, for lobes of an exponent about it: substituting the cosine c = s^(1 / (n + 1)) on the lobe's half
-// space turns the lobe into a constant, so that glossy lobes need no finer nodes.
+// A quadrature of the sphere about an axis, for lobes of an exponent about it: substituting the cosine c = s^(1 / (n
+// + 1)) on the lobe's half space turns the lobe into a constant, so that glossy lobes need no finer nodes.
 struct Quadrature {
     std::vector<glm::vec4> directions;
     std::vector<double> weights;
@@ -91,8 +91,8 @@ Quadrature quadrature_about(const glm::dvec3 &axis, double exponent) {
     return result;
 }
 
-// Value (x) and density (y) that the device finds for light leaving in the given directions, when it arrives at an angle to
-// the normal z.
+// Value (x) and density (y) that the device finds for light leaving in the given directions, when it arrives at an
+// angle to the normal z.
 std::vector<glm::vec4> evaluate(const std::vector<glm::vec4> &directions, double angle_degrees, float diffuse,
                                 float specular, double exponent, float probability) {
     const double angle = angle_degrees * std::numbers::pi / 180.0;
@@ -136,10 +136,10 @@ Integrals integrate_diffuse(double angle_degrees, float diffuse) {
     return sums(quadrature, evaluate(quadrature.directions, angle_degrees, diffuse, 0.0F, 1.0, 0.0F));
 }
 
-// What the sum may be off by. The quadrature: the lobe is smooth in s, but the horizon cuts through rings, whose share above
-// it is known to one azimuth step, 1 / 512, twice; over 96 rings these errors alternate and stay below 1e-4 of the lobe.
-// The device: the lobe's exponent multiplies the relative error of log(1 - y), a few 2^-24, by up to 69 before the lobe
-// vanishes: below 1e-5.
+// What the sum may be off by. The quadrature: the lobe is smooth in s, but the horizon cuts through rings, whose
+// share above it is known to one azimuth step, 1 / 512, twice; over 96 rings these errors alternate and stay below
+// 1e-4 of the lobe. The device: the lobe's exponent multiplies the relative error of log(1 - y), a few 2^-24, by up
+// to 69 before the lobe vanishes: below 1e-5.
 constexpr double tolerance = 2e-4;
 
 TEST(Phong, SpecularAlbedoIsTheClosedForm) {

@@ -240,8 +240,8 @@ using DriverMayLeak = __lsan::ScopedDisabler;
 struct DriverMayLeak {};
 #endif
 
-// Code whose entry point has another name than "main" is no kernel for any driver. Without the validation layer, which would
-// complain of it first.
+// Code whose entry point has another name than "main" is no kernel for any driver. Without the validation layer,
+// which would complain of it first.
 TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";

@@ -103,9 +103,9 @@ Agreement agreement(const std::vector<Image> &batches, const Image &reference, d
 }
 
 // With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154 and standard deviation 1.84, so its mean over 512
-// independent blocks has standard deviation 0.081. Sums of 64 pixels are not quite normal and the reference's noise is not
-// quite spread like ours; 0.5 above the mean, 6 standard deviations, leaves room for that and still sees a bias of one
-// standard error per block.
+// independent blocks has standard deviation 0.081. Sums of 64 pixels are not quite normal and the reference's noise
+// is not quite spread like ours; 0.5 above the mean, 6 standard deviations, leaves room for that and still sees a
+// bias of one standard error per block.
 constexpr double expected_mean_square_t = 15.0 / 13.0;
 constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
 // P(|t| > 8.5) = 4e-7 with 15 degrees of freedom: 2e-4 over 512 blocks.

@@ -146,8 +146,9 @@ TEST(SamplerHalton, OfABranchIsTheRadicalInverseOfASampleOfItsOwn) {
         }
 }
 
-// Whether the difference modulo 1 between a sample and the first one is the same in every pixel: the sum of 32-bit words is
-// exact, but cutting each to 24 bits leaves a difference of 0 or 1 unit, and so 2 units between the extremes.
+// Whether the difference modulo 1 between a sample and the first one is the same in every pixel: the sum of 32-bit
+// words is exact, but cutting each to 24 bits leaves a difference of 0 or 1 unit, and so 2 units between the
+// extremes.
 bool rotations_are_constant(const Blocks &blocks, std::uint32_t pixels, std::uint32_t samples) {
     constexpr std::uint32_t mask = (1U << 24) - 1;
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel)
@@ -173,7 +174,8 @@ TEST(SamplerHaltonCp, RotatesEachPixelAndDimensionByAConstant) {
     EXPECT_FALSE(rotations_are_constant(blocks, request.pixel_count, request.sample_count));
 }
 
-// The rotation itself is what point 0, all zeros, becomes; IsUniformOverPixels tests its distribution about another point.
+// The rotation itself is what point 0, all zeros, becomes; IsUniformOverPixels tests its distribution about another
+// point.
 TEST(SamplerHaltonCp, RotationsAreUniform) {
     Request request;
     request.pixel_count = 1U << 18;
@@ -182,8 +184,8 @@ TEST(SamplerHaltonCp, RotationsAreUniform) {
     EXPECT_LT(pair_deviate(component(blocks, 0, 0, 2), component(blocks, 0, 1, 2)), bound);
 }
 
-// The chi-squares must be able to fail: Halton's points of one pixel are far more even than random ones are, but repeated
-// over pixels they are far less so, and a correlation of 3 in 100 between neighbours shows.
+// The chi-squares must be able to fail: Halton's points of one pixel are far more even than random ones are, but
+// repeated over pixels they are far less so, and a correlation of 3 in 100 between neighbours shows.
 TEST(SamplerChecks, NegativeControls) {
     Request request;
     request.pixel_count = 1U << 18;

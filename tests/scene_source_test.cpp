@@ -56,8 +56,8 @@ InvarianceScene diffuse_scene() {
     return scene;
 }
 
-// Where scenes are not compiled into the kernel, each has one source, and compilers may fuse a product and a sum of the one
-// where they do not of another.
+// Where scenes are not compiled into the kernel, each has one source, and compilers may fuse a product and a sum of
+// the one where they do not of another.
 class SceneSource : public testing::Test {
 protected:
     void SetUp() override {

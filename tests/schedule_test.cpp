@@ -283,7 +283,8 @@ TEST(Schedule, PassesOverImpossibleTimes) {
     EXPECT_EQ(budget_after(std::numeric_limits<double>::quiet_NaN()), 16384.0);
 }
 
-// A slice of one workgroup is all overhead; it must not be taken for the speed of the device, which would be 78 times lower.
+// A slice of one workgroup is all overhead; it must not be taken for the speed of the device, which would be 78 times
+// lower.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = 1U << 30;

@@ -1,5 +1,5 @@
-// Kernels compiled from GLSL while the program runs: the words that the build embeds, and what is said of files that do not
-// compile. Without a device.
+// Kernels compiled from GLSL while the program runs: the words that the build embeds, and what is said of files that
+// do not compile. Without a device.
 #include "shader_source.h"
 
 #include "error.h"

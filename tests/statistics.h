@@ -10,7 +10,8 @@
 
 namespace statistics {
 
-// The deviate z with P(N(0, 1) > z) = probability, for small probabilities, by bisection on the complementary error function.
+// The deviate z with P(N(0, 1) > z) = probability, for small probabilities, by bisection on the complementary error
+// function.
 inline double normal_quantile(double probability) {
     double low = 0.0;
     double high = 40.0;
@@ -21,9 +22,9 @@ inline double normal_quantile(double probability) {
     return low;
 }
 
-// Chi-square of observed counts against expected ones, as a standard normal deviate (Wilson and Hilferty 1931: the cube
-// root of chi^2 / k is nearly normal with mean 1 - 2 / (9 k) and variance 2 / (9 k)). Expected counts below 10 are refused:
-// the approximation needs them.
+// Chi-square of observed counts against expected ones, as a standard normal deviate (Wilson and Hilferty 1931: the
+// cube root of chi^2 / k is nearly normal with mean 1 - 2 / (9 k) and variance 2 / (9 k)). Expected counts below 10
+// are refused: the approximation needs them.
 inline double chi_square_deviate(std::span<const double> observed, std::span<const double> expected) {
     double chi_square = 0.0;
     for (std::size_t i = 0; i < observed.size(); ++i) {

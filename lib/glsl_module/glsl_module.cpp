@@ -23,8 +23,8 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// What glslangValidator's -V stands for; and that the compiler goes on after an error, to tell of all at once. Where it stops
-// within an included file, it takes the next directive for another error.
+// What glslangValidator's -V stands for; and that the compiler goes on after an error, to tell of all at once. Where
+// it stops within an included file, it takes the next directive for another error.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 // glslang's log ends with empty lines.

@@ -1,5 +1,5 @@
-// Submissions to a logical device, one after the other, and waiting for them. Owned by RenderDevice; buffers and pipelines
-// are made on it.
+// Submissions to a logical device, one after the other, and waiting for them. Owned by RenderDevice; buffers and
+// pipelines are made on it.
 #pragma once
 
 #include "vulkan/instance.h"

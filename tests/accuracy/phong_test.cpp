@@ -85,11 +85,11 @@ Real power(Real cosine, Real n) {
     return cosine > 0 ? std::pow(cosine, n) : 0;
 }
 
-// max(0, wo . r)^n for the unit vectors along r and wo, where the device's r is off by mirror_error. With u = 2^-24: y
-// = |wo - r|^2 / 2 errs by 2 u for the differences, u for the squares, 2 u for the sums; unit vectors that are too long
-// by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log(1 - y) errs by 24
-// u (13.5 ulp of at most u each where the logarithm is 0.29), its product with n by u, and exp(x) by 4 + 5 |x| ulp of at most
-// 2 u. Below 2^-99 the lobe is 0.
+// max(0, wo . r)^n for the unit vectors along r and wo, where the device's r is off by mirror_error. With u = 2^-24:
+// y = |wo - r|^2 / 2 errs by 2 u for the differences, u for the squares, 2 u for the sums; unit vectors that are too
+// long by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log(1 - y)
+// errs by 24 u (13.5 ulp of at most u each where the logarithm is 0.29), its product with n by u, and exp(x) by 4 + 5
+// |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
     const Real y = glm::dot(chord, chord) / 2;

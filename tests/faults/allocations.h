@@ -1,4 +1,5 @@
-// Host memory that runs out on demand: replaces the global operator new, so that a chosen allocation of the library fails.
+// Host memory that runs out on demand: replaces the global operator new, so that a chosen allocation of the library
+// fails.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Host memory that runs out at every place where the library allocates: the call fails as pt.h says, changes nothing, and
-// leaks nothing.
+// Host memory that runs out at every place where the library allocates: the call fails as pt.h says, changes nothing,
+// and leaks nothing.
 #include "allocations.h"
 #include "sweep.h"
 #include "table.h"

@@ -196,8 +196,8 @@ void Life::call(const std::string &step, const Function &function, const std::fu
     EXPECT_GE(run(function), PT_OK) << step << ": " << pt_last_error(context_);
 }
 
-// A call that fails keeps the whole samples that it has taken, which may be all. Of several devices none may be left, if
-// memory does not suffice to complete what each has begun.
+// A call that fails keeps the whole samples that it has taken, which may be all. Of several devices none may be left,
+// if memory does not suffice to complete what each has begun.
 void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;

@@ -1,5 +1,5 @@
-// The life of a context, call by call, in which each call may fail once: then the contract of pt.h is expected of it, and
-// the call is made again. Told by the tests of host memory and of Vulkan calls.
+// The life of a context, call by call, in which each call may fail once: then the contract of pt.h is expected of it,
+// and the call is made again. Told by the tests of host memory and of Vulkan calls.
 #pragma once
 
 #include <pt/pt.h>
@@ -46,7 +46,8 @@ using Steps = std::set<std::string>;
 
 class Life {
 public:
-    // injected: the calls that something may happen to. The life is no longer than they take, and looks at nothing else.
+    // injected: the calls that something may happen to. The life is no longer than they take, and looks at nothing
+    // else.
     Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected);
     ~Life();
     Life(const Life &) = delete;

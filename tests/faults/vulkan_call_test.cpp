@@ -1,5 +1,5 @@
-// Vulkan calls that fail, every one of them: the call of pt.h fails as it says, changes nothing but that a lost device stays
-// lost, and leaks nothing.
+// Vulkan calls that fail, every one of them: the call of pt.h fails as it says, changes nothing but that a lost
+// device stays lost, and leaks nothing.
 #include "sweep.h"
 #include "table.h"
 #include "vulkan_calls.h"

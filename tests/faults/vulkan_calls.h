@@ -1,5 +1,5 @@
-// Stands between the library and Vulkan: makes a chosen call fail, and knows the objects that are alive. The library gets
-// its functions from vkGetInstanceProcAddr, which the linker replaces by this one (--wrap).
+// Stands between the library and Vulkan: makes a chosen call fail, and knows the objects that are alive. The library
+// gets its functions from vkGetInstanceProcAddr, which the linker replaces by this one (--wrap).
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -27,8 +27,8 @@ CallFault call_fault();
 // Whether what was made is undone: a device that was lost or hangs does so no more.
 void heal_devices();
 
-// Devices say that they are discrete GPUs, which the library uses in other ways: with staging buffers, two submissions at
-// a time, and an end to its patience.
+// Devices say that they are discrete GPUs, which the library uses in other ways: with staging buffers, two
+// submissions at a time, and an end to its patience.
 void pose_as_gpu(bool pose);
 
 // Vulkan objects by the name of what made them. Descriptor sets and command buffers go with their

@@ -1,5 +1,5 @@
-// The Vulkan functions that the library calls, what they do to objects, and the errors that they may return (Vulkan 1.3.239,
-// "Return Codes" of each).
+// The Vulkan functions that the library calls, what they do to objects, and the errors that they may return (Vulkan
+// 1.3.239, "Return Codes" of each).
 #pragma once
 
 // X(name without vk, effect on objects, errors...)

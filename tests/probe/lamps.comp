@@ -1,4 +1,5 @@
-// Chooses and samples lamps from one vertex with the shipped functions; the first invocations state how they see each lamp.
+// Chooses and samples lamps from one vertex with the shipped functions; the first invocations state how they see each
+// lamp.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -1,6 +1,6 @@
-// A program of somebody else, in C++: inside a ball that shines, every pixel has the ball's radiance, exactly. It has a
-// namespace pt of its own, with names that the library uses inside. Exit status 0 if all is as it should be; an argument
-// takes the place of the red that is expected, so that the check can be seen to fail.
+// A program of somebody else, in C++: inside a ball that shines, every pixel has the ball's radiance, exactly. It has
+// a namespace pt of its own, with names that the library uses inside. Exit status 0 if all is as it should be; an
+// argument takes the place of the red that is expected, so that the check can be seen to fail.
 #include <pt/pt.h>
 
 #include <cstdlib>
