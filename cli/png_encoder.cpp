@@ -39,6 +39,7 @@ struct Encoding {
     static void ignore(png_structp, png_const_charp) {}
     static void flush(png_structp) {}
 
+    // NOLINTNEXTLINE(readability-non-const-parameter): the type is libpng's
     static void append(png_structp png, png_bytep bytes, std::size_t size) {
         auto &file = static_cast<Encoding *>(png_get_io_ptr(png))->file;
         bool fits = true;
@@ -78,7 +79,7 @@ std::vector<png_bytep> rows_of(const pt_image_data &image) {
 
 // False after a failure. A long jump runs no destructors: this function has no objects that need one.
 bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> texts, png_bytepp rows) {
-    if (setjmp(png_jmpbuf(encoding.png)) != 0) {
+    if (setjmp(png_jmpbuf(encoding.png)) != 0) { // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
     }
     png_set_IHDR(encoding.png, encoding.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,

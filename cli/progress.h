@@ -32,7 +32,7 @@ public:
     }
 
     // The same by the samples that are done. The share that is told never falls, whatever is expected in between.
-    void update_samples(double sample_count, Clock::time_point now);
+    void update_samples(double samples_of_part, Clock::time_point now);
 
     // From now on this many samples are to be traced in all.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }

@@ -1,11 +1,15 @@
 # Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt
-# the program. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
+# the program, and libpt0-glsl with which either compiles kernels while it runs. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
 set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR})
 set(pt_development_package libpt-dev)
 set(pt_program_package pt)
+set(pt_compiler_package libpt${PROJECT_VERSION_MAJOR}-glsl)
 set(CPACK_COMPONENTS_ALL pt_runtime pt_development)
 if(PT_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL pt_program)
+endif()
+if(TARGET pt-glsl)
+  list(APPEND CPACK_COMPONENTS_ALL pt_compiler)
 endif()
 
 # Where Debian wants it; an installation without packages does not have it.
@@ -75,4 +79,12 @@ EXR, PNG and JPEG."
 )
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
+
+set(CPACK_DEBIAN_PT_COMPILER_DESCRIPTION
+    "${pt_story}
+This package has the module that compiles changed kernels while a program
+runs, and the kernels' sources."
+)
+set(CPACK_DEBIAN_PT_COMPILER_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_PT_COMPILER_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
 include(CPack)

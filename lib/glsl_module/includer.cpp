@@ -19,7 +19,7 @@ constexpr std::ptrdiff_t most_open_times = 2;
 // glslang refers to the text until it calls releaseInclude.
 glslang::TShader::Includer::IncludeResult *hand_over(const std::string &name, std::unique_ptr<std::string> text) {
     auto *const result = new glslang::TShader::Includer::IncludeResult(name, text->data(), text->size(), text.get());
-    text.release();
+    static_cast<void>(text.release()); // the result's user data owns it
     return result;
 }
 
