@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 
 namespace cli {
 namespace {
@@ -65,10 +66,8 @@ Colour agx(const Colour &colour) {
     for (double &component : signal) {
         const double stops = std::clamp(std::log2(component), lowest, highest); // log2(0) = -inf is clamped too
         const double x = (stops - lowest) / (highest - lowest);
-        component = 0.0;
-        for (auto coefficient = sigmoid.rbegin(); coefficient != sigmoid.rend(); ++coefficient) {
-            component = component * x + *coefficient; // Horner
-        }
+        const auto horner = [x](double sum, double coefficient) { return sum * x + coefficient; };
+        component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
     }
     Colour light = clamp(multiply(outset, signal));
     for (double &component : light) {
