@@ -31,7 +31,7 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
         ->type_name("FILE");
     command
         .add_option("--standard-error", options.standard_error,
-                    "Write the standard error of every pixel (.exr), estimated from two halves of its samples")
+                    "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
         ->type_name("FILE");
     command.add_option("--stats", options.stats, "Write the facts of the rendering as JSON")->type_name("FILE");
 }

@@ -43,7 +43,9 @@ SourceFiles read_source_files(const std::filesystem::path &scene, const std::fil
     SourceFiles files{{scene, contents_of(scene)}};
     std::vector<std::filesystem::path> to_read;
     if (!shader_dir.empty()) {
-        to_read = {shader_dir / "pathtrace.comp", shader_dir / "commit.comp", shader_dir / "accuracy.comp"};
+        for (const char *kernel : {"pathtrace.comp", "commit.comp", "fold.comp", "accuracy.comp"}) {
+            to_read.push_back(shader_dir / kernel);
+        }
     }
     while (!to_read.empty()) {
         const std::filesystem::path path = to_read.back().lexically_normal();

@@ -19,8 +19,7 @@ public:
     // The files are to be used as they are now: changes from here on count.
     void begin();
 
-    // As they were then.
-    const SourceFiles &files() const { return begun_; }
+    // As it was then.
     const std::optional<std::string> &scene_text() const { return begun_.at(scene_); }
 
     // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits

@@ -1,5 +1,5 @@
 // The film: exact sums of samples on the device, in strips, and their read-out to radiance and its error. Owned by
-// Renderer.
+// RenderDevice.
 #pragma once
 
 #include "gpu_layout.h"

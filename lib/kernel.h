@@ -1,5 +1,5 @@
 // The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads.
-// Owned by Renderer, which makes a new one when any of them changes.
+// Owned by RenderDevice, which makes a new one when any of them changes.
 #pragma once
 
 #include "camera.h"
@@ -28,7 +28,6 @@ public:
            const RenderSettings &settings);
 
     const Features &features() const { return features_; }
-    const PointLayout &point_layout() const { return layout_; }
     double film_unit() const { return film_unit_; }
 
     // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the

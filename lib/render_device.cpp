@@ -28,7 +28,8 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
 
 // Before what the work under way uses goes. Where it does not end, that is left alone (vulkan/device_object.h).
 RenderDevice::~RenderDevice() {
-    device_.comes_to_rest();
+    if (!device_.comes_to_rest())
+        device_.abandon();
 }
 
 // Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
@@ -50,7 +51,8 @@ void RenderDevice::set_film(Film film) {
 }
 
 void RenderDevice::discard_samples() noexcept {
-    kernel_.reset();
+    if (!device_.hangs()) // else it is up to the destructor, by when the work may have ended
+        kernel_.reset();
     pass_pixels_ = 0;
 }
 

@@ -20,12 +20,12 @@ namespace {
 constexpr const char *module_name = "libpt-glsl.so";
 
 // With a slash at its end, of the file that this function is in: the shared library, or the program that it is linked
-// into.
+// into. Empty if that was started or found by a relative path, which may mean another file by now.
 std::string own_directory() {
     Dl_info info{};
     const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
     const std::string path = found ? info.dli_fname : "";
-    return path.substr(0, path.rfind('/') + 1); // empty without a slash
+    return path.starts_with('/') ? path.substr(0, path.rfind('/') + 1) : "";
 }
 
 // The module beside the library, so that an installed tree can be moved, else where the system looks for libraries;

@@ -49,8 +49,14 @@ const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> 
 
 const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,
                                                      std::span<const glm::vec4> words, double seconds) {
-    const bool same_features = features_ == features;
+    const vulkan::ComputePipeline &pipeline = find_or_build(features, sharers, words, seconds);
     features_ = features;
+    return pipeline;
+}
+
+const vulkan::ComputePipeline &TracePipelines::find_or_build(const Features &features, std::uint32_t sharers,
+                                                             std::span<const glm::vec4> words, double seconds) {
+    const bool same_features = features_ == features;
     std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
     if (device_.policy().scene_in_constants && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);

@@ -43,11 +43,13 @@ private:
         vulkan::ComputePipeline pipeline;
     };
 
+    const vulkan::ComputePipeline &find_or_build(const Features &features, std::uint32_t sharers,
+                                                 std::span<const glm::vec4> words, double seconds);
     const vulkan::ComputePipeline &build(std::optional<Specialised> &place, std::vector<std::uint32_t> constants);
 
     vulkan::Device &device_;
     KernelCode code_;
-    std::optional<Features> features_;     // of the scene before
+    std::optional<Features> features_;     // of the kernel that was asked for last
     std::optional<Specialised> any_scene_; // reads the scene from a buffer
     std::optional<Specialised> one_scene_; // has the scene's numbers as constants
     std::optional<vulkan::ComputePipeline> commit_;

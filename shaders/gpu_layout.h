@@ -1,5 +1,5 @@
 // Everything that the host and the kernels must agree on: specialization constants, bindings, buffers, push constants.
-// Included by the GLSL sources and, for the host, by lib/gpu_scene.h, lib/film.h and lib/renderer.cpp.
+// Included by the GLSL sources and, for the host, by lib/.
 #ifndef PT_GPU_LAYOUT_H
 #define PT_GPU_LAYOUT_H
 

@@ -1,4 +1,4 @@
-// A buffer on the device with memory of its own. Made by Film and Renderer.
+// A buffer on the device with memory of its own. Made by Film and Kernel, and to measure accuracy.
 #pragma once
 
 #include "vulkan/device.h"

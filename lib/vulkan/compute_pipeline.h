@@ -1,4 +1,4 @@
-// A compute kernel, specialised, with the buffers that it is bound to. Made by Renderer.
+// A compute kernel, specialised, with the buffers that it is bound to. Made by TracePipelines, and to measure accuracy.
 #pragma once
 
 #include "vulkan/buffer.h"

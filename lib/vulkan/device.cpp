@@ -91,7 +91,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
 }
 
 Device::~Device() {
-    if (comes_to_rest())
+    if (!abandoned_ && comes_to_rest())
         return;
     // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
     // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
@@ -106,8 +106,9 @@ Device::~Device() {
 }
 
 bool Device::hangs() const {
-    return gave_up_ &&
-           !std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
+    return abandoned_ || (gave_up_ && !std::ranges::all_of(submissions_, [&](const Submission &submission) {
+                              return ended(submission);
+                          }));
 }
 
 // Whether a submission has come to an end by now, be it by the loss of the device.
@@ -144,6 +145,7 @@ Device::Ticket Device::start(const Record &record) {
         try {
             free->start = logical_device_.submit({.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
         } catch (const vk::DeviceLostError &error) {
+            comes_to_rest(); // the submissions before it; what they use may be destroyed from here on
             lose(error.what());
         }
     });

@@ -51,8 +51,12 @@ public:
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
     bool lost() const { return !lost_message_.empty(); }
 
-    // Whether submissions that were given up are still under way. What they use must not be destroyed then.
+    // Whether submissions that were given up are still under way, or were when the device was abandoned. What they use
+    // must not be destroyed then.
     bool hangs() const;
+
+    // Leaves the device, and all that is still to be destroyed on it, to the end of the process, whatever ends meanwhile.
+    void abandon() noexcept { abandoned_ = true; }
 
     // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, from the moment that the device was lost.
     void require_alive() const;
@@ -115,6 +119,7 @@ private:
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_;
     bool gave_up_ = false; // on a submission whose end was not seen
+    bool abandoned_ = false;
 };
 
 // Makes what the dispatches before it wrote visible to those after it.

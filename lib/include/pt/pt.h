@@ -352,7 +352,8 @@ typedef struct pt_create_info {
      * compiled by pt_create, and again by pt_reload_shaders: pathtrace.comp, commit.comp, fold.comp, accuracy.comp and
      * what they include, beside the including file or in this folder. A relative path is relative to the working
      * directory at that time. gpu_layout.h is an agreement with the library's host code: what it says of memory must
-     * stay. The compiler is a module beside the library, pt/libpt-glsl.so; PT_ERROR_UNSUPPORTED without it. */
+     * stay. The compiler is a module beside the library (or the program that the static library is in), pt/libpt-glsl.so,
+     * or where the system finds libraries; PT_ERROR_UNSUPPORTED without it. */
     const char *shader_dir;
 } pt_create_info;
 
@@ -429,7 +430,8 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * One thread at a time per context. PT_ERROR_SHADER: a file is missing or does not compile, with the compiler's messages
  * (one line each, with the name of the file and the line) in pt_last_error; or a driver refuses the kernels for the
  * scene that is being rendered (a scene that no sample was taken of yet is tried by the next pt_accumulate).
- * PT_ERROR_INVALID_STATE: there is no shader_dir. */
+ * PT_ERROR_INVALID_STATE: there is no shader_dir. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said
+ * so. */
 PT_API pt_result pt_reload_shaders(pt_context *context);
 
 /** Adds samples to every pixel and returns when they are done.
@@ -456,7 +458,7 @@ PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 /** Writes what has been done; at any time, of a lost device too.
  *
  * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
- * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while the error was read. */
+ * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
 
 /** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
