@@ -66,15 +66,8 @@ private:
     static inline PFN_vkQueueSubmit real_submit = nullptr;
 };
 
-class BorrowedDeviceTest : public testing::Test {
+class BorrowedDeviceTest : public CallerVulkanFixture {
 protected:
-    void SetUp() override { caller_.emplace(messages_); }
-    void TearDown() override {
-        caller_.reset();
-        for (const std::string &line : messages_.take())
-            ADD_FAILURE() << line;
-    }
-
     CallerVulkan handles(bool with_lock) const {
         pt_vulkan vulkan = caller_->handles();
         vulkan.lock_queue = with_lock ? &QueueSpy::lock : nullptr;
@@ -108,9 +101,6 @@ protected:
         buffer.upload(words, 0);
         buffer.download(words, 0);
     }
-
-    LayerMessages messages_;
-    std::optional<CallersOwnVulkan> caller_;
 };
 
 TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {

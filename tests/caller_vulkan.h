@@ -7,6 +7,8 @@
 
 #include <pt/pt.h>
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -134,4 +136,20 @@ private:
     std::uint32_t family_;
     vk::raii::Device device_;
     vk::raii::Queue queue_;
+};
+
+// Tests with a Vulkan of their own. What the layer says fails them; it reports what is left on the device when that is
+// destroyed.
+class CallerVulkanFixture : public testing::Test {
+protected:
+    void SetUp() override { caller_.emplace(messages_); }
+
+    void TearDown() override {
+        caller_.reset();
+        for (const std::string &line : messages_.take())
+            ADD_FAILURE() << line;
+    }
+
+    LayerMessages messages_;
+    std::optional<CallersOwnVulkan> caller_;
 };

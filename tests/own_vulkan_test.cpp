@@ -53,17 +53,8 @@ struct QueueMutex {
     }
 };
 
-class OwnVulkanTest : public testing::Test {
+class OwnVulkanTest : public CallerVulkanFixture {
 protected:
-    void SetUp() override { caller_.emplace(messages_); }
-
-    // The layer reports what is left on the device when it is destroyed.
-    void TearDown() override {
-        caller_.reset();
-        for (const std::string &line : messages_.take())
-            ADD_FAILURE() << line;
-    }
-
     const CallersOwnVulkan &caller() const { return *caller_; }
 
     static pt_create_info info_of(const pt_vulkan &vulkan) {
@@ -105,9 +96,6 @@ protected:
         caller().queue().waitIdle();
         EXPECT_EQ(event.getStatus(), vk::Result::eEventSet);
     }
-
-    LayerMessages messages_;
-    std::optional<CallersOwnVulkan> caller_;
 };
 
 TEST_F(OwnVulkanTest, GivesTheBitsOfADeviceOfItsOwn) {
