@@ -44,15 +44,17 @@ Renderer::Renderer(const CreateSettings &settings) :
 void Renderer::use_own_devices(const CreateSettings &settings) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
     for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
-        devices_.push_back(std::make_unique<RenderDevice>(instance_, devices[index],
-                                                          vulkan::LogicalDevice::create(devices[index]), code_,
-                                                          settings.submit_milliseconds * 1e-3));
+        add_device(devices[index], vulkan::LogicalDevice::create(devices[index]), settings);
 }
 
 void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
     const vk::raii::PhysicalDevice physical_device = validated_physical_device(instance_.handle(), caller);
-    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device,
-                                                      vulkan::LogicalDevice::borrow(physical_device, caller), code_,
+    add_device(physical_device, vulkan::LogicalDevice::borrow(physical_device, caller), settings);
+}
+
+void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
+                          const CreateSettings &settings) {
+    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
                                                       settings.submit_milliseconds * 1e-3));
 }
 
