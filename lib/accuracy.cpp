@@ -36,8 +36,8 @@ double cosine_of_turn(double u) {
 constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
 // 1/4, where the polynomial ends, and where 1 - x passes powers of two.
 constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
-// Odd multiples of ln(2) / 2, where the power of two changes, and of ln(2).
-constexpr float logarithms[] = {-0.34657359F, -0.693147181F, -1.03972077F, -17.0F, -68.965F};
+// Odd multiples of 1/2, where the nearest integer changes, and integers.
+constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
 constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 
 // What the bounds below are made of. Let u = 2^-24. A sum, difference or product is rounded correctly, by half an ulp
@@ -45,24 +45,26 @@ constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 // gives (specification, "Precision and Operation of SPIR-V Instructions"). An ulp is at most 2 u of its value, and u of
 // the value at most an ulp: errors k u before the last operation are k ulp of the result at most.
 constexpr ElementaryFunction functions[] = {
-    // x = 2 pi d, d exact: u / 2 for the constant, u for the product. s = x (1 + p), |p| <= 0.1: p errs by 7.3 u of
-    // itself (4 for x^2, 2.3 for its cofactor, 1), so 0.8 u; the sum 0.6 u; the remainder 0.04 u; the last product half
-    // an ulp: 3.4. c = 1 + p, |p| <= 0.293, errs by 6.4 u of p, the remainder 0.4 u, and half an ulp: 2.8.
-    {"sine (sin_cos_turn)", sine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
-    {"cosine (sin_cos_turn)", cosine_of_turn, 3.5, 0x1p-100F, 1.0F, turns},
-    // Below 1/4: 1 + y tail errs by 1.3 u (half of u for the sum, 0.8 u of at most 0.16 for the rest) and 0.2 u for
-    // the polynomial, the products by u and half an ulp: 3. From 1/4 on log2 errs by 2^-21, which is 5.5 u of the
-    // logarithm, and 1 - y by u / 2, which is 0.7 u: at 1/4, where an ulp is u / 2, 12.5, and half for the product.
-    {"log(1 - x) (log_one_minus)", [](double x) { return std::log1p(-x); }, 13.5, 0x1p-100F, 0x1.fffffep-1F,
-     complements},
-    // exp2 of y, |y| <= 99.5, errs by 3 + 2 |y| ulp; y by 1.2 u of itself, for constant and product: 0.85 |y| u.
-    {"exp(x) (exp_negative)", [](double x) { return std::exp(x); }, 290.0, -0x1p-100F, -69.0F, logarithms},
-    // r errs by 0.3 u: the sum a quarter, the small half of ln 2 the rest. e = r (1 + w), |w| <= 0.2: 2.2 u of e for
-    // w, the sum and the product; 0.1 u for the remainder. k = 0: the result is -e, 1.2 u before and half an ulp for
-    // its last product, 0.3 u for the remainder. k = -1 is worst at r = ln(2) / 2, where the result is 0.29: half of
-    // the 1.4 u of e above, and u / 2 is an ulp there: 1.9 with the last rounding. For smaller k the result grows and
-    // the share of e falls.
-    {"1 - exp(x) (one_minus_exp)", [](double x) { return -std::expm1(x); }, 2.5, -0x1p-100F, -69.0F, logarithms},
+    // m is exact, w and 1/2 - u below m = 1/8 are rounded by u of themselves at most. sin: u for 1/2 - u, u for the
+    // product with m; q, in [12.5, 16], errs by 0.75 u for w^2, 0.65 u for its last sum, 0.55 u for the rest; half an
+    // ulp: 4.5. cos, worst near 1, where -w p has p = 4: 0.5 u for w^2, u for the last sum of p, 1.2 u for its cofactor,
+    // 0.9 u for its constant, 0.1 u for the remainder (for w, where it is rounded, up to 0.8 u more, but there p is
+    // larger); half an ulp: 4.3.
+    {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
+    {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
+    // Below 1/4 the polynomial, in [1.44, 1.67], errs by 0.7 u for its last sum, 0.2 u for its constant, 0.3 u for the
+    // rest, 0.1 u for the remainder; and half an ulp: 1.9. From 1/4 on log2 errs by 2^-21 and 1 - y by u / 2, which is
+    // u of the logarithm: at 1/4, where an ulp is 2^-25, 16 + 2.
+    {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
+     0x1.fffffep-1F, complements},
+    // What Vulkan promises of exp2: 3 + 2 |x| ulp.
+    {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
+    // r is exact. e = r (0.69 + w), |w| <= 0.13: 0.9 u for the sum, 0.1 u for the constant, 0.4 u for w, 0.2 u for the
+    // remainder, u for the product. k = 0: the result is -e, 1.6 u before and half an ulp for its last product. k = -1
+    // is worst at r = 1/2, where the result is 0.29: half of 2.6 u of e, and u / 2 is an ulp there: 1.1, and half for
+    // the last sum. For smaller k the result grows and the share of e falls.
+    {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
+     exponents},
     // The specification's bounds themselves: for sqrt the 2 ulp of inversesqrt are at most 4 u, and the division's 2.5.
     {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},
     {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, squares},

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pt {
 
@@ -66,9 +67,12 @@ public:
         const std::uint64_t count = features_.surface_count();
         // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
         words_[count + surface] = glm::vec4(material.emission + 0.0F, mean(material.emission));
-        words_[2 * count + surface] = glm::vec4(material.diffuse, specular_probability(material));
+        // The constants of the two parts of f are in the words, for the kernel to spare them.
+        const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
+        const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
+        words_[2 * count + surface] = glm::vec4(glm::vec3(diffuse), specular_probability(material));
         if (features_.gloss)
-            words_[3 * count + surface] = glm::vec4(material.specular, material.glossiness);
+            words_[3 * count + surface] = glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
     }
 
     void sphere(std::uint32_t surface, const Sphere &sphere, const Camera &camera) {

@@ -65,15 +65,19 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
     };
     const auto moves = [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); };
 
+    const auto glows = [&](const Plane &plane) { return emits(scene.materials[plane.material]); };
+
     const std::vector<CurvedPlane> planes = planes_about(scene, camera);
 
     Features features{};
     features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
+    features.planes_emit = std::ranges::any_of(scene.planes, glows);
     for (const Sphere &sphere : scene.spheres) {
         const Material &material = scene.materials[sphere.material];
         if (curved_plane(sphere, material, camera)) {
             ++features.plane_count;
             features.curvature = true;
+            features.planes_emit = features.planes_emit || emits(material);
         } else {
             const Way way = way_of(sphere, camera);
             ++features.sphere_count;
@@ -155,6 +159,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_OVERLAP] = 0;
     constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
     constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
+    constants[gpu::ID_PLANES_EMIT] = features.planes_emit ? 1 : 0;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }

@@ -24,6 +24,7 @@ struct Features {
     bool curvature;    // some sphere is held as a plane with a curvature
     bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
     bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
+    bool planes_emit;  // some plane, or sphere held as one, emits
     bool scene_in_uniform; // the scene fits into a uniform buffer
 
     bool operator==(const Features &) const = default;

@@ -23,11 +23,11 @@ float value_of(uint function, float x)
         sin_cos_turn(x, sine, cosine);
         return cosine;
     case 2u:
-        return log_one_minus(x);
+        return log2_one_minus(x);
     case 3u:
-        return exp_negative(x);
+        return exp2_negative(x);
     case 4u:
-        return one_minus_exp(x);
+        return one_minus_exp2(x);
     case 5u:
         return PI / x;
     case 6u:

@@ -18,24 +18,27 @@ vec2 every_lamp_numbers(SampleKey key, uint lamp)
     return sample_block(key, 1u + lamp).xy;
 }
 
-// First block of a branch at a vertex, 1 being the first.
-uint first_block(uint vertex)
+// Where the blocks of a branch begin at its first vertex, and at a later one, the first being number 1.
+uint first_vertex_blocks()
 {
-    const uint first = shared_blocks(LAMP_COUNT);
-    const uint second = first + vertex_blocks(1u, LAMP_COUNT);
-    return vertex == 1u ? first : second + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
+    return shared_blocks(LAMP_COUNT);
 }
 
-// Place on the lamp (x, y) and choice among the lamps (z) at a vertex.
-vec3 chosen_lamp_numbers(SampleKey branch, uint vertex)
+uint later_vertex_blocks(uint vertex)
 {
-    return sample_block(branch, first_block(vertex)).xyz;
+    return first_vertex_blocks() + vertex_blocks(1u, LAMP_COUNT) + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
 }
 
-// Direction (x, y), lobe (z) and survival (w) at a vertex: its last block.
-vec4 direction_numbers(SampleKey branch, uint vertex)
+// Of blocks of a branch that begin at a place: the place on the lamp (x, y) and the choice among the lamps (z).
+vec3 chosen_lamp_numbers(SampleKey branch, uint begin)
 {
-    vec4 numbers = sample_block(branch, first_block(vertex) + vertex_blocks(vertex, LAMP_COUNT) - 1u);
+    return sample_block(branch, begin).xyz;
+}
+
+// Of as many blocks of a branch, the last one: direction (x, y), lobe (z) and survival (w).
+vec4 direction_numbers(SampleKey branch, uint begin, uint count)
+{
+    vec4 numbers = sample_block(branch, begin + count - 1u);
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 

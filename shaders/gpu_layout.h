@@ -37,7 +37,8 @@ PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so pat
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
 PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
 PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
-PT_CONSTANT CONSTANT_COUNT = 17;
+PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
+PT_CONSTANT CONSTANT_COUNT = 18;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -81,6 +82,13 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 {
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
+// Blocks of a sample and one of its branches.
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count)
+{
+    return shared_blocks(lamp_count) + (max_path_length < 2 ? 0
+                                                            : vertex_blocks(1, lamp_count) +
+                                                                  (max_path_length - 2) * vertex_blocks(2, lamp_count));
+}
 
 // Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the
 // branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
@@ -103,8 +111,8 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 // With S = spheres + planes and each block following the one before:
 //   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/curved_plane.h)
 //   emission[S]       radiance R, G, B; mean of the three
-//   diffuse[S]        R, G, B; probability of choosing the specular lobe
-//   specular[S]       R, G, B; glossiness          (only with GLOSS)
+//   diffuse[S]        albedo / pi; probability of choosing the specular lobe
+//   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
 //   curvature[planes] curvature; 0, 0, 0             (only with CURVATURE)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.

@@ -29,7 +29,7 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float half_chord = sqrt(max(squared_half_chord, 0.0));
+    float half_chord = sqrt(squared_half_chord);
     if (INSIDE == 0)
         return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? b - half_chord : NO_HIT;
     bool outside = dot(to_centre, to_centre) > radius * radius;
@@ -38,6 +38,17 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     distance = leaving ? abs(2.0 * b) : distance;
     met = leaving ? inside : met;
     return met ? distance : NO_HIT;
+}
+
+// Whether the sphere blocks a shadow ray that comes from outside all spheres and ends at a distance: whether the nearer
+// root is less, b - sqrt(r^2 - l^2) < distance, told without the root.
+bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool leaving, float distance)
+{
+    float b = dot(to_centre, direction);
+    vec3 across = to_centre - b * direction;
+    float beyond = max(b - distance, 0.0);
+    bool near = radius * radius - dot(across, across) > beyond * beyond;
+    return !leaving && b > 0.0 && near;
 }
 
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
@@ -125,7 +136,14 @@ Hit closest_hit(vec3 direction, float time)
 
 void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius)
 {
-    blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
+    if (INSIDE == 1) {
+        blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
+        return;
+    }
+    bool never = sphere == start.surface || (sphere < LAMP_COUNT && sphere == shadow.lamp);
+    vec3 to_centre = centre_radius.xyz - start.origin;
+    bool blocks = sphere_blocks(to_centre, centre_radius.w, shadow.direction, never, shadow.distance);
+    blocked = blocked || blocks;
 }
 
 void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level)

@@ -9,11 +9,12 @@
 
 // A lamp as seen from a vertex.
 struct LampView {
-    vec3 axis;           // unit direction to the centre
-    float distance;      // to the centre
-    float radius;
-    float one_minus_cos; // of half the angle that the lamp subtends
-    float weight;        // in the choice among lamps; 0 where it cannot be sampled
+    vec3 to_centre;
+    float squared_distance; // to the centre
+    float inverse_distance;
+    float squared_radius;
+    float squared_sine; // of half the angle that the lamp subtends; 1 from inside
+    float weight;       // in the choice among lamps; 0 where it cannot be sampled
 };
 
 // The lamp's weight, times pi, is an upper bound of the irradiance that it can cause: radiance times (r / d)^2 times
@@ -23,42 +24,57 @@ struct LampView {
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_among(LAMP_COUNT, lamp, time);
-    vec3 to_centre = sphere.xyz - vertex.position;
-    float squared_distance = dot(to_centre, to_centre);
-    float inverse_distance = inversesqrt(squared_distance);
-    float squared_sine = min(sphere.w * sphere.w / squared_distance, 1.0);
-    float highest_cosine = min(1.0, (dot(vertex.normal, to_centre) + sphere.w) * inverse_distance);
-    bool sampled = squared_sine < 1.0 && highest_cosine > 0.0 && lamp != vertex.surface;
-
     LampView view;
-    view.axis = to_centre * inverse_distance;
-    view.distance = squared_distance * inverse_distance;
-    view.radius = sphere.w;
-    // 1 - cos = sin^2 / (1 + cos): no cancellation for small or far lamps.
-    view.one_minus_cos = squared_sine / (1.0 + sqrt(1.0 - squared_sine));
-    view.weight = sampled ? emission_of_lamp(lamp).a * squared_sine * highest_cosine : 0.0;
+    view.to_centre = sphere.xyz - vertex.position;
+    view.squared_radius = sphere.w * sphere.w;
+    view.squared_distance = dot(view.to_centre, view.to_centre);
+    view.inverse_distance = inversesqrt(view.squared_distance);
+    view.squared_sine = min(view.squared_radius / view.squared_distance, 1.0);
+    float highest_cosine = min(1.0, (dot(vertex.normal, view.to_centre) + sphere.w) * view.inverse_distance);
+    bool sampled = view.squared_sine < 1.0 && highest_cosine > 0.0 && lamp != vertex.surface;
+    view.weight = sampled ? emission_of_lamp(lamp).a * view.squared_sine * highest_cosine : 0.0;
     return view;
 }
 
-// The choice among the lamps of a vertex.
-struct LampChoice {
+// The lamps as seen from a vertex. The views of a few are kept, many are looked at again where one is asked for.
+const uint KEPT_VIEWS = 4u;
+const bool KEEP_VIEWS = LAMP_COUNT <= KEPT_VIEWS;
+
+struct Lamps {
+    LampView views[KEPT_VIEWS];
     float total_weight;
-    float lamp_count; // with a weight above 0
+    float in_sight; // lamps with a weight above 0
 };
 
-LampChoice no_lamp_choice() { return LampChoice(0.0, 0.0); }
-
-LampChoice lamp_choice(Vertex vertex, float time)
+void see_lamp(inout Lamps lamps, Vertex vertex, uint lamp, float time)
 {
-    LampChoice choice = no_lamp_choice();
-    uint lamp = 0u;
-    do {
-        float weight = view_lamp(vertex, lamp, time).weight;
-        choice.total_weight += weight;
-        choice.lamp_count += weight > 0.0 ? 1.0 : 0.0;
-        ++lamp;
-    } while (lamp < LAMP_COUNT);
-    return choice;
+    LampView view = view_lamp(vertex, lamp, time);
+    lamps.total_weight += view.weight;
+    lamps.in_sight += view.weight > 0.0 ? 1.0 : 0.0;
+    if (KEEP_VIEWS)
+        lamps.views[lamp] = view;
+}
+
+Lamps view_lamps(Vertex vertex, float time)
+{
+    Lamps lamps;
+    lamps.total_weight = 0.0;
+    lamps.in_sight = 0.0;
+    FOR_EACH(lamp, 0u, LAMP_COUNT, see_lamp(lamps, vertex, lamp, time));
+    return lamps;
+}
+
+// One of the lamps, which may differ between invocations.
+LampView lamp_among(Lamps lamps, Vertex vertex, uint lamp, float time)
+{
+    LampView view;
+    if (KEEP_VIEWS) {
+        view = lamps.views[0];
+        FOR_EACH(i, 1u, LAMP_COUNT, if (lamp == i) view = lamps.views[i]);
+    } else {
+        view = view_lamp(vertex, lamp, time);
+    }
+    return view;
 }
 
 // Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is
@@ -66,16 +82,22 @@ LampChoice lamp_choice(Vertex vertex, float time)
 // nothing is.
 const float UNIFORM_SHARE = 0.1;
 
-float lamp_probability(LampChoice choice, float weight)
+float lamp_probability(Lamps lamps, float weight)
 {
-    float probability = (1.0 - UNIFORM_SHARE) * (weight / choice.total_weight) + UNIFORM_SHARE / choice.lamp_count;
+    float probability = (1.0 - UNIFORM_SHARE) * (weight / lamps.total_weight) + UNIFORM_SHARE / lamps.in_sight;
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
+}
+
+// 1 - cos of half the angle that a lamp subtends, as sin^2 / (1 + cos): no cancellation for small or far lamps.
+float one_minus_cos(LampView view)
+{
+    return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
 // Density over solid angle of the directions towards a lamp that has been chosen; 0 where it cannot be sampled.
 float cone_density(LampView view)
 {
-    return view.weight > 0.0 ? 1.0 / (2.0 * PI * view.one_minus_cos) : 0.0;
+    return view.weight > 0.0 ? 1.0 / (2.0 * PI * one_minus_cos(view)) : 0.0;
 }
 
 struct LampSample {
@@ -88,10 +110,10 @@ struct LampSample {
 // near root is d cos - sqrt(r^2 - d^2 sin^2).
 LampSample sample_lamp(LampView view, uint lamp, vec2 u)
 {
-    float h = u.x * view.one_minus_cos;
-    vec3 direction = direction_about(view.axis, narrow_cos_sin(h), u.y);
-    float half_chord = sqrt(max(view.radius * view.radius - view.distance * view.distance * h * (2.0 - h), 0.0));
-    float distance = view.distance * (1.0 - h) - half_chord;
+    float h = u.x * one_minus_cos(view);
+    vec3 direction = direction_about(view.to_centre * view.inverse_distance, narrow_cos_sin(h), u.y);
+    float half_chord = sqrt(max(view.squared_radius - view.squared_distance * (h * (2.0 - h)), 0.0));
+    float distance = view.squared_distance * view.inverse_distance * (1.0 - h) - half_chord;
     float density = cone_density(view);
     return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, lamp), density);
 }
@@ -99,21 +121,29 @@ LampSample sample_lamp(LampView view, uint lamp, vec2 u)
 // Index of the lamp that a random number chooses with lamp_probability. Its low end chooses uniformly among the lamps
 // in sight, the rest by weight: each part walks over its own numbers in the order in which they were summed, so that
 // no small probability is lost to rounding. Where rounding leaves the walk short, the last lamp in sight stands.
-uint choose_lamp(Vertex vertex, LampChoice choice, float time, float u)
+struct LampWalk {
+    bool uniformly;
+    float target;
+    float cumulated;
+    uint chosen;
+};
+
+void pass_lamp(inout LampWalk walk, uint lamp, float weight)
 {
-    bool uniformly = u < UNIFORM_SHARE;
-    float target = uniformly ? u / UNIFORM_SHARE * choice.lamp_count
-                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * choice.total_weight;
-    uint chosen = 0u;
-    float cumulated = 0.0;
-    uint lamp = 0u;
-    do {
-        float weight = view_lamp(vertex, lamp, time).weight;
-        chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
-        cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
-        ++lamp;
-    } while (lamp < LAMP_COUNT);
-    return chosen;
+    walk.chosen = walk.cumulated <= walk.target && weight > 0.0 ? lamp : walk.chosen;
+    walk.cumulated += walk.uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
+}
+
+uint choose_lamp(Lamps lamps, Vertex vertex, float time, float u)
+{
+    LampWalk walk;
+    walk.uniformly = u < UNIFORM_SHARE;
+    walk.target = walk.uniformly ? u / UNIFORM_SHARE * lamps.in_sight
+                                 : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
+    walk.cumulated = 0.0;
+    walk.chosen = 0u;
+    FOR_EACH(lamp, 0u, LAMP_COUNT, pass_lamp(walk, lamp, lamp_among(lamps, vertex, lamp, time).weight));
+    return walk.chosen;
 }
 
 #endif

@@ -16,11 +16,11 @@ const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 const bool SAMPLE_ONE_LAMP = SAMPLE_LAMPS && LAMP_COUNT > EVERY_LAMP_LIMIT;
 
 struct Path {
-    Vertex vertex;
+    Arrival arrival; // at its last vertex
     vec3 throughput;
     vec3 radiance;
     uint vertex_count; // so far
-    bool alive;        // whether it may go on from its vertex
+    bool alive;        // whether it goes on from there
 };
 
 // Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
@@ -38,78 +38,77 @@ float direction_weight_against(float direction_density, float lamp_density)
     return power_heuristic(direction_density, lamp_density);
 }
 
-// A sample of a lamp: its shadow ray and the light that it brings if nothing is in between.
+// A sample of a lamp: its shadow ray, and the light, to be weighted, that it brings if nothing is in between.
 struct LampLight {
     ShadowRay shadow;
     vec3 light;
+    float weight;
 };
 
 LampLight no_lamp_light()
 {
-    return LampLight(ShadowRay(vec3(0.0), 0.0, NO_SURFACE), vec3(0.0));
+    return LampLight(ShadowRay(vec3(0.0), 0.0, NO_SURFACE), vec3(0.0), 0.0);
 }
 
 // Light of a lamp of which a vertex takes a number of samples, directions being taken so often at the same vertex.
-LampLight light_of_lamp(Path path, Material material, LampView view, uint lamp, vec2 place, float samples,
-                        float directions)
+LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampView view, uint lamp, vec2 place,
+                        float samples, float directions)
 {
     LampSample found = sample_lamp(view, lamp, place);
-    LampLight result = LampLight(found.shadow, vec3(0.0));
     float density = found.density * samples;
-    if (density > 0.0) {
-        Reflection towards = reflection(material, path.vertex, found.shadow.direction);
-        float weight = lamp_weight_against(density, towards.density * directions) / density;
-        result.light = path.throughput * towards.value * emission_of_lamp(lamp).rgb * weight;
-    }
-    return result;
-}
-
-// How often a vertex samples a lamp: each of a few once, else as often as it chooses it.
-float lamp_samples(LampChoice choice, LampView view, bool every_lamp, float directions)
-{
-    return every_lamp ? 1.0 : lamp_probability(choice, view.weight) * directions;
+    Reflection towards = reflection(material, vertex, found.shadow.direction);
+    float weight = lamp_weight_against(density, towards.density * directions) / density;
+    vec3 light = throughput * towards.f * emission_of_lamp(lamp).rgb;
+    return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
 // Light of one lamp, chosen by what it can contribute, once for each direction that the vertex takes.
-LampLight light_of_chosen_lamp(Path path, Material material, LampChoice choice, float time, vec3 numbers,
-                               float directions)
+LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps, float time,
+                               vec3 numbers, float directions)
 {
-    uint chosen = choose_lamp(path.vertex, choice, time, numbers.z);
-    LampView view = view_lamp(path.vertex, chosen, time);
-    float samples = lamp_samples(choice, view, false, directions);
-    return light_of_lamp(path, material, view, chosen, numbers.xy, samples, directions);
+    uint chosen = choose_lamp(lamps, vertex, time, numbers.z);
+    LampView view = lamp_among(lamps, vertex, chosen, time);
+    float samples = lamp_probability(lamps, view.weight) * directions;
+    return light_of_lamp(throughput, vertex, material, view, chosen, numbers.xy, samples, directions);
 }
 
-// Takes the path to its next vertex in one of the directions in which its vertex is left, with the light of a lamp.
-void leave(inout Path path, Material material, LampLight lamp, LampChoice choice, bool every_lamp, float time,
+// Density with which the samples of lamps at a vertex find the direction to a lamp: each of a few is sampled once, else
+// one is chosen for each direction.
+float density_of_lamps(Vertex vertex, Lamps lamps, uint lamp, bool every_lamp, float time, float directions)
+{
+    if (every_lamp)
+        return cone_density(view_lamp(vertex, lamp, time));
+    LampView view = lamp_among(lamps, vertex, lamp, time);
+    return cone_density(view) * lamp_probability(lamps, view.weight) * directions;
+}
+
+// Takes the path from a vertex to the next in one of the directions in which it is left, with the light of a lamp.
+void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, bool every_lamp, float time,
            vec4 numbers, float directions)
 {
     // The direction in which the path goes on.
-    Vertex vertex = path.vertex;
     vec3 direction = sample_direction(material, vertex, numbers.xy, numbers.z);
     Reflection onwards = reflection(material, vertex, direction);
     float density = onwards.density * directions;
-    path.throughput *= density > 0.0 ? onwards.value / density : vec3(0.0);
+    path.throughput *= onwards.f * (density > 0.0 ? onwards.cosine / density : 0.0);
 
     // Its ray and the lamp's at once; the lamp's light arrives if nothing is in between.
     bool blocked;
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
     Hit hit = closest_hit_and_shadow(start, time, direction, lamp.shadow, blocked);
-    path.radiance += blocked ? vec3(0.0) : lamp.light;
+    path.radiance += lamp.light * (blocked ? 0.0 : lamp.weight);
 
-    // The next vertex and what it emits, weighted against lamp sampling if that could have found it too.
+    // What the next vertex emits, weighted against lamp sampling if that could have found it too.
     float strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
     path.alive = hit.surface != NO_SURFACE && !(strongest <= 0.0); // what is not a number goes on, to be rejected
-    if (path.alive) {
+    if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
-        if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT) {
-            LampView view = view_lamp(vertex, hit.surface, time);
-            float samples = lamp_samples(choice, view, every_lamp, directions);
-            weight = direction_weight_against(density, cone_density(view) * samples);
-        }
+        if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT)
+            weight = direction_weight_against(
+                density, density_of_lamps(vertex, lamps, hit.surface, every_lamp, time, directions));
         path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
-        path.vertex = vertex_at(vertex.position, direction, hit.distance, hit.surface, time);
     }
+    path.arrival = Arrival(vertex.position + hit.distance * direction, direction, hit.surface);
     ++path.vertex_count;
 
     // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
@@ -122,37 +121,42 @@ void leave(inout Path path, Material material, LampLight lamp, LampChoice choice
     }
 }
 
-// The material of the path's vertex, as the direction in which it goes on is to be sampled.
-Material material_to_leave(Path path)
+// The material of a vertex, as the direction in which the path goes on is to be sampled.
+Material material_to_leave(uint surface, uint vertex_count)
 {
-    Material material = material_of(path.vertex.surface);
-    bool last = path.vertex_count + 1u == MAX_PATH_LENGTH;
+    Material material = material_of(surface);
+    bool last = vertex_count + 1u == MAX_PATH_LENGTH;
     return SAMPLE_LAMPS && last ? at_last_direction(material) : material;
 }
 
 // Takes a path from a vertex beyond the first to the next.
 void extend(inout Path path, SampleKey key, float time)
 {
-    Material material = material_to_leave(path);
-    LampChoice choice = no_lamp_choice();
+    Vertex vertex = vertex_at(path.arrival, time);
+    Material material = material_to_leave(vertex.surface, path.vertex_count);
+    uint begin = later_vertex_blocks(path.vertex_count);
+    Lamps lamps;
     LampLight lamp = no_lamp_light();
     if (SAMPLE_LAMPS) {
-        choice = lamp_choice(path.vertex, time);
-        lamp = light_of_chosen_lamp(path, material, choice, time, chosen_lamp_numbers(key, path.vertex_count), 1.0);
+        lamps = view_lamps(vertex, time);
+        vec3 numbers = chosen_lamp_numbers(key, begin);
+        lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, time, numbers, 1.0);
     }
-    leave(path, material, lamp, choice, false, time, direction_numbers(key, path.vertex_count), 1.0);
+    vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
+    leave(path, vertex, material, lamp, lamps, false, time, numbers, 1.0);
 }
 
 // Light that the first vertex and all paths from it bring. What it sends to the camera is most of the picture, so it
 // samples every lamp if they are few, and is left in several branches where paths go further than one direction.
-vec3 light_from_first_vertex(Vertex vertex, SampleKey key, float time)
+vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
     const float directions = float(BRANCH_COUNT);
-    Path first = Path(vertex, vec3(1.0), vec3(0.0), 1u, true);
-    Material material = material_to_leave(first);
-    LampChoice choice = no_lamp_choice();
+    const vec3 whole = vec3(1.0);
+    Vertex vertex = vertex_at(arrival, time);
+    Material material = material_to_leave(vertex.surface, 1u);
+    Lamps lamps;
     if (SAMPLE_ONE_LAMP)
-        choice = lamp_choice(vertex, time);
+        lamps = view_lamps(vertex, time);
 
     // Lamp b shares its walk over the scene with branch b's ray; lamps beyond the last branch have one of their own.
     vec3 radiance = vec3(0.0);
@@ -161,8 +165,9 @@ vec3 light_from_first_vertex(Vertex vertex, SampleKey key, float time)
         uint i = BRANCH_COUNT;
         [[unroll]] do {
             LampView view = view_lamp(vertex, i, time);
-            LampLight lamp = light_of_lamp(first, material, view, i, every_lamp_numbers(key, i), 1.0, directions);
-            radiance += is_blocked(start, time, lamp.shadow) ? vec3(0.0) : lamp.light;
+            LampLight lamp =
+                light_of_lamp(whole, vertex, material, view, i, every_lamp_numbers(key, i), 1.0, directions);
+            radiance += lamp.light * (is_blocked(start, time, lamp.shadow) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
     }
@@ -173,18 +178,19 @@ vec3 light_from_first_vertex(Vertex vertex, SampleKey key, float time)
         LampLight lamp = no_lamp_light();
         if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
             LampView view = view_lamp(vertex, branch, time);
-            lamp = light_of_lamp(first, material, view, branch, every_lamp_numbers(key, branch), 1.0, directions);
+            lamp = light_of_lamp(whole, vertex, material, view, branch, every_lamp_numbers(key, branch), 1.0,
+                                 directions);
         }
         if (SAMPLE_ONE_LAMP) {
-            vec3 numbers = chosen_lamp_numbers(branch_numbers, 1u);
-            lamp = light_of_chosen_lamp(first, material, choice, time, numbers, directions);
+            vec3 numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
+            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, time, numbers, directions);
         }
 
         // The number that chooses the lobe is stratified over the branches; the sum may round up to 1.
-        vec4 numbers = direction_numbers(branch_numbers, 1u);
+        vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
         numbers.z = min((numbers.z + float(branch)) / directions, LARGEST_NUMBER);
-        Path path = first;
-        leave(path, material, lamp, choice, SAMPLE_EVERY_LAMP, time, numbers, directions);
+        Path path = Path(arrival, whole, vec3(0.0), 1u, true);
+        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP, time, numbers, directions);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {
                 extend(path, branch_numbers, time);
@@ -207,10 +213,9 @@ vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
     Hit hit = closest_hit(direction, time);
     if (hit.surface == NO_SURFACE)
         return vec3(0.0);
-    vec3 radiance = emission_of(hit.surface).rgb;
+    vec3 radiance = may_emit(hit.surface) ? emission_of(hit.surface).rgb : vec3(0.0);
     if (MAX_PATH_LENGTH > 1u)
-        radiance +=
-            light_from_first_vertex(vertex_at(vec3(0.0), direction, hit.distance, hit.surface, time), key, time);
+        radiance += light_from_first_vertex(Arrival(hit.distance * direction, direction, hit.surface), key, time);
     return radiance;
 }
 

@@ -12,8 +12,8 @@
 const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
 
 struct Material {
-    vec3 diffuse;
-    vec3 specular;
+    vec3 diffuse;               // albedo / pi
+    vec3 specular;              // factor times (n + 2) / (2 pi)
     float glossiness;           // n
     float specular_probability; // with which direction sampling chooses the specular lobe
 };
@@ -39,18 +39,20 @@ Material at_last_direction(Material material)
 }
 
 // max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r. With y = |wo -
-// r|^2 / 2 = 1 - wo . r this is exp(n log(1 - y)); y from the chord keeps its relative precision as wo nears r, where
+// r|^2 / 2 = 1 - wo . r this is 2^(n log2(1 - y)); y from the chord keeps its relative precision as wo nears r, where
 // all of a glossy lobe lies. pow(wo . r, n) is 35% off at n = 1e6.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
     float y = 0.5 * dot(chord, chord);
-    return y < 1.0 ? exp_negative(n * log_one_minus(y)) : 0.0;
+    float power = exp2_negative(n * log2_one_minus(y)); // where there is no lobe, any value
+    return y < 1.0 ? power : 0.0;
 }
 
 // What a surface does with light along a direction.
 struct Reflection {
-    vec3 value;    // f times the cosine of the outgoing direction; 0 below the horizon
+    vec3 f;
+    float cosine;  // of the outgoing direction; 0 below the horizon
     float density; // of choosing that direction by sample_direction, over solid angle
 };
 
@@ -58,22 +60,22 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
 {
     float cosine = max(dot(vertex.normal, outgoing), 0.0);
     float p = material.specular_probability;
-    vec3 f = material.diffuse / PI;
-    float density = (1.0 - p) * cosine / PI;
+    vec3 f = material.diffuse;
+    float density = (1.0 - p) / PI * cosine;
     if (GLOSS == 1u) {
         float n = material.glossiness;
-        float lobe = lobe_power(reflect(vertex.incoming, vertex.normal), outgoing, n) / (2.0 * PI);
-        f += material.specular * ((n + 2.0) * lobe);
-        density += p * (n + 1.0) * lobe;
+        float lobe = lobe_power(vertex.mirror, outgoing, n);
+        f += material.specular * lobe;
+        density += p * (n + 1.0) / (2.0 * PI) * lobe;
     }
-    return Reflection(f * cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
+    return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
 // Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n +
 // 1)), taken as its distance from 1.
 vec2 lobe_cos_sin(float n, float u)
 {
-    return narrow_cos_sin(one_minus_exp(log_one_minus(u) / (n + 1.0)));
+    return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
 // The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither
@@ -85,7 +87,7 @@ vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
     vec3 axis = vertex.normal;
     vec2 cos_sin = cosine_hemisphere_cos_sin(place.x);
     if (GLOSS == 1u && SAMPLE_LOBES && lobe < material.specular_probability) {
-        axis = reflect(vertex.incoming, vertex.normal);
+        axis = vertex.mirror;
         cos_sin = lobe_cos_sin(material.glossiness, place.x);
     }
     return direction_about(axis, cos_sin, place.y);

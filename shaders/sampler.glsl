@@ -53,7 +53,8 @@ const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 // of pixels are independent. Halton's are rotated (Cranley and Patterson 1976) by addition modulo 1.
 vec4 sample_block(SampleKey key, uint block)
 {
-    bool in_table = SAMPLER != SAMPLER_RANDOM && block < TABLE_BLOCKS;
+    const bool all_in_table = path_blocks(MAX_PATH_LENGTH, LAMP_COUNT) <= TABLE_BLOCKS;
+    bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table || block < TABLE_BLOCKS);
     uvec4 words = pcg4d(uvec4(key.pixel, in_table ? 0u : key.sample_index, block + key.seed.x, key.seed.y));
     if (in_table) {
         uvec4 point = points.blocks[key.row + block];

@@ -37,15 +37,15 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 }
 
 // Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building
-// an Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included.
+// an Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included: with s the sign of
+// z and a = -1 / (s + z), the vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y) and (x, y, z). Their sum is
+// not taken vector by vector: q = s x v_x + y v_y is in all of its components.
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (s + axis.z);
-    float b = axis.x * axis.y * a;
-    vec3 tangent = vec3(1.0 + s * axis.x * axis.x * a, s * b, -s * axis.x);
-    vec3 bitangent = vec3(b, s + axis.y * axis.y * a, -axis.y);
-    return v.x * tangent + v.y * bitangent + v.z * axis;
+    float q = axis.x * (s * v.x) + axis.y * v.y;
+    float along = v.z - q / (s + axis.z);
+    return vec3(v.x + axis.x * along, s * v.y + axis.y * along, v.z * axis.z - q);
 }
 
 // Direction at a polar angle, given by cosine and sine, and an azimuth in turns about axis.

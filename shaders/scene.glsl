@@ -22,6 +22,7 @@ layout(constant_id = ID_BRANCH_COUNT) const uint BRANCH_COUNT = 1;
 layout(constant_id = ID_CURVATURE) const uint CURVATURE = 0;
 layout(constant_id = ID_INSIDE) const uint INSIDE = 1;
 layout(constant_id = ID_PLANES_BLOCK) const uint PLANES_BLOCK = 1;
+layout(constant_id = ID_PLANES_EMIT) const uint PLANES_EMIT = 1;
 layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
@@ -93,10 +94,16 @@ const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 vec4 emission_of(uint surface) { return scene_word_among(EMISSION, SURFACE_COUNT, surface); }
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// Diffuse albedo and the probability of choosing the specular lobe.
+// Whether a surface may emit: the lamps do, other spheres do not.
+bool may_emit(uint surface)
+{
+    return surface < LAMP_COUNT || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
+}
+
+// Of the diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface) { return scene_word_among(DIFFUSE, SURFACE_COUNT, surface); }
 
-// Specular factor and glossiness.
+// Of the specular reflection, its factor times (n + 2) / (2 pi), and the glossiness n.
 vec4 specular_of(uint surface)
 {
     return GLOSS == 1 ? scene_word_among(SPECULAR, SURFACE_COUNT, surface) : vec4(0.0);
@@ -135,7 +142,8 @@ struct Level {
 // distances in the scene. Its limit k = 0 is the plane.
 Level level_of(vec4 normal_offset, float curvature, vec3 point)
 {
-    Level level = Level(dot(normal_offset.xyz, point) + normal_offset.w, normal_offset.xyz, curvature);
+    vec4 n = normal_offset;
+    Level level = Level(n.x * point.x + (n.y * point.y + (n.z * point.z + n.w)), n.xyz, curvature);
     if (CURVATURE == 1) {
         vec3 from_nearest = point + normal_offset.w * normal_offset.xyz;
         vec3 bend = curvature * from_nearest;

@@ -7,17 +7,26 @@
 // A point of a surface that a path has reached.
 struct Vertex {
     vec3 position;
-    vec3 normal;   // unit, on the side that the path came from
-    vec3 incoming; // unit direction in which the path arrived
+    vec3 normal; // unit, on the side that the path came from
+    vec3 mirror; // unit direction of a mirror's reflection
     uint surface;
     bool inside; // of the sphere that the surface is; of a plane, on the side away from its normal
 };
 
-// The vertex at a distance along a ray, where it meets a surface. The point is moved onto its surface: along the ray
-// it is off by the rounding of the distance, up to thousands of times more than by that of the point itself.
-Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, float time)
+// Where a ray has met a surface.
+struct Arrival {
+    vec3 point;     // off the surface by the rounding of the distance
+    vec3 direction; // of the ray, a unit vector
+    uint surface;
+};
+
+// The vertex where a ray has arrived. The point is moved onto the surface: along the ray it is off by the rounding of
+// the distance, up to thousands of times more than by that of the point itself.
+Vertex vertex_at(Arrival arrival, float time)
 {
-    vec3 position = origin + distance * direction;
+    uint surface = arrival.surface;
+    vec3 direction = arrival.direction;
+    vec3 position = arrival.point;
     vec3 normal;
     if (surface < SPHERE_COUNT) {
         vec4 sphere = sphere_among(SPHERE_COUNT, surface, time);
@@ -28,8 +37,9 @@ Vertex vertex_at(vec3 origin, vec3 direction, float distance, uint surface, floa
         normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;
         position -= level.height * normal;
     }
-    bool inside = dot(normal, direction) > 0.0;
-    return Vertex(position, inside ? -normal : normal, direction, surface, inside);
+    float cosine = dot(normal, direction);
+    bool inside = cosine > 0.0;
+    return Vertex(position, inside ? -normal : normal, direction - 2.0 * cosine * normal, surface, inside);
 }
 
 #endif

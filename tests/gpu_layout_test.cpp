@@ -5,6 +5,7 @@
 #include "push_layout.spv.h"
 
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace {
 
@@ -58,6 +59,7 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
     EXPECT_FALSE(features.curvature);
     EXPECT_TRUE(features.scene_in_uniform);
 
+    const auto per_pi = [](double factor) { return static_cast<float>(factor / std::numbers::pi); };
     const std::vector<glm::vec4> expected = {
         {0, 9, -1, 2},    // lamp
         {2, 2, 2, 0.5F},  // ball, a quarter of its way
@@ -65,11 +67,11 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
         {30, 60, 90, 60}, // emissions and their means
         {0, 0, 0, 0},     //
         {0, 0, 0, 0},     //
-        {0, 0, 0, 0},     // diffuse albedos and lobe probabilities
-        {0.25F, 0.25F, 0.25F, 0.6F},
-        {0.5F, 0.25F, 0, 0},
-        {0, 0, 0, 0}, // specular factors and glossinesses
-        {0.75F, 0.75F, 0.75F, 40},
+        {0, 0, 0, 0},     // diffuse albedos over pi and lobe probabilities
+        {per_pi(0.25), per_pi(0.25), per_pi(0.25), 0.6F},
+        {per_pi(0.5), per_pi(0.25), 0, 0},
+        {0, 0, 0, 0}, // specular factors times (n + 2) / (2 pi) and glossinesses
+        {per_pi(0.75 * 21), per_pi(0.75 * 21), per_pi(0.75 * 21), 40},
         {0, 0, 0, 0},
         {0, 0, 0, 0}, // ways while the shutter is open
         {2, 0, 0, 0},
@@ -125,7 +127,7 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
     EXPECT_EQ(words[4], glm::vec4(0, 1, 0, 4));
     EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
-    EXPECT_EQ(words[10 + 2], glm::vec4(0.5F, 0.25F, 0, 0));
+    EXPECT_EQ(words[10 + 2], glm::vec4(glm::dvec4(0.5, 0.25, 0, 0) / std::numbers::pi));
     EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
     EXPECT_EQ(words[23], glm::vec4(1.0F / 262144, 0, 0, 0));
     EXPECT_EQ(words[24], glm::vec4(0));

@@ -158,22 +158,31 @@ double probability_sum(const std::vector<Drawn> &drawn, std::size_t lamp_count) 
     return sum;
 }
 
-TEST(LampChoice, FollowsTheStatedProbability) {
-    const std::vector<Drawn> drawn = draw(uneven_lamps, {}, 7, samples);
-    std::vector<double> counts(uneven_lamps.size());
-    for (std::size_t i = uneven_lamps.size(); i < drawn.size(); ++i)
+void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
+    const std::vector<Drawn> drawn = draw(lamps, {}, 7, samples);
+    std::vector<double> counts(lamps.size());
+    for (std::size_t i = lamps.size(); i < drawn.size(); ++i)
         ++counts[drawn[i].lamp];
-    EXPECT_EQ(counts[below_horizon], 0.0);
-    const double total = static_cast<double>(samples - uneven_lamps.size());
+    const double total = static_cast<double>(samples - lamps.size());
     std::vector<double> observed, expected, wrong;
-    for (std::size_t i = 0; i < uneven_lamps.size(); ++i)
-        if (i != below_horizon) {
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+        if (i == below_horizon) {
+            EXPECT_EQ(counts[i], 0.0);
+        } else {
             observed.push_back(counts[i]);
             expected.push_back(total * static_cast<double>(drawn[i].probability));
             wrong.push_back(expected.back() * (i < 3 ? 1.03 : 0.97));
         }
     EXPECT_LT(statistics::chi_square_deviate(observed, expected), bound);
     EXPECT_GT(statistics::chi_square_deviate(observed, wrong), bound) << "probabilities wrong by 3% must show";
+}
+
+// Of many lamps, and of so few that the kernel keeps how it sees them.
+TEST(LampChoice, FollowsTheStatedProbability) {
+    expect_stated_probabilities(uneven_lamps);
+    std::vector<Lamp> few(uneven_lamps.begin(), uneven_lamps.begin() + 4);
+    few[0].radiance = 5000.0F; // else the far lamp has all but a thousandth
+    expect_stated_probabilities(few);
 }
 
 // Each probability is rounded a few times, division within 2.5 ulp: 8 * 2^-24 of it at most.

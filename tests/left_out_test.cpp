@@ -1,5 +1,5 @@
 // What the kernel leaves out where a scene has no need of it changes no picture: the handling of insides where the
-// camera is in no sphere, planes as obstacles where no lamp is behind one.
+// camera is in no sphere, planes as obstacles where no lamp is behind one, and as lights where none emits.
 #include "invariance_scene.h"
 #include "kernel_render.h"
 
@@ -70,7 +70,24 @@ TEST(LeftOut, PlanesAsObstaclesWhereNoLampIsBehindOne) {
     EXPECT_LE(differing_values(image, image_with_other(render, gpu::ID_PLANES_BLOCK)), decided_by_rounding);
 }
 
+// The same bits: light that is not there is 0.
+TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
+    const KernelRender render = render_of_scene(room(), path_length);
+    ASSERT_FALSE(render.features().planes_emit);
+    const Image image = image_with(render, render.constants());
+    EXPECT_EQ(image, image_with_other(render, gpu::ID_PLANES_EMIT));
+}
+
 // Negative controls: what the scene needs is left out, which must show.
+TEST(LeftOut, EmissionOfPlanesShowsWhereOneEmits) {
+    InvarianceScene scene = room();
+    scene.planes[1].material = scene.spheres[0].material;
+    const KernelRender render = render_of_scene(scene, path_length);
+    ASSERT_TRUE(render.features().planes_emit);
+    const Image image = image_with(render, render.constants());
+    EXPECT_GT(differing_values(image, image_with_other(render, gpu::ID_PLANES_EMIT)), 10 * decided_by_rounding);
+}
+
 TEST(LeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
     InvarianceScene scene = room();
     scene.planes.clear();

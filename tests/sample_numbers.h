@@ -54,6 +54,7 @@ inline Blocks as_integers(const std::vector<glm::vec4> &numbers) {
 
 inline constexpr std::uint32_t table_blocks = 4;
 inline constexpr std::uint32_t shared_blocks = 1; // of a scene without lamps
+inline constexpr std::uint32_t most_blocks = 6000;  // of a path, so not all of them are in the table
 
 // Rows for up to 256 samples with one branch fit into the probe's table.
 inline pt::PointLayout layout_of(std::uint32_t branches) {
@@ -73,6 +74,7 @@ inline Blocks take_from(const Table &table, std::uint32_t sampler, const Request
     constants[pt::gpu::ID_SAMPLER] = sampler;
     constants[pt::gpu::ID_TABLE_BLOCKS] = sampler == PT_SAMPLER_RANDOM ? 0 : table_blocks;
     constants[pt::gpu::ID_BRANCH_COUNT] = branches;
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks; // one block for each vertex without a lamp
     constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
     Probe probe(sample_numbers_spirv, sizeof request, constants);
     probe.set_points(table);

@@ -36,6 +36,7 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
     const auto constants = pt::specialization_constants(features);
     EXPECT_EQ(constants[pt::gpu::ID_INSIDE], features.inside ? 1U : 0U);
     EXPECT_EQ(constants[pt::gpu::ID_PLANES_BLOCK], features.planes_block ? 1U : 0U);
+    EXPECT_EQ(constants[pt::gpu::ID_PLANES_EMIT], features.planes_emit ? 1U : 0U);
     return features;
 }
 
@@ -113,6 +114,20 @@ TEST(FeatureInside, IsAtOneTimeOfAClosedShutter) {
 pt::Plane floor_at(double height, bool upwards = true) {
     const double side = upwards ? 1 : -1;
     return {{0, side, 0}, -side * (eye.y + height), dark};
+}
+
+// Lamps are sampled and found by their index; what else emits is a plane, or a sphere that is held as one.
+TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
+    pt::Plane glowing = floor_at(-4);
+    glowing.material = shining;
+    const pt::Sphere huge_lamp = lamp_at({0, 0, -262145}, 262144);
+    EXPECT_FALSE(features_of({}).planes_emit);
+    EXPECT_FALSE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4)}).planes_emit);
+    EXPECT_FALSE(features_of({ball_at({0, 0, -262145}, 262144)}, {floor_at(-4)}).planes_emit);
+    EXPECT_TRUE(features_of({}, {glowing}).planes_emit);
+    EXPECT_TRUE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4), glowing}).planes_emit) << "the last plane";
+    EXPECT_TRUE(features_of({huge_lamp}).curvature);
+    EXPECT_TRUE(features_of({huge_lamp}).planes_emit);
 }
 
 bool planes_block(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes,

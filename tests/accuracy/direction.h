@@ -31,18 +31,19 @@ inline Direction turned_to(const glm::vec3 &float_axis, const Direction &vector)
 // through 0, and what matters is the angle. Vulkan's division is within 2.5 ulp <= 5 u; sqrt is 1 / inversesqrt, 4 u
 // and 5 u. For narrow cones the parts with the factor sine vanish.
 
-// sin_cos_turn: 3.5 ulp of at most u each (lib/accuracy.cpp), and a product each.
+// sin_cos_turn: 4.5 ulp of at most u each (lib/accuracy.cpp), and a product each.
 inline Real azimuth_bound(Real sine) {
-    return sine * (3.5L * std::sqrt(Real{2}) + 1) * half_ulp;
+    return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
 }
 
-// rotate_to_axis. a = -1 / (s + z): u and 5 u. x^2 a and x y a: 8 u with their products, of at most 1 and 1/2; the sum
-// 1 + x^2 a: u / 2. So tangents err by sqrt(8.5^2 + 4^2) = 9.4 u, and by 2.5 times what the axis lacks of unit length;
-// two of them, |v.x| + |v.y| <= sqrt(2) sine. The three products err by u, the two sums by u / 2 in each component: 3.5
-// u.
+// rotate_to_axis. q, at most sine as |x v.x| + |y v.y| is, errs by 2 u of that; its quotient by 6 u more, 8 u sine; along,
+// of at most sqrt(2), by u for its sum. x and y of the result err by that, by sqrt(2) u for the product and 0.7 u for
+// the sums, z by u for its product, 2 u sine for q and u / 2 for the sum: 8.3 u sine and 3.5 u in all. The sum is that
+// of the basis: its tangents err by 2.5 times what the axis lacks of unit length; two of them, |v.x| + |v.y| <= sqrt(2)
+// sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
-    return std::sqrt(Real{2}) * sine * (9.4L * half_ulp + 2.5L * length) + length + 3.5L * half_ulp;
+    return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;
 }
 
 // direction_about, where one_minus_cos errs by the given share of itself. The polar angle errs by share * h / sine;

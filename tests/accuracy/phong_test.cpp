@@ -87,8 +87,8 @@ Real power(Real cosine, Real n) {
 
 // max(0, wo . r)^n for the unit vectors along r and wo, where the device's r is off by mirror_error. With u = 2^-24:
 // y = |wo - r|^2 / 2 errs by 2 u for the differences, u for the squares, 2 u for the sums; unit vectors that are too
-// long by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log(1 - y)
-// errs by 24 u (13.5 ulp of at most u each where the logarithm is 0.29), its product with n by u, and exp(x) by 4 + 5
+// long by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log2(1 -
+// y) errs by 22 u (18 ulp of at most u / 2 each where the logarithm is 0.42), its product with n by u, and 2^x by 3 + 2
 // |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
 Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
     const Direction chord = wo - r;
@@ -100,7 +100,7 @@ Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_len
     const Real exact = y < 1 ? std::exp(n * std::log1p(-y)) : 0;
     const Real spread = std::max(power(1 - y + y_bound, n) - exact, exact - power(1 - y - y_bound, n));
     const Real exponent = y < 1 ? -n * std::log1p(-y) : 0;
-    return {exact, spread + exact * (35 * exponent + 8) * half_ulp + 0x1p-99L};
+    return {exact, spread + exact * (29 * exponent + 6) * half_ulp + 0x1p-99L};
 }
 
 Bounded lobe_about_axis(const Item &item) {
@@ -141,8 +141,8 @@ Bounded cosine_of(const Item &item) {
             2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
 }
 
-// The longest chain of roundings is that of the specular term: lobe / (2 pi) 5.5 u, n + 2 and its two products 3 u, the
-// sum u, and the product with the cosine u.
+// The longest chain of roundings is that of the specular term: n + 2, its product with the factor and that with the lobe
+// 3 u, the division by 2 pi 5.5 u, the sum u, and the product with the cosine u.
 constexpr Real rounding = 11 * half_ulp;
 
 Bounded value_of(const Item &item) {
@@ -172,7 +172,7 @@ TEST(AccuracyPhong, OfLobes) {
         const Item &item = all[i];
         const Bounded lobe = lobe_about_axis(item);
         power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
-        // 1 - exp(log(1 - u) / (n + 1)): 11 u, u for n + 1 and 5 u for the division count for less than themselves, as
+        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, u for n + 1 and 5 u for the division count for less than themselves, as
         // x e^x / (1 - e^x) <= 1; and 2.5 ulp <= 5 u.
         const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
         direction.add(glm::vec3(results[i].direction),

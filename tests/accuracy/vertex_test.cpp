@@ -26,6 +26,7 @@ struct Result {
     glm::vec3 position;
     float inside;
     glm::vec4 normal;
+    glm::vec4 mirror;
 };
 
 // Spheres by centre and radius, then planes by normal and offset.
@@ -88,6 +89,7 @@ TEST(AccuracyVertex, OfPoints) {
 
     Comparison from_sphere("vertex_at, sphere", "of |point| + size");
     Comparison from_plane("vertex_at, plane", "of |point| + size");
+    Comparison mirror("vertex_at, mirror", "length");
     std::size_t inside = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Item &item = all[i];
@@ -108,10 +110,14 @@ TEST(AccuracyVertex, OfPoints) {
         // 3 u, as far as a dot product can tell.
         EXPECT_LE(glm::dot(normal, Direction(item.direction)), 3 * half_ulp) << "not on the side of the ray's start";
         inside += results[i].inside == 1.0F ? 1 : 0;
+        // About the normal as it is: the dot product errs by 2 u, so 2 (n . d) n by 4 u and 2 u more, the difference by
+        // u. That of a ray along the surface is the ray itself.
+        mirror.add(glm::vec3(results[i].mirror), glm::reflect(Direction(item.direction), normal), 7 * half_ulp, input);
     }
     EXPECT_TRUE(inside > 0 && inside < all.size()) << "only one side was tested";
     from_sphere.finish();
     from_plane.finish();
+    mirror.finish();
 }
 
 } // namespace

@@ -37,7 +37,8 @@ void main()
     bool blocked;
     Hit hit = closest_hit_and_shadow(start, 0.0, ray.direction.xyz, shadow, blocked);
     uint surface = hit.surface == NO_SURFACE ? 0u : hit.surface;
-    Vertex vertex = vertex_at(start.origin, ray.direction.xyz, hit.distance, surface, 0.0);
+    vec3 point = start.origin + hit.distance * ray.direction.xyz;
+    Vertex vertex = vertex_at(Arrival(point, ray.direction.xyz, surface), 0.0);
     met[index] = Met(vec4(vertex.position, hit.distance), vec4(vertex.normal, 0.0), hit.surface, blocked ? 1u : 0u,
                      vertex.inside ? 1u : 0u, 0u);
 }

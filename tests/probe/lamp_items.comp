@@ -20,8 +20,8 @@ void main()
     Item item = items[index];
     vec3 normal = item.normal.xyz;
     uint lamp = floatBitsToUint(item.position_lamp.w);
-    LampView view = view_lamp(Vertex(item.position_lamp.xyz, normal, -normal, NO_SURFACE, false), lamp, 0.0);
+    LampView view = view_lamp(Vertex(item.position_lamp.xyz, normal, normal, NO_SURFACE, false), lamp, 0.0);
     LampSample taken = sample_lamp(view, lamp, item.numbers.xy);
     results[index] = Result(vec4(taken.shadow.direction, taken.shadow.distance),
-                            vec4(view.one_minus_cos, taken.density, view.weight, 0.0));
+                            vec4(one_minus_cos(view), taken.density, view.weight, 0.0));
 }

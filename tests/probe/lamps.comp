@@ -26,12 +26,12 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    Vertex vertex = Vertex(position.xyz, normal.xyz, -normal.xyz, surface, false);
-    LampChoice choice = lamp_choice(vertex, 0.0);
+    Vertex vertex = Vertex(position.xyz, normal.xyz, normal.xyz, surface, false);
+    Lamps lamps = view_lamps(vertex, 0.0);
     vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u).xyz;
-    uint lamp = index < LAMP_COUNT ? index : choose_lamp(vertex, choice, 0.0, u.z);
-    LampView view = view_lamp(vertex, lamp, 0.0);
+    uint lamp = index < LAMP_COUNT ? index : choose_lamp(lamps, vertex, 0.0, u.z);
+    LampView view = lamp_among(lamps, vertex, lamp, 0.0);
     LampSample taken = sample_lamp(view, lamp, u.xy);
     drawn[index] = Drawn(vec4(taken.shadow.direction, taken.shadow.distance), lamp, taken.density,
-                         cone_density(view_lamp(vertex, lamp, 0.0)), lamp_probability(choice, view.weight));
+                         cone_density(view_lamp(vertex, lamp, 0.0)), lamp_probability(lamps, view.weight));
 }

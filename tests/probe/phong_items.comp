@@ -21,11 +21,12 @@ void main()
     vec3 axis = item.axis_glossiness.xyz;
     float n = item.axis_glossiness.w;
     vec3 outgoing = item.outgoing_diffuse.xyz;
-    Material material = Material(vec3(item.outgoing_diffuse.w), vec3(item.normal_specular.w), n,
-                                 item.numbers_probability.z);
+    vec3 specular = vec3(item.normal_specular.w * (n + 2.0) / (2.0 * PI));
+    Material material = Material(vec3(item.outgoing_diffuse.w / PI), specular, n, item.numbers_probability.z);
     // The axis is the incoming direction too; then the lobe is about its mirror image.
-    Vertex vertex = Vertex(vec3(0.0), item.normal_specular.xyz, axis, 0u, false);
+    vec3 normal = item.normal_specular.xyz;
+    Vertex vertex = Vertex(vec3(0.0), normal, reflect(axis, normal), 0u, false);
     Reflection found = reflection(material, vertex, outgoing);
     results[index] = Result(vec4(direction_about(axis, lobe_cos_sin(n, item.numbers_probability.x), item.numbers_probability.y), 0.0),
-                            vec4(lobe_power(axis, outgoing, n), found.value.r, found.density, 0.0));
+                            vec4(lobe_power(axis, outgoing, n), found.f.r * found.cosine, found.density, 0.0));
 }

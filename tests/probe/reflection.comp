@@ -15,8 +15,10 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    Material material = Material(vec3(diffuse), vec3(specular), glossiness, probability);
-    Vertex vertex = Vertex(vec3(0.0), vec3(0.0, 0.0, 1.0), incoming.xyz, 0u, false);
+    vec3 specular_word = vec3(specular * (glossiness + 2.0) / (2.0 * PI));
+    Material material = Material(vec3(diffuse / PI), specular_word, glossiness, probability);
+    vec3 normal = vec3(0.0, 0.0, 1.0);
+    Vertex vertex = Vertex(vec3(0.0), normal, reflect(incoming.xyz, normal), 0u, false);
     Reflection result = reflection(material, vertex, outgoing[index].xyz);
-    results[index] = vec4(result.value.r, result.density, 0.0, 0.0);
+    results[index] = vec4(result.f.r * result.cosine, result.density, 0.0, 0.0);
 }
