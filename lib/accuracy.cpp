@@ -47,9 +47,9 @@ constexpr float squares[] = {1.0F, 2.0F, 4.0F};
 constexpr ElementaryFunction functions[] = {
     // m is exact, w and 1/2 - u below m = 1/8 are rounded by u of themselves at most. sin: u for 1/2 - u, u for the
     // product with m; q, in [12.5, 16], errs by 0.75 u for w^2, 0.65 u for its last sum, 0.55 u for the rest; half an
-    // ulp: 4.5. cos, worst near 1, where -w p has p = 4: 0.5 u for w^2, u for the last sum of p, 1.2 u for its cofactor,
-    // 0.9 u for its constant, 0.1 u for the remainder (for w, where it is rounded, up to 0.8 u more, but there p is
-    // larger); half an ulp: 4.3.
+    // ulp: 4.5. cos, worst near 1, where -w p has p = 4: 0.5 u for w^2, u for the last sum of p, 1.2 u for its
+    // cofactor, 0.9 u for its constant, 0.1 u for the remainder (for w, where it is rounded, up to 0.8 u more, but
+    // there p is larger); half an ulp: 4.3.
     {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
     // Below 1/4 the polynomial, in [1.44, 1.67], errs by 0.7 u for its last sum, 0.2 u for its constant, 0.3 u for the

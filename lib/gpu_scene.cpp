@@ -72,7 +72,8 @@ public:
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
         words_[2 * count + surface] = glm::vec4(glm::vec3(diffuse), specular_probability(material));
         if (features_.gloss)
-            words_[3 * count + surface] = glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
+            words_[3 * count + surface] =
+                glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
     }
 
     void sphere(std::uint32_t surface, const Sphere &sphere, const Camera &camera) {

@@ -9,7 +9,7 @@
 
 layout(set = 0, binding = BINDING_FILM) buffer Film { uint words[]; } film;
 
-// What an invocation gathers: sums of windows, then to be added to the film.
+// What an invocation gathers: sums of windows with their biases, then to be added to the film.
 struct FilmPixel {
     uvec4 windows[3];
     uint accepted;
@@ -29,6 +29,7 @@ FilmPixel empty_film_pixel()
 // bits below 2^-60 (2^-37 and more have none), it is rounded to nearest.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
+// The biases' own bits are in too; they are taken off once, from the sum.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;
@@ -38,7 +39,7 @@ uvec4 windows_of(float value)
     precise float c = rest_b + WINDOW_BIASES.z;
     precise float rest_c = rest_b - (c - WINDOW_BIASES.z);
     precise float d = rest_c + WINDOW_BIASES.w;
-    return floatBitsToUint(vec4(a, b, c, d)) - floatBitsToUint(WINDOW_BIASES);
+    return floatBitsToUint(vec4(a, b, c, d));
 }
 
 // Adds a sample in film units, or counts it as left out if a component is NaN, infinite, negative or too bright.
@@ -118,9 +119,10 @@ void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, Fil
     uint first = film_part * FILM_WORDS * strip_pixel_count + pixel_in_strip;
     uint accepted = first + FILM_ACCEPTED * strip_pixel_count;
     uint rejected = first + FILM_REJECTED * strip_pixel_count;
+    uvec4 biases = (pixel.accepted + pixel.rejected) * floatBitsToUint(WINDOW_BIASES);
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
         uint first_of_channel = first + channel * FILM_SUM_WORDS * strip_pixel_count;
-        uvec4 sum = fixed_point(pixel.windows[channel]);
+        uvec4 sum = fixed_point(pixel.windows[channel] - biases);
         if (shared_pixel)
             film_store_shared_sum(first_of_channel, strip_pixel_count, sum);
         else

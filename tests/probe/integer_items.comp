@@ -18,5 +18,6 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (!is_item(index))
         return;
-    results[index] = Result(pcg4d(items[index].words), fixed_point(windows_of(uintBitsToFloat(items[index].number.x))));
+    uvec4 windows = windows_of(uintBitsToFloat(items[index].number.x)) - floatBitsToUint(WINDOW_BIASES);
+    results[index] = Result(pcg4d(items[index].words), fixed_point(windows));
 }
