@@ -37,42 +37,42 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
 }
 
 // The lamps as seen from a vertex. The views of a few are kept, many are looked at again where one is asked for.
-const uint KEPT_VIEWS = 4u;
-const bool KEEP_VIEWS = LAMP_COUNT <= KEPT_VIEWS;
+const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
-    LampView views[KEPT_VIEWS];
+    LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
     float in_sight; // lamps with a weight above 0
 };
-
-void see_lamp(inout Lamps lamps, Vertex vertex, uint lamp, float time)
-{
-    LampView view = view_lamp(vertex, lamp, time);
-    lamps.total_weight += view.weight;
-    lamps.in_sight += view.weight > 0.0 ? 1.0 : 0.0;
-    if (KEEP_VIEWS)
-        lamps.views[lamp] = view;
-}
 
 Lamps view_lamps(Vertex vertex, float time)
 {
     Lamps lamps;
     lamps.total_weight = 0.0;
     lamps.in_sight = 0.0;
-    FOR_EACH(lamp, 0u, LAMP_COUNT, see_lamp(lamps, vertex, lamp, time));
+    uint lamp = 0u;
+    do {
+        LampView view = view_lamp(vertex, lamp, time);
+        lamps.total_weight += view.weight;
+        lamps.in_sight += view.weight > 0.0 ? 1.0 : 0.0;
+        if (KEEP_VIEWS)
+            lamps.views[lamp] = view;
+        ++lamp;
+    } while (lamp < LAMP_COUNT);
     return lamps;
 }
 
 // One of the lamps, which may differ between invocations.
 LampView lamp_among(Lamps lamps, Vertex vertex, uint lamp, float time)
 {
-    LampView view;
-    if (KEEP_VIEWS) {
-        view = lamps.views[0];
-        FOR_EACH(i, 1u, LAMP_COUNT, if (lamp == i) view = lamps.views[i]);
-    } else {
-        view = view_lamp(vertex, lamp, time);
+    if (!KEEP_VIEWS)
+        return view_lamp(vertex, lamp, time);
+    LampView view = lamps.views[0];
+    uint i = 1u;
+    while (i < LAMP_COUNT) {
+        if (lamp == i)
+            view = lamps.views[i];
+        ++i;
     }
     return view;
 }
@@ -121,29 +121,21 @@ LampSample sample_lamp(LampView view, uint lamp, vec2 u)
 // Index of the lamp that a random number chooses with lamp_probability. Its low end chooses uniformly among the lamps
 // in sight, the rest by weight: each part walks over its own numbers in the order in which they were summed, so that
 // no small probability is lost to rounding. Where rounding leaves the walk short, the last lamp in sight stands.
-struct LampWalk {
-    bool uniformly;
-    float target;
-    float cumulated;
-    uint chosen;
-};
-
-void pass_lamp(inout LampWalk walk, uint lamp, float weight)
-{
-    walk.chosen = walk.cumulated <= walk.target && weight > 0.0 ? lamp : walk.chosen;
-    walk.cumulated += walk.uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
-}
-
 uint choose_lamp(Lamps lamps, Vertex vertex, float time, float u)
 {
-    LampWalk walk;
-    walk.uniformly = u < UNIFORM_SHARE;
-    walk.target = walk.uniformly ? u / UNIFORM_SHARE * lamps.in_sight
-                                 : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
-    walk.cumulated = 0.0;
-    walk.chosen = 0u;
-    FOR_EACH(lamp, 0u, LAMP_COUNT, pass_lamp(walk, lamp, lamp_among(lamps, vertex, lamp, time).weight));
-    return walk.chosen;
+    bool uniformly = u < UNIFORM_SHARE;
+    float target = uniformly ? u / UNIFORM_SHARE * lamps.in_sight
+                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
+    uint chosen = 0u;
+    float cumulated = 0.0;
+    uint lamp = 0u;
+    do {
+        float weight = KEEP_VIEWS ? lamps.views[lamp].weight : view_lamp(vertex, lamp, time).weight;
+        chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
+        cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
+        ++lamp;
+    } while (lamp < LAMP_COUNT);
+    return chosen;
 }
 
 #endif

@@ -62,24 +62,20 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampV
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
+// How often a vertex samples a lamp: each of a few once, else as often as it chooses it.
+float lamp_samples(Lamps lamps, LampView view, bool every_lamp, float directions)
+{
+    return every_lamp ? 1.0 : lamp_probability(lamps, view.weight) * directions;
+}
+
 // Light of one lamp, chosen by what it can contribute, once for each direction that the vertex takes.
 LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps, float time,
                                vec3 numbers, float directions)
 {
     uint chosen = choose_lamp(lamps, vertex, time, numbers.z);
     LampView view = lamp_among(lamps, vertex, chosen, time);
-    float samples = lamp_probability(lamps, view.weight) * directions;
+    float samples = lamp_samples(lamps, view, false, directions);
     return light_of_lamp(throughput, vertex, material, view, chosen, numbers.xy, samples, directions);
-}
-
-// Density with which the samples of lamps at a vertex find the direction to a lamp: each of a few is sampled once, else
-// one is chosen for each direction.
-float density_of_lamps(Vertex vertex, Lamps lamps, uint lamp, bool every_lamp, float time, float directions)
-{
-    if (every_lamp)
-        return cone_density(view_lamp(vertex, lamp, time));
-    LampView view = lamp_among(lamps, vertex, lamp, time);
-    return cone_density(view) * lamp_probability(lamps, view.weight) * directions;
 }
 
 // Takes the path from a vertex to the next in one of the directions in which it is left, with the light of a lamp.
@@ -103,9 +99,11 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     path.alive = hit.surface != NO_SURFACE && !(strongest <= 0.0); // what is not a number goes on, to be rejected
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
-        if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT)
-            weight = direction_weight_against(
-                density, density_of_lamps(vertex, lamps, hit.surface, every_lamp, time, directions));
+        if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT) {
+            LampView view = lamp_among(lamps, vertex, hit.surface, time);
+            float samples = lamp_samples(lamps, view, every_lamp, directions);
+            weight = direction_weight_against(density, cone_density(view) * samples);
+        }
         path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
     }
     path.arrival = Arrival(vertex.position + hit.distance * direction, direction, hit.surface);
@@ -155,7 +153,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     Vertex vertex = vertex_at(arrival, time);
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
-    if (SAMPLE_ONE_LAMP)
+    if (SAMPLE_LAMPS)
         lamps = view_lamps(vertex, time);
 
     // Lamp b shares its walk over the scene with branch b's ray; lamps beyond the last branch have one of their own.
@@ -164,7 +162,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         Start start = Start(vertex.position, vertex.surface, vertex.inside);
         uint i = BRANCH_COUNT;
         [[unroll]] do {
-            LampView view = view_lamp(vertex, i, time);
+            LampView view = lamp_among(lamps, vertex, i, time);
             LampLight lamp =
                 light_of_lamp(whole, vertex, material, view, i, every_lamp_numbers(key, i), 1.0, directions);
             radiance += lamp.light * (is_blocked(start, time, lamp.shadow) ? 0.0 : lamp.weight);
@@ -177,7 +175,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         SampleKey branch_numbers = branch_key(key, branch);
         LampLight lamp = no_lamp_light();
         if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
-            LampView view = view_lamp(vertex, branch, time);
+            LampView view = lamp_among(lamps, vertex, branch, time);
             lamp = light_of_lamp(whole, vertex, material, view, branch, every_lamp_numbers(key, branch), 1.0,
                                  directions);
         }
