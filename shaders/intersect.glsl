@@ -29,9 +29,11 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float half_chord = sqrt(squared_half_chord);
-    if (INSIDE == 0)
-        return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? b - half_chord : NO_HIT;
+    if (INSIDE == 0) {
+        float nearer = b - sqrt(squared_half_chord); // any value, where there is no root
+        return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
+    }
+    float half_chord = sqrt(max(squared_half_chord, 0.0));
     bool outside = dot(to_centre, to_centre) > radius * radius;
     float distance = outside ? b - half_chord : b + half_chord;
     bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);

@@ -27,7 +27,8 @@ struct Item {
 };
 
 struct Result {
-    float sphere, plane, unused[2];
+    float sphere, plane;
+    float blocks_before, blocks_behind; // shadow rays that end before and behind the hit
 };
 
 constexpr float no_hit = 3.0e38F;
@@ -43,8 +44,9 @@ Item passing_ray(Inputs &inputs, double distance, double radius, double impact, 
     return {glm::vec3(centre), static_cast<float>(radius), glm::vec3(direction), start};
 }
 
-// Near spheres and such at a million radii; impacts from the middle to grazing within 1e-6 and beyond; starts inside;
-// and starts on the surface, where the distance of the centre is the radius to rounding.
+// Near spheres and such at a million radii; impacts from the middle to grazing within 1e-6 and beyond; starts inside,
+// some of them just below the surface and along it; and starts on the surface, where the distance of the centre is the
+// radius to rounding.
 std::vector<Item> items() {
     Inputs inputs(10);
     std::vector<Item> items;
@@ -57,6 +59,10 @@ std::vector<Item> items() {
                                 : i % 3 == 0      ? radius * inputs.number()
                                                   : radius * (1.0 + inputs.log_uniform(1e-6, 1e6));
         items.push_back(passing_ray(inputs, std::max(distance, 1e-6 * radius), radius, impact, start));
+    }
+    for (std::size_t i = 0; i < random_count / 16; ++i) {
+        const double radius = inputs.log_uniform(1e-3, 1e3);
+        items.push_back(passing_ray(inputs, radius * (1.0 - inputs.log_uniform(1e-9, 1e-5)), radius, 1.0, anywhere));
     }
     return items;
 }
@@ -142,7 +148,16 @@ struct Wrong {
     std::size_t undecided = 0;
     std::size_t found = 0;      // surfaces that are met and should not be, or the reverse
     std::size_t of_control = 0; // the same where the exact sphere is a larger one
+    std::size_t shadows = 0;    // hits that block a shadow ray that ends before them, or do not block one behind
 };
+
+// Whether the sphere blocks shadow rays as it should. From a ten-thousandth of the distance of the centre on, a tenth of
+// the hit's distance is a hundred times what float32 leaves in doubt.
+bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
+    if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.centre)))
+        return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;
+    return exact.met != 0 || found.blocks_behind == 0.0F;
+}
 
 // Holds a kernel's distances against the exact ones, with rows of the table of accuracy under a name.
 Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std::string &name) {
@@ -159,6 +174,8 @@ Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std:
         const Exact exact = exact_sphere(all[i]);
         wrong.undecided += exact.met < 0 ? 1 : 0;
         wrong.found += agrees(exact, results[i].sphere) ? 0 : 1;
+        wrong.shadows += blocks_rightly(exact, results[i], all[i]) ? 0 : 1;
+        EXPECT_FALSE(std::isnan(results[i].sphere)) << "item " << i;
         wrong.of_control += agrees(exact_larger_sphere(all[i]), results[i].sphere) ? 0 : 1;
         const Real distance = glm::length(Direction(all[i].centre));
         compare(all[i].start == anywhere ? sphere : leaving, exact, results[i].sphere, distance, all[i]);
@@ -187,6 +204,7 @@ TEST(AccuracyIntersect, OfDistancesWherePathsAreNeverInside) {
     EXPECT_GT(outside.size(), random_count / 2);
     const Wrong wrong = compare_all(outside, 0, ", never inside");
     EXPECT_EQ(wrong.found, 0U);
+    EXPECT_EQ(wrong.shadows, 0U);
     EXPECT_GT(wrong.of_control, 0U);
     EXPECT_LT(wrong.undecided, outside.size() / 4); // half of them graze
 }

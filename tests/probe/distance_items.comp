@@ -1,4 +1,5 @@
-// Evaluates the shipped distances along a ray to a sphere and to a plane.
+// Evaluates the shipped distances along a ray to a sphere and to a plane, and whether the sphere blocks shadow rays that
+// end somewhat before and behind the hit.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -22,6 +23,9 @@ void main()
     vec3 direction = items[index].direction_start.xyz;
     float start = items[index].direction_start.w;
     bool leaving = start > 0.0;
-    results[index] = vec4(sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0),
-                          plane_distance(Level(sphere.w, sphere.xyz, 0.0), direction, leaving, start == 2.0), 0.0, 0.0);
+    float distance = sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0);
+    float beyond = distance < NO_HIT ? 1.1 * distance : NO_HIT;
+    results[index] = vec4(distance, plane_distance(Level(sphere.w, sphere.xyz, 0.0), direction, leaving, start == 2.0),
+                          sphere_blocks(sphere.xyz, sphere.w, direction, leaving, 0.9 * beyond / 1.1) ? 1.0 : 0.0,
+                          sphere_blocks(sphere.xyz, sphere.w, direction, leaving, beyond) ? 1.0 : 0.0);
 }
