@@ -29,7 +29,7 @@ FilmPixel empty_film_pixel()
 // bits below 2^-60 (2^-37 and more have none), it is rounded to nearest.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
-// The biases' own bits are in too; they are taken off once, from the sum.
+// The biases' own bits are in too; they are taken off once, from the sum, which counts modulo 2^32.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;

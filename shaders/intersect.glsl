@@ -43,14 +43,14 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
 }
 
 // Whether the sphere blocks a shadow ray that comes from outside all spheres and ends at a distance: whether the nearer
-// root is less, b - sqrt(r^2 - l^2) < distance, told without the root.
-bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool leaving, float distance)
+// root is less, b - sqrt(r^2 - l^2) < distance, told without the root. at_end: the ray starts or ends on it.
+bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float beyond = max(b - distance, 0.0);
-    bool near = radius * radius - dot(across, across) > beyond * beyond;
-    return !leaving && b > 0.0 && near;
+    bool met_before = dot(across, across) + beyond * beyond < radius * radius;
+    return !at_end && b > 0.0 && met_before;
 }
 
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
@@ -142,10 +142,10 @@ void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere
         blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
         return;
     }
-    bool never = sphere == start.surface || (sphere < LAMP_COUNT && sphere == shadow.lamp);
+    bool at_end = sphere == start.surface || (sphere < LAMP_COUNT && sphere == shadow.lamp);
     vec3 to_centre = centre_radius.xyz - start.origin;
-    bool blocks = sphere_blocks(to_centre, centre_radius.w, shadow.direction, never, shadow.distance);
-    blocked = blocked || blocks;
+    bool between = sphere_blocks(to_centre, centre_radius.w, shadow.direction, at_end, shadow.distance);
+    blocked = blocked || between;
 }
 
 void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level)

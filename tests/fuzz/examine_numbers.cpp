@@ -120,16 +120,23 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// The kernel squares all that is a length and adds three squares.
-bool is_gpu_length(float x) {
-    return std::abs(x) <= 3.0001e18F;
+// The kernel squares all that is a length and adds three squares. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger
+// than lengths and colours may be.
+constexpr float largest_length = 3.0001e18F;
+constexpr float largest_peak = 1.6e26F;
+
+bool is_within(const glm::vec4 &word, float largest) {
+    const glm::vec4 size = glm::abs(word);
+    return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
 void require_words(const std::vector<glm::vec4> &words, const pt::Features &features) {
     require(words.size() == pt::scene_word_count(features), "the scene has as many words as it is said to have");
-    for (const glm::vec4 &word : words)
-        for (int i = 0; i < 4; ++i)
-            require(is_gpu_length(word[i]), "the scene's words are numbers whose squares are numbers");
+    const std::uint64_t specular = features.gloss ? 3 * std::uint64_t{features.surface_count()} : words.size();
+    const std::uint64_t after = features.gloss ? specular + features.surface_count() : words.size();
+    for (std::uint64_t i = 0; i < words.size(); ++i)
+        require(is_within(words[i], i >= specular && i < after ? largest_peak : largest_length),
+                "the scene's words are numbers whose squares are numbers, or peaks of lobes");
     const auto spheres = std::span(words).first(features.sphere_count);
     require(std::ranges::all_of(spheres, [](const glm::vec4 &sphere) { return sphere.w >= 1e-18F * (1 - 0x1p-24F); }),
             "the kernel's radii are at least 1e-18");

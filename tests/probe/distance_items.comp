@@ -1,5 +1,5 @@
-// Evaluates the shipped distances along a ray to a sphere and to a plane, and whether the sphere blocks shadow rays that
-// end somewhat before and behind the hit.
+// Evaluates the shipped distances along a ray to a sphere and to a plane, and whether the sphere blocks shadow rays
+// that end somewhat before and behind the hit.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
