@@ -20,24 +20,24 @@ using vec4 = glm::vec4;
 #endif
 
 // ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
-PT_CONSTANT ID_SPHERE_COUNT = 0;    // spheres held by centre and radius; the emitting ones come first
-PT_CONSTANT ID_PLANE_COUNT = 1;     // planes, and spheres held as planes with a curvature
-PT_CONSTANT ID_LAMP_COUNT = 2;      // emitting spheres among ID_SPHERE_COUNT
-PT_CONSTANT ID_MAX_PATH_LENGTH = 3; // surface vertices after the camera
-PT_CONSTANT ID_ESTIMATOR = 4;       // ESTIMATOR_*
-PT_CONSTANT ID_GLOSS = 5;           // 1: some material has a specular lobe
-PT_CONSTANT ID_MOTION = 6;          // 1: some sphere moves while the shutter is open
-PT_CONSTANT ID_SCENE_SOURCE = 7;    // SCENE_IN_*: where the kernel finds the scene
-PT_CONSTANT ID_SAMPLER = 8;         // SAMPLER_*
-PT_CONSTANT ID_TABLE_BLOCKS = 9;    // blocks of a sample and one of its branches that are in the point table
-PT_CONSTANT ID_BRANCH_COUNT = 10;   // directions in which a path leaves its first vertex
-PT_CONSTANT ID_CURVATURE = 11;      // 1: some plane has a curvature
-PT_CONSTANT ID_POINT_BLOCKS = 12;   // blocks that the binding of the point table holds
-PT_CONSTANT ID_INSIDE = 13;         // 1: the camera is inside a sphere, so paths may be
-PT_CONSTANT ID_PLANES_BLOCK = 14;   // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_SHARERS = 15;        // invocations that share the samples of a pixel: images that are small for a GPU
-PT_CONSTANT ID_OVERLAP = 16;        // 1: dispatches, and sharers, may add to a pixel at the same time
-PT_CONSTANT ID_PLANES_EMIT = 17;    // 1: some plane, or sphere held as one, emits
+PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres held by centre and radius; the emitting ones come first
+PT_CONSTANT ID_PLANE_COUNT = 1;      // planes, and spheres held as planes with a curvature
+PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT
+PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
+PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
+PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
+PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
+PT_CONSTANT ID_SCENE_SOURCE = 7;     // SCENE_IN_*: where the kernel finds the scene
+PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
+PT_CONSTANT ID_TABLE_BLOCKS = 9;     // blocks of a sample and one of its branches that are in the point table
+PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
+PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
+PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
+PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
+PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
+PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
+PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
+PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
 PT_CONSTANT CONSTANT_COUNT = 18;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
@@ -68,31 +68,33 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
-PT_FUNCTION uint camera_dimensions(uint motion) {
-    return 2 + motion;
-}
-PT_FUNCTION uint shared_blocks(uint lamp_count) {
-    return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
-}
-PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count) {
+PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
+PT_FUNCTION uint shared_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
+PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
+{
     return lamp_count == 0 || (vertex == 1 && lamp_count <= EVERY_LAMP_LIMIT) ? 0 : lamp_count == 1 ? 2 : 3;
 }
-PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length) {
+PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
+{
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
 }
-PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count) {
+PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
+{
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
+
 // Blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count) {
-    return shared_blocks(lamp_count) +
-           (max_path_length < 2 ? 0
-                                : vertex_blocks(1, lamp_count) + (max_path_length - 2) * vertex_blocks(2, lamp_count));
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count)
+{
+    const uint first = shared_blocks(lamp_count) + vertex_blocks(1, lamp_count);
+    return max_path_length < 2 ? shared_blocks(lamp_count)
+                               : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
 // Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the
 // branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
-PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches) {
+PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
+{
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
 }
 
@@ -136,13 +138,13 @@ PT_CONSTANT FILM_MAX_EXPONENT = 28;
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
 struct FrameConstants {
-    vec3 camera_right;      // unit vector
-    float film_scale;       // radiance times this is in film units; a power of two
-    vec3 camera_up;         // unit vector
-    uint width;             // of the image, pixels
-    vec3 camera_forward;    // as long as the image plane is far away in pixels
-    uint height;            // of the image, pixels
-    uvec2 seed;             // well mixed words made from pt_render.seed
+    vec3 camera_right; // unit vector
+    float film_scale;  // radiance times this is in film units; a power of two
+    vec3 camera_up;    // unit vector
+    uint width;        // of the image, pixels
+    vec3 camera_forward; // as long as the image plane is far away in pixels
+    uint height;         // of the image, pixels
+    uvec2 seed;          // well mixed words made from pt_render.seed
     uint strip_first_pixel; // index of the strip's first pixel in the image, row by row
     uint strip_pixel_count;
     uint first_pixel; // of this slice, in the strip
