@@ -1,7 +1,12 @@
 // Decides which spheres are seen as planes with a curvature; see curved_plane.h.
 #include "curved_plane.h"
 
+#include "error.h"
+#include "rules.h"
+
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace pt {
 
@@ -16,26 +21,49 @@ constexpr double nearly_flat = 32.0;
 // noise, so it begins where the centre's precision ends: here its surface is off by 2^-24 R, 1/256 of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
-bool moves(const Sphere &sphere, const Camera &camera) {
-    return sphere.motion != glm::dvec3(0.0) && camera.shutter_close > camera.shutter_open;
+glm::dvec3 way_of(const Sphere &sphere, const Camera &camera) {
+    return (camera.shutter_close - camera.shutter_open) * sphere.motion;
+}
+
+// From the centre, as the shutter opens, to the camera.
+glm::dvec3 from_center(const Sphere &sphere, const Camera &camera) {
+    return camera.position - (sphere.center + camera.shutter_open * sphere.motion);
 }
 
 } // namespace
 
 CurvedPlane curved_plane(const Plane &plane, const Camera &camera) {
-    return {plane.normal, plane.offset + glm::dot(plane.normal, camera.position), 0.0};
+    return {plane.normal, plane.offset + glm::dot(plane.normal, camera.position), 0.0, glm::dvec3(0.0)};
 }
 
+// One that moves is seen from the camera as if the camera moved the other way, so what it moves counts like a distance.
 std::optional<CurvedPlane> curved_plane(const Sphere &sphere, const Material &material, const Camera &camera) {
-    if (moves(sphere, camera))
-        return std::nullopt;
-    const glm::dvec3 from_center = camera.position - (sphere.center + camera.shutter_open * sphere.motion);
-    const double distance = glm::length(from_center);
+    const glm::dvec3 to_camera = from_center(sphere, camera);
+    const glm::dvec3 way = way_of(sphere, camera);
+    const double distance = glm::length(to_camera);
     const double offset = distance - sphere.radius;
+    const double extent = std::max(std::abs(offset), glm::length(way));
     const bool is_lamp = material.emission != glm::vec3(0.0F);
-    if (!(sphere.radius > (is_lamp ? nearly_flat_lamp : nearly_flat) * std::abs(offset)))
+    if (!(sphere.radius > (is_lamp ? nearly_flat_lamp : nearly_flat) * extent))
         return std::nullopt;
-    return CurvedPlane{from_center / distance, offset, 1.0 / sphere.radius};
+    return CurvedPlane{to_camera / distance, offset, 1.0 / sphere.radius, way};
+}
+
+// Held by its centre, its surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, as for
+// lamps, the picture would be wrong while it is so near.
+void require_held_motions(const Scene &scene, const Camera &camera) {
+    for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
+        const Sphere &sphere = scene.spheres[i];
+        const double offset = glm::length(from_center(sphere, camera)) - sphere.radius;
+        const double way = glm::length(way_of(sphere, camera));
+        const bool huge = sphere.radius > nearly_flat_lamp * std::abs(offset);
+        if (huge && sphere.radius <= nearly_flat * way)
+            throw Error(PT_ERROR_UNSUPPORTED,
+                        "spheres[" + std::to_string(i) + "].motion = " + number_text(sphere.motion) +
+                            ": a sphere whose surface is nearer to the camera than a 65536th of its radius (" +
+                            number_text(sphere.radius) +
+                            ") must move less than a 32nd of it while the shutter is open");
+    }
 }
 
 } // namespace pt

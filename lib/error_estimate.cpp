@@ -44,6 +44,10 @@ ErrorEstimate unknown_error() {
     return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}};
 }
 
+bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {
+    return rejected_samples > samples >> 20;
+}
+
 std::uint32_t next_check(std::uint32_t sample_count) {
     if (sample_count < min_estimate_samples)
         return min_estimate_samples;

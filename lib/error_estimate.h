@@ -27,6 +27,11 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 // What is known without samples.
 ErrorEstimate unknown_error();
 
+// Whether so many of an image's samples were left out that its error is unknown. Of those that were too bright each may
+// have carried more than 2^20 times the brightest emission (gpu_layout.h, FILM_MAX_EXPONENT): from one in 2^20 on, they
+// may outweigh all light in the picture.
+bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
+
 // The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of
 // two.
 std::uint32_t next_check(std::uint32_t sample_count);

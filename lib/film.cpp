@@ -81,6 +81,7 @@ PixelEstimates pixel_estimates(std::span<const std::uint32_t> words, std::size_t
         require_samples(a, expected[0]);
         require_samples(b, expected[1]);
         const std::uint32_t accepted = a.accepted() + b.accepted();
+        estimates.rejected += a.done() + b.done() - accepted;
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const Wide sum_a = a.sum(channel);
             const Wide sum_b = b.sum(channel);

@@ -20,6 +20,7 @@ struct PixelEstimates {
     std::vector<float> radiance;       // mean of all samples; black where all were rejected
     std::vector<float> standard_error; // of that mean, from the difference of its parts; infinity where one is empty;
                                        // nothing if it was not asked for
+    std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
 // Reads the film words of consecutive pixels (both parts, planes of plane_pixels words, gpu_layout.h). A pixel that

@@ -16,7 +16,7 @@ float mean(const glm::vec3 &colour) {
     return (colour.r + colour.g + colour.b) / 3.0F;
 }
 
-// Surfaces in the kernel's order: lamps, other spheres, planes with curvature, planes; otherwise as in the scene.
+// Surfaces in the kernel's order: lamps, skies, other spheres, planes with curvature, planes; otherwise as in the scene.
 struct KernelOrder {
     std::vector<Sphere> spheres;
     std::vector<CurvedPlane> planes;
@@ -34,8 +34,8 @@ KernelOrder kernel_order(const Scene &scene, const Camera &camera) {
             order.spheres.push_back(sphere);
         }
     }
-    std::stable_partition(order.spheres.begin(), order.spheres.end(), [&](const Sphere &sphere) {
-        return scene.materials[sphere.material].emission != glm::vec3(0.0F);
+    std::ranges::stable_sort(order.spheres, {}, [&](const Sphere &sphere) {
+        return sphere_role(sphere, scene.materials[sphere.material], camera);
     });
     for (const Plane &plane : scene.planes) {
         order.planes.push_back(curved_plane(plane, camera));
@@ -87,7 +87,8 @@ public:
     void plane(std::uint32_t surface, const CurvedPlane &plane) {
         words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
         if (features_.curvature)
-            words_[curvature_words() + surface - features_.sphere_count].x = static_cast<float>(plane.curvature);
+            words_[curvature_words() + surface - features_.sphere_count] =
+                glm::vec4(static_cast<float>(plane.curvature), glm::vec3(plane.way));
     }
 
 private:
@@ -138,6 +139,7 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     constants.camera_right = camera.right;
     constants.camera_up = camera.up;
     constants.camera_forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
+    constants.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
     constants.film_scale = static_cast<float>(1.0 / film_unit);
     constants.width = render.width;
     constants.height = render.height;

@@ -1,8 +1,11 @@
 // Film, kernel and slices of a device; see render_device.h.
 #include "render_device.h"
 
+#include "curved_plane.h"
 #include "error.h"
 #include "gpu_layout.h"
+#include "ray_start.h"
+#include "twins.h"
 
 #include <algorithm>
 #include <string>
@@ -71,8 +74,10 @@ void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
 void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
     if (kernel_)
         return;
+    require_held_motions(scene, camera);
+    const Camera start = starting_ahead(scene, camera, settings);
     film_->clear();
-    kernel_.emplace(device_, *pipelines_, *film_, scene, camera, settings);
+    kernel_.emplace(device_, *pipelines_, *film_, without_twins(scene, start), start, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =

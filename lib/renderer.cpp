@@ -142,9 +142,13 @@ const ErrorEstimate &Renderer::error() {
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
-        read_films(films(), kernel().film_unit(), part_counts(samples_done_), true,
-                   [&](const PixelEstimates &pixels) { estimator.add(pixels.radiance, pixels.standard_error); });
-        error_ = estimator.result(exaggeration(settings_->sampler));
+        std::uint64_t rejected = 0;
+        read_films(films(), kernel().film_unit(), part_counts(samples_done_), true, [&](const PixelEstimates &pixels) {
+            estimator.add(pixels.radiance, pixels.standard_error);
+            rejected += pixels.rejected;
+        });
+        const std::uint64_t samples = std::uint64_t{samples_done_} * devices_.front()->film().pixel_count();
+        error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result(exaggeration(settings_->sampler));
     }
     return *error_;
 }

@@ -3,6 +3,7 @@
 
 #include "curved_plane.h"
 #include "point_sequence.h"
+#include "twins.h"
 
 #include <algorithm>
 #include <numeric>
@@ -51,6 +52,18 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double
     });
 }
 
+// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
+// line both ends tell.
+bool holds_camera(const Way &way, double radius) {
+    constexpr double margin = 1.0 - 0x1p-16;
+    return std::ranges::all_of(way, [&](const glm::dvec3 &centre) { return glm::length(centre) < radius * margin; });
+}
+
+// Whether the camera is on a side of a plane that float32 can tell, and stays there.
+bool has_known_side(const CurvedPlane &plane) {
+    return static_cast<float>(plane.offset) != 0.0F;
+}
+
 // Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
     const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
@@ -58,6 +71,12 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 }
 
 } // namespace
+
+SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera) {
+    if (!emits(material))
+        return SphereRole::other;
+    return holds_camera(way_of(sphere, camera), sphere.radius) ? SphereRole::sky : SphereRole::lamp;
+}
 
 Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render) {
     const auto is_glossy = [&](const auto &surface) {
@@ -72,21 +91,28 @@ Features features_of(const Scene &scene, const Camera &camera, const RenderSetti
     Features features{};
     features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
     features.planes_emit = std::ranges::any_of(scene.planes, glows);
+    features.known_sides = std::ranges::all_of(planes, has_known_side);
     for (const Sphere &sphere : scene.spheres) {
         const Material &material = scene.materials[sphere.material];
-        if (curved_plane(sphere, material, camera)) {
+        if (const auto plane = curved_plane(sphere, material, camera)) {
             ++features.plane_count;
             features.curvature = true;
             features.planes_emit = features.planes_emit || emits(material);
+            features.planes_move = features.planes_move || plane->way != glm::dvec3(0.0);
+            features.known_sides = features.known_sides && has_known_side(*plane);
         } else {
             const Way way = way_of(sphere, camera);
+            const SphereRole role = sphere_role(sphere, material, camera);
+            const bool is_lamp = role == SphereRole::lamp;
             ++features.sphere_count;
-            features.lamp_count += emits(material) ? 1 : 0;
+            features.lamp_count += is_lamp ? 1 : 0;
+            features.sky_count += role == SphereRole::sky ? 1 : 0;
             features.inside = features.inside || is_at_or_in(way, sphere.radius);
-            features.planes_block =
-                features.planes_block || (emits(material) && !is_in_region(planes, way, sphere.radius));
+            features.planes_block = features.planes_block || (is_lamp && !is_in_region(planes, way, sphere.radius));
         }
     }
+    features.close_lamps = features.lamp_count > 0 && has_close_lamps(scene, camera);
+    features.starts_ahead = camera.start_distance > 0.0;
     features.planes_block = features.planes_block || features.curvature; // some may bulge towards the camera
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
@@ -160,6 +186,11 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
     constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
     constants[gpu::ID_PLANES_EMIT] = features.planes_emit ? 1 : 0;
+    constants[gpu::ID_SKY_COUNT] = features.sky_count;
+    constants[gpu::ID_KNOWN_SIDES] = features.known_sides ? 1 : 0;
+    constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
+    constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
+    constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }

@@ -15,7 +15,8 @@ namespace pt {
 struct Features {
     std::uint32_t sphere_count; // spheres held by centre and radius
     std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
-    std::uint32_t lamp_count;   // emitting ones of sphere_count
+    std::uint32_t lamp_count;   // emitting ones of sphere_count that can be sampled
+    std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
     std::uint32_t max_path_length;
     std::uint32_t estimator;
     std::uint32_t sampler;
@@ -25,12 +26,22 @@ struct Features {
     bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
     bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
     bool planes_emit;  // some plane, or sphere held as one, emits
+    bool planes_move;  // some sphere held as a plane moves while the shutter is open
+    bool known_sides;  // the camera is on no plane, so that paths are on its side of every surface
+    bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
+    bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
     bool scene_in_uniform; // the scene fits into a uniform buffer
 
     bool operator==(const Features &) const = default;
 
     std::uint32_t surface_count() const { return sphere_count + plane_count; }
 };
+
+// What a sphere that is held by centre and radius is to the kernel, which has them in this order. Paths cannot leave a
+// sphere that holds the camera: one that emits surrounds them all like a sky, which cannot be sampled from within.
+enum class SphereRole { lamp, sky, other };
+
+SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera);
 
 Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
 

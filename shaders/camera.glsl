@@ -1,15 +1,31 @@
-// Pinhole camera at the origin. Used by path.glsl.
+// Pinhole camera that looks from the origin, or from behind it. Used by path.glsl.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
 #include "gpu_layout.h"
+#include "scene.glsl"
 
-// Unit direction through a point of the image: pixel (column, row) from the top left, place in it in [0, 1)^2. The
-// pixel's distance from the image's centre is exact (a multiple of 1/2), so wide images lose nothing at their middle.
-vec3 camera_direction(FrameConstants frame, uvec2 pixel, vec2 place)
+// Distance from the image's middle, in pixels to the right and downwards, of a place in [0, 1)^2 of the pixel (column,
+// row) from the top left. The pixel's own is exact (a multiple of 1/2), so wide images lose nothing at their middle.
+vec2 image_place(FrameConstants frame, uvec2 pixel, vec2 place)
 {
-    vec2 from_centre = 0.5 * vec2(ivec2(2u * pixel) - ivec2(frame.width, frame.height)) + place;
-    return normalize(frame.camera_forward + from_centre.x * frame.camera_right - from_centre.y * frame.camera_up);
+    return 0.5 * vec2(ivec2(2u * pixel) - ivec2(frame.width, frame.height)) + place;
+}
+
+// Unit direction through that place of the image.
+vec3 camera_direction(FrameConstants frame, vec2 from_middle)
+{
+    return normalize(frame.camera_forward + from_middle.x * frame.camera_right - from_middle.y * frame.camera_up);
+}
+
+// Where the ray through it starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the origin
+// across the view. Before that plane nothing is in view (lib/ray_start.h).
+vec3 camera_origin(FrameConstants frame, vec2 from_middle)
+{
+    if (STARTS_AHEAD == 0)
+        return vec3(0.0);
+    vec2 start = frame.start_scale * from_middle;
+    return start.x * frame.camera_right - start.y * frame.camera_up;
 }
 
 #endif

@@ -22,7 +22,7 @@ using vec4 = glm::vec4;
 // ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
 PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres held by centre and radius; the emitting ones come first
 PT_CONSTANT ID_PLANE_COUNT = 1;      // planes, and spheres held as planes with a curvature
-PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT
+PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT that can be sampled
 PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
 PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
 PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
@@ -38,7 +38,12 @@ PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface t
 PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
 PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
 PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
-PT_CONSTANT CONSTANT_COUNT = 18;
+PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, next after the lamps
+PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera is on no plane, so paths are on its side of every surface
+PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
+PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
+PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of the pinhole
+PT_CONSTANT CONSTANT_COUNT = 23;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -115,7 +120,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
-//   curvature[planes] curvature; 0, 0, 0             (only with CURVATURE)
+//   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
@@ -153,14 +158,16 @@ struct FrameConstants {
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
     uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
+    float start_scale; // camera rays start this times their distance from the image's middle in pixels off the origin
 };
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
-static_assert(sizeof(FrameConstants) == 88 && sizeof(FrameConstants) <= 128);
+static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
 static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
+static_assert(offsetof(FrameConstants, start_scale) == 88);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

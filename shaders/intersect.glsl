@@ -7,6 +7,11 @@
 // Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
 const float NO_HIT = 3.0e38;
 
+// Surfaces are opaque, so a path stays on the side of each on which the camera is, at the path's time. Where the camera is
+// on none (KNOWN_SIDES) the sides are told by it. The place of a vertex would tell them wrongly for surfaces that the
+// vertex all but touches: by rounding it may be behind one that stands a little behind its own, and the path would stop
+// there, or leak out of a room.
+
 // How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
 struct Start {
     vec3 origin;
@@ -23,8 +28,8 @@ struct Start {
 // Whether there is a hit is told by the side and the direction: from outside, a line that meets the sphere does so
 // ahead if it leads inwards, b > 0; and no direction leads out of a sphere but through its surface. It is not told by
 // the sign of the distance, which rounding may turn, by as little as it rounds, for rays that start near the sphere.
-// Spheres are opaque: if the camera is outside all of them, no path ever gets inside.
-float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside)
+// If the camera is outside all spheres, no path ever gets inside. outside: of this one, for rays that start elsewhere.
+float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
@@ -34,7 +39,6 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
         return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
     }
     float half_chord = sqrt(max(squared_half_chord, 0.0));
-    bool outside = dot(to_centre, to_centre) > radius * radius;
     float distance = outside ? b - half_chord : b + half_chord;
     bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);
     distance = leaving ? abs(2.0 * b) : distance;
@@ -59,16 +63,23 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
 // wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0.
 // Far above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the
-// ray: the squared length of the gradient is 1 + 2 k h.
-float plane_distance(Level level, vec3 direction, bool leaving, bool inside)
+// ray: the squared length of the gradient is 1 + 2 k h. side: the height of the camera. Where it tells the side, a ray
+// that leads towards the surface meets it, at no distance if rounding has put the ray's origin behind it.
+float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
     if (CURVATURE == 0) {
         float distance = -level.height / slope;
+        if (KNOWN_SIDES == 1)
+            return !leaving && slope * side < 0.0 ? max(distance, 0.0) : NO_HIT;
         return !leaving && distance > 0.0 ? distance : NO_HIT;
     }
     float height = leaving ? 0.0 : level.height;
     bool below = leaving ? inside : height < 0.0 || (height == 0.0 && slope < 0.0);
+    if (KNOWN_SIDES == 1) {
+        below = side < 0.0;
+        height = below ? min(height, 0.0) : max(height, 0.0);
+    }
     float rise = 2.0 * level.curvature * height;
     vec3 across = level.gradient - slope * direction;
     float discriminant = rise > 1.0 ? 1.0 - dot(across, across) : slope * slope - rise;
@@ -76,7 +87,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside)
     bool near = !leaving && discriminant >= 0.0 && below == (slope > 0.0);
     bool far = !near && below && level.curvature > 0.0;
     float distance = (far ? q : 2.0 * abs(height)) / (far ? level.curvature : q);
-    return (near || far) && distance > 0.0 ? distance : NO_HIT;
+    return (near || far) && (distance > 0.0 || KNOWN_SIDES == 1) ? distance : NO_HIT;
 }
 
 struct Hit {
@@ -102,43 +113,48 @@ struct ShadowRay {
 float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius)
 {
     bool leaving = sphere == start.surface;
-    return sphere_distance(centre_radius.xyz - start.origin, centre_radius.w, direction, leaving, start.inside);
+    vec3 to_centre = centre_radius.xyz - start.origin;
+    vec3 from_side = KNOWN_SIDES == 1 ? centre_radius.xyz : to_centre;
+    bool outside = dot(from_side, from_side) > centre_radius.w * centre_radius.w;
+    return sphere_distance(to_centre, centre_radius.w, direction, leaving, start.inside, outside);
 }
 
-float distance_to_plane(Start start, vec3 direction, uint plane, Level level)
+float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
 {
-    return plane_distance(level, direction, plane == start.surface, start.inside);
+    return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// Whether a surface at a distance along a shadow ray blocks it.
+// Whether a surface at a distance along a shadow ray blocks it. Of surfaces at equal distances the first is seen.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
-    return distance < shadow.distance && surface != shadow.lamp;
+    bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
+    return before && surface != shadow.lamp;
 }
 
-void see_sphere(inout Hit hit, vec3 direction, uint sphere, float time)
+void see_sphere(inout Hit hit, Start start, vec3 direction, uint sphere, float time)
 {
-    vec4 centre_radius = sphere_at(sphere, time);
-    keep_closer(hit, sphere_distance(centre_radius.xyz, centre_radius.w, direction, false, false), sphere);
+    keep_closer(hit, distance_to_sphere(start, direction, sphere, sphere_at(sphere, time)), sphere);
 }
 
-void see_plane(inout Hit hit, vec3 direction, uint plane)
+void see_plane(inout Hit hit, Start start, vec3 direction, uint plane, float time)
 {
-    keep_closer(hit, plane_distance(level_at(plane, vec3(0.0)), direction, false, false), plane);
+    Level level = level_at(plane, start.origin, time);
+    keep_closer(hit, distance_to_plane(start, direction, plane, level, time), plane);
 }
 
-// First surface that a ray from the camera, at the origin, meets.
-Hit closest_hit(vec3 direction, float time)
+// First surface that a ray from the camera meets.
+Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
-    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, direction, sphere, time));
-    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, direction, plane));
+    Start start = Start(origin, NO_SURFACE, false);
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, start, direction, sphere, time));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, start, direction, plane, time));
     return hit;
 }
 
 void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius)
 {
-    if (INSIDE == 1) {
+    if (INSIDE == 1 || CLOSE_LAMPS == 1) {
         blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
         return;
     }
@@ -148,19 +164,33 @@ void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere
     blocked = blocked || between;
 }
 
-void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level)
+void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level, float time)
 {
-    blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level), plane);
+    blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
+}
+
+// Where a lamp all but coincides with another sphere, a ray towards it ends where the ray itself meets the lamp, as it
+// would meet the other: of two distances by one formula just one is less, whatever their rounding, so that light which
+// both send is counted once. A lamp that the ray misses by rounding is where it was sampled.
+ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
+{
+    if (CLOSE_LAMPS == 1 && shadow.distance > 0.0) {
+        vec4 lamp = sphere_among(LAMP_COUNT, shadow.lamp, time);
+        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp);
+        shadow.distance = distance < NO_HIT ? distance : shadow.distance;
+    }
+    return shadow;
 }
 
 // Whether a shadow ray is blocked.
-bool is_blocked(Start start, float time, ShadowRay shadow)
+bool is_blocked(Start start, float time, ShadowRay towards_lamp)
 {
+    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
     bool blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
     if (PLANES_BLOCK == 1)
         FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
-                 shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin)));
+                 shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin, time), time));
     return blocked;
 }
 
@@ -172,22 +202,24 @@ void meet_sphere(inout Hit hit, inout bool blocked, Start start, vec3 direction,
     shade_sphere(blocked, start, shadow, sphere, centre_radius);
 }
 
-void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint plane)
+void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, ShadowRay shadow, uint plane,
+                float time)
 {
-    Level level = level_at(plane, start.origin);
-    keep_closer(hit, distance_to_plane(start, direction, plane, level), plane);
+    Level level = level_at(plane, start.origin, time);
+    keep_closer(hit, distance_to_plane(start, direction, plane, level, time), plane);
     if (PLANES_BLOCK == 1)
-        shade_plane(blocked, start, shadow, plane, level);
+        shade_plane(blocked, start, shadow, plane, level, time);
 }
 
 // One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
 // shadow ray is blocked.
-Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
+Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay towards_lamp, out bool blocked)
 {
+    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));
-    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane, time));
     return hit;
 }
 

@@ -119,12 +119,13 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     }
 }
 
-// The material of a vertex, as the direction in which the path goes on is to be sampled.
+// The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky the last direction
+// is like the others: the sky's light is found by directions alone.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
     bool last = vertex_count + 1u == MAX_PATH_LENGTH;
-    return SAMPLE_LAMPS && last ? at_last_direction(material) : material;
+    return SAMPLE_LAMPS && SKY_COUNT == 0u && last ? at_last_direction(material) : material;
 }
 
 // Takes a path from a vertex beyond the first to the next.
@@ -207,13 +208,18 @@ vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
     // The camera ray, spread over the pixel's square (box filter), and what it meets.
     vec3 numbers = camera_numbers(key);
     float time = numbers.z;
-    vec3 direction = camera_direction(frame, pixel, numbers.xy);
-    Hit hit = closest_hit(direction, time);
+    vec2 from_middle = image_place(frame, pixel, numbers.xy);
+    vec3 origin = camera_origin(frame, from_middle);
+    vec3 direction = camera_direction(frame, from_middle);
+    Hit hit = closest_hit(origin, direction, time);
     if (hit.surface == NO_SURFACE)
         return vec3(0.0);
+    vec3 point = hit.distance * direction;
+    if (STARTS_AHEAD == 1)
+        point += origin;
     vec3 radiance = may_emit(hit.surface) ? emission_of(hit.surface).rgb : vec3(0.0);
     if (MAX_PATH_LENGTH > 1u)
-        radiance += light_from_first_vertex(Arrival(hit.distance * direction, direction, hit.surface), key, time);
+        radiance += light_from_first_vertex(Arrival(point, direction, hit.surface), key, time);
     return radiance;
 }
 

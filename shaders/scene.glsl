@@ -23,6 +23,11 @@ layout(constant_id = ID_CURVATURE) const uint CURVATURE = 0;
 layout(constant_id = ID_INSIDE) const uint INSIDE = 1;
 layout(constant_id = ID_PLANES_BLOCK) const uint PLANES_BLOCK = 1;
 layout(constant_id = ID_PLANES_EMIT) const uint PLANES_EMIT = 1;
+layout(constant_id = ID_SKY_COUNT) const uint SKY_COUNT = 0;
+layout(constant_id = ID_KNOWN_SIDES) const uint KNOWN_SIDES = 0;
+layout(constant_id = ID_PLANES_MOVE) const uint PLANES_MOVE = 1;
+layout(constant_id = ID_CLOSE_LAMPS) const uint CLOSE_LAMPS = 1;
+layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
 layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
@@ -94,10 +99,10 @@ const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 vec4 emission_of(uint surface) { return scene_word_among(EMISSION, SURFACE_COUNT, surface); }
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
 
-// Whether a surface may emit: the lamps do, other spheres do not.
+// Whether a surface may emit: lamps and skies do, other spheres do not.
 bool may_emit(uint surface)
 {
-    return surface < LAMP_COUNT || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
+    return surface < LAMP_COUNT + SKY_COUNT || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
 }
 
 // Of the diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
@@ -140,9 +145,13 @@ struct Level {
 //     (|x - centre|^2 - R^2) / (2 R) = n . y + k / 2 |y|^2,
 // 0 on the sphere, and its gradient is n + k y. The left side loses 2^-24 R to rounding; the right one, 2^-24 of the
 // distances in the scene. Its limit k = 0 is the plane.
-Level level_of(vec4 normal_offset, float curvature, vec3 point)
+// One that moves by m up to the time t is met by a point x where it stood at first by x - t m.
+Level level_of(vec4 normal_offset, vec4 curvature_motion, vec3 point, float time)
 {
     vec4 n = normal_offset;
+    if (PLANES_MOVE == 1)
+        point -= time * curvature_motion.yzw;
+    float curvature = curvature_motion.x;
     Level level = Level(n.x * point.x + (n.y * point.y + (n.z * point.z + n.w)), n.xyz, curvature);
     if (CURVATURE == 1) {
         vec3 from_nearest = point + normal_offset.w * normal_offset.xyz;
@@ -154,18 +163,24 @@ Level level_of(vec4 normal_offset, float curvature, vec3 point)
 }
 
 // With respect to a plane that is a loop's index, ...
-Level level_at(uint plane, vec3 point)
+Level level_at(uint plane, vec3 point, float time)
 {
-    float curvature = CURVATURE == 1 ? scene_word(CURVATURES + plane - SPHERE_COUNT).x : 0.0;
-    return level_of(scene_word(plane), curvature, point);
+    vec4 curvature = CURVATURE == 1 ? scene_word(CURVATURES + plane - SPHERE_COUNT) : vec4(0.0);
+    return level_of(scene_word(plane), curvature, point, time);
 }
 
 // ... or to any plane.
-Level level_among(uint plane, vec3 point)
+Level level_among(uint plane, vec3 point, float time)
 {
     uint index = plane - SPHERE_COUNT;
-    float curvature = CURVATURE == 1 ? scene_word_among(CURVATURES, PLANE_COUNT, index).x : 0.0;
-    return level_of(scene_word_among(SPHERE_COUNT, PLANE_COUNT, index), curvature, point);
+    vec4 curvature = CURVATURE == 1 ? scene_word_among(CURVATURES, PLANE_COUNT, index) : vec4(0.0);
+    return level_of(scene_word_among(SPHERE_COUNT, PLANE_COUNT, index), curvature, point, time);
+}
+
+// Height of the camera above a plane that is a loop's index.
+float camera_height(uint plane, float time)
+{
+    return PLANES_MOVE == 1 ? level_at(plane, vec3(0.0), time).height : scene_word(plane).w;
 }
 
 #endif

@@ -33,7 +33,7 @@ Vertex vertex_at(Arrival arrival, float time)
         normal = normalize(position - sphere.xyz);
         position = sphere.xyz + sphere.w * normal;
     } else {
-        Level level = level_among(surface, position);
+        Level level = level_among(surface, position, time);
         normal = CURVATURE == 1 ? normalize(level.gradient) : level.gradient;
         position -= level.height * normal;
     }

@@ -45,6 +45,14 @@ TEST(ErrorEstimate, OfAnImageWithAnUnknownPixelIsUnknown) {
     }
 }
 
+TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
+    EXPECT_FALSE(pt::hides_error(0, 16));
+    EXPECT_TRUE(pt::hides_error(1, 1 << 19));
+    EXPECT_FALSE(pt::hides_error(1, 1 << 20));
+    EXPECT_FALSE(pt::hides_error(1 << 10, std::uint64_t{1} << 30));
+    EXPECT_TRUE(pt::hides_error((1 << 10) + 1, std::uint64_t{1} << 30));
+}
+
 // Two tiles of 8 x 8 pixels with the squares 64 * 3 * 1 and 64 * 3 * 4: their mean is 2.5 a value; their deviations
 // from it are 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {

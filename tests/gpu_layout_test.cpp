@@ -133,7 +133,7 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     EXPECT_EQ(words[24], glm::vec4(0));
 }
 
-// What is not huge against its distance, or moves, keeps its centre and radius.
+// What is not huge against its distance and its way keeps its centre and radius.
 TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
     const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
@@ -146,7 +146,8 @@ TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     EXPECT_TRUE(pt::curved_plane(below(33, 0, 0), diffuse, camera));
     EXPECT_FALSE(pt::curved_plane(below(31, 1, 0), diffuse, camera));
     EXPECT_FALSE(pt::curved_plane(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
-    EXPECT_FALSE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(33, 1, 3), diffuse, camera));
     EXPECT_TRUE(pt::curved_plane(below(65537, 1, 0), lamp, camera));
     EXPECT_FALSE(pt::curved_plane(below(65535, 1, 0), lamp, camera));
     pt::Camera closed = camera;

@@ -41,16 +41,19 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// What the device meets. A sphere that moves, by however little, is held by its centre and radius.
+// What the device meets. Rays start on either side of the sphere, wherever the camera is. One that moves by a 32nd of its
+// radius is held by its centre and radius; it stands still at the time of the rays.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
-    scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? 1e-30 : 0.0, 0, 0}, 0}};
+    scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
     const pt::Features features =
         pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
-    Probe probe(intersection_spirv, sizeof count, pt::specialization_constants(features));
+    auto constants = pt::specialization_constants(features);
+    constants[pt::gpu::ID_KNOWN_SIDES] = 0;
+    Probe probe(intersection_spirv, sizeof count, constants);
     probe.set_scene(pt::gpu_scene(scene, camera, features));
     std::vector<glm::vec4> input;
     for (const Ray &ray : rays) {

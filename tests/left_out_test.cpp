@@ -1,5 +1,6 @@
 // What the kernel leaves out where a scene has no need of it changes no picture: the handling of insides where the
-// camera is in no sphere, planes as obstacles where no lamp is behind one, and as lights where none emits.
+// camera is in no sphere, planes as obstacles where no lamp is behind one, and as lights where none emits; the sides of
+// vertices and the ends of shadow rays.
 #include "invariance_scene.h"
 #include "kernel_render.h"
 
@@ -76,6 +77,26 @@ TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
     ASSERT_FALSE(render.features().planes_emit);
     const Image image = image_with(render, render.constants());
     EXPECT_EQ(image, image_with_other(render, gpu::ID_PLANES_EMIT));
+}
+
+// Where the camera tells the side of surfaces, vertices would tell the same, but for rounding.
+TEST(LeftOut, SidesOfVerticesWhereTheCameraTellsThem) {
+    InvarianceScene inside = room();
+    inside.spheres.push_back({{0, 0, -5}, 20, {0, 0, 0}, 4, 0});
+    for (const InvarianceScene &scene : {room(), inside}) {
+        const KernelRender render = render_of_scene(scene, path_length);
+        ASSERT_TRUE(render.features().known_sides);
+        const Image image = image_with(render, render.constants());
+        EXPECT_LE(differing_values(image, image_with_other(render, gpu::ID_KNOWN_SIDES)), decided_by_rounding);
+    }
+}
+
+// Which end of a shadow ray counts matters to lamps that are close to other spheres alone.
+TEST(LeftOut, EndsOfShadowRaysWhereNoLampIsCloseToASphere) {
+    const KernelRender render = render_of_scene(room(), path_length);
+    ASSERT_FALSE(render.features().close_lamps);
+    const Image image = image_with(render, render.constants());
+    EXPECT_LE(differing_values(image, image_with_other(render, gpu::ID_CLOSE_LAMPS)), decided_by_rounding);
 }
 
 // Negative controls: what the scene needs is left out, which must show.

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <vector>
 
 namespace {
@@ -179,6 +180,97 @@ TEST_F(Motion, LampIsTheMeanOfFrozenTimes) {
         EXPECT_LT(std::abs(estimate.mean - frozen[pixel]) / error, allowed(lamp_batches)) << "pixel " << pixel;
         std::printf("pixel %zu: %.6f frozen %.6f +- %.6f\n", pixel, estimate.mean, frozen[pixel], error);
     }
+}
+
+// ---- A huge ball on the move ---------------------------------------------------------------------------------------
+
+// The floor is a ball whose top is at the height -1, and moves.
+struct FloorBall {
+    double radius;
+    double motion[3];
+};
+
+class HugeMotion : public Motion {
+protected:
+    void set_up_floor(const FloorBall &floor, double shutter_open = 0, double shutter_close = 0) {
+        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {10, 10, 10}, 0},
+                                         {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}};
+        const pt_sphere spheres[] = {
+            {{3, 2, 0}, 1, {0, 0, 0}, 0, 0},
+            {{0, -1 - floor.radius, 0}, floor.radius, {floor.motion[0], floor.motion[1], floor.motion[2]}, 1, 0}};
+        const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        camera.target[0] = 0.3;
+        camera.target[1] = -1;
+        camera.target[2] = -0.4;
+        camera.vertical_fov = 0.5;
+        camera.shutter_open = shutter_open;
+        camera.shutter_close = shutter_close;
+        set_up(scene, camera);
+    }
+
+    // Of the whole image.
+    Estimate light(uint32_t batch_count, uint32_t samples) {
+        const Batches batches = render_batches(render_of(8, 8, 2), batch_count, samples);
+        std::vector<std::size_t> pixels(batches.front().size());
+        std::iota(pixels.begin(), pixels.end(), std::size_t{0});
+        return estimate_over(batches, pixels);
+    }
+};
+
+// However little it moves, it is where it is at rest.
+TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
+    for (const double radius : {1e4, 1e7, 1e8, 1e12})
+        for (const double length : {1e-9, 1e-6}) {
+            set_up_floor({radius, {0, 0, 0}});
+            const Estimate still = light(lamp_batches, 256);
+            set_up_floor({radius, {length, 0, length}});
+            const Estimate moving = light(lamp_batches, 256);
+            const double error = std::hypot(still.standard_error, moving.standard_error, 1e-6 * still.mean);
+            EXPECT_LT(std::abs(moving.mean - still.mean) / error, allowed(lamp_batches)) << radius << ' ' << length;
+        }
+}
+
+// By the midpoint rule over 32 instants, as for lamps: the light goes with height^-2 or so of a lamp 3 above, which
+// changes by 1/4 of its value: an error of (1/4)^2 * 6 / 24 / 32^2 = 2e-5 of it at most.
+TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
+    constexpr uint32_t times = 32;
+    for (const FloorBall &floor : {FloorBall{1e7, {3, 0.5, -2}}, FloorBall{1e5, {1000, 0.25, 0}}}) {
+        double mean = 0.0;
+        double square = 0.0;
+        for (uint32_t i = 0; i < times; ++i) {
+            set_up_floor(floor, (i + 0.5) / times, (i + 0.5) / times);
+            const Estimate frozen = light(2, 64);
+            mean += frozen.mean / times;
+            square += std::pow(frozen.standard_error / times, 2);
+        }
+        set_up_floor(floor);
+        const Estimate moving = light(lamp_batches, 1024);
+        const double error = std::hypot(moving.standard_error, std::sqrt(square), 1e-4 * mean);
+        EXPECT_LT(std::abs(moving.mean - mean) / error, allowed(lamp_batches)) << floor.radius;
+        // Negative control: down instead of up.
+        set_up_floor({floor.radius, {floor.motion[0], -floor.motion[1], floor.motion[2]}});
+        EXPECT_GT(std::abs(light(lamp_batches, 1024).mean - mean) / error, allowed(lamp_batches)) << floor.radius;
+    }
+}
+
+TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
+    const pt_render render = render_of(8, 8, 2);
+    ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
+    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0};
+    set_up_floor({1e7, {312499, 0, 0}});
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
+    set_up_floor({1e7, {312501, 0, 0}});
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_ERROR_UNSUPPORTED);
+    EXPECT_STREQ(
+        pt_last_error(context()),
+        "spheres[1].motion = (312501, 0, 0): a sphere whose surface is nearer to the camera than a 65536th of its "
+        "radius (1e+07) must move less than a 32nd of it while the shutter is open");
+    set_up_floor({1e7, {312501, 0, 0}}, 0.25, 0.5);
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "while the shutter is open it moves less";
+    set_up_floor({6e4, {1e6, 0, 0}});
+    EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << "held by its centre";
 }
 
 // ---- The shutter ---------------------------------------------------------------------------------------------------

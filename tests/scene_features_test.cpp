@@ -212,4 +212,44 @@ TEST(SceneWordCount, HoldsForTheLargestScenes) {
     EXPECT_EQ(pt::scene_word_count(features), std::uint64_t{5} * most_surfaces);
 }
 
+TEST(FeatureSky, IsALampThatHoldsTheCamera) {
+    const auto counts = [](const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
+        const pt::Features features = features_of(spheres, {}, shutter);
+        const auto constants = pt::specialization_constants(features);
+        EXPECT_EQ(constants[pt::gpu::ID_LAMP_COUNT], features.lamp_count);
+        EXPECT_EQ(constants[pt::gpu::ID_SKY_COUNT], features.sky_count);
+        return std::pair{features.lamp_count, features.sky_count};
+    };
+    using Counts = std::pair<std::uint32_t, std::uint32_t>;
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 2)}), (Counts{1, 0}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4)}), (Counts{0, 1}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4), ball_at({0, 3, 0}, 4), lamp_at({0, 3, 0}, 1)}), (Counts{1, 1}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}), (Counts{1, 0})) << "not all of the time";
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
+}
+
+TEST(FeatureKnownSides, IsWhetherTheCameraIsOnNoPlane) {
+    const auto known = [](double offset) {
+        const pt::Features features = features_of({}, {{{0, 1, 0}, offset, dark}});
+        EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_KNOWN_SIDES], features.known_sides ? 1U : 0U);
+        return features.known_sides;
+    };
+    EXPECT_TRUE(known(0));
+    EXPECT_TRUE(known(-2 + 1e-15));
+    EXPECT_FALSE(known(-2));
+    EXPECT_TRUE(features_of({ball_at({0, -1e6 - 1, 0}, 1e6)}).known_sides);
+    EXPECT_FALSE(features_of({ball_at({0, -1e6, 0}, 1e6)}).known_sides);
+}
+
+TEST(FeaturePlanesMove, IsWhetherAHugeBallDoes) {
+    const auto moves = [](const glm::dvec3 &motion) {
+        const pt::Features features = features_of({ball_at({0, -1e6 - 1, 0}, 1e6, motion)});
+        EXPECT_TRUE(features.curvature);
+        EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_PLANES_MOVE], features.planes_move ? 1U : 0U);
+        return features.planes_move && features.motion;
+    };
+    EXPECT_FALSE(moves(nowhere));
+    EXPECT_TRUE(moves({1e-9, 0, 0}));
+}
+
 } // namespace

@@ -22,5 +22,6 @@ void main()
     frame.camera_forward = item.forward.xyz;
     frame.width = floatBitsToUint(item.right_width.w);
     frame.height = floatBitsToUint(item.up_height.w);
-    results[index] = vec4(camera_direction(frame, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw), 0.0);
+    vec2 place = image_place(frame, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw);
+    results[index] = vec4(camera_direction(frame, place), 0.0);
 }

@@ -23,9 +23,10 @@ void main()
     vec3 direction = items[index].direction_start.xyz;
     float start = items[index].direction_start.w;
     bool leaving = start > 0.0;
-    float distance = sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0);
+    bool outside = dot(sphere.xyz, sphere.xyz) > sphere.w * sphere.w;
+    float distance = sphere_distance(sphere.xyz, sphere.w, direction, leaving, start == 2.0, outside);
     float beyond = distance < NO_HIT ? 1.1 * distance : NO_HIT;
-    results[index] = vec4(distance, plane_distance(Level(sphere.w, sphere.xyz, 0.0), direction, leaving, start == 2.0),
+    results[index] = vec4(distance, plane_distance(Level(sphere.w, sphere.xyz, 0.0), direction, leaving, start == 2.0, sphere.w),
                           sphere_blocks(sphere.xyz, sphere.w, direction, leaving, 0.9 * beyond / 1.1) ? 1.0 : 0.0,
                           sphere_blocks(sphere.xyz, sphere.w, direction, leaving, beyond) ? 1.0 : 0.0);
 }

@@ -35,8 +35,8 @@ void read(uint surface)
         result.sphere = sphere_at(surface, 0.5);
         result.sphere_among = sphere_among(SPHERE_COUNT, surface, 0.5);
     } else {
-        Level level = level_at(surface, point.xyz);
-        Level among = level_among(surface, point.xyz);
+        Level level = level_at(surface, point.xyz, 0.0);
+        Level among = level_among(surface, point.xyz, 0.0);
         result.gradient_height = vec4(level.gradient, level.height);
         result.gradient_height_among = vec4(among.gradient, among.height);
         result.curvatures = vec4(level.curvature, among.curvature, 0.0, 0.0);

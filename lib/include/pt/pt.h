@@ -107,11 +107,16 @@ typedef struct pt_material {
     float glossiness;  /**< n in [0, 1e9] */
 } pt_material;
 
-/** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion. */
+/** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
+ *
+ * Spheres that float32 cannot tell apart as the camera sees them are one: the first of them in the array stands for all,
+ * and so for planes. That is where they differ by less than a 2^18th of their size and a 2^21th of their distance. */
 typedef struct pt_sphere {
     double center[3];  /**< at time 0 */
     double radius;     /**< > 0 */
-    double motion[3];  /**< way from time 0 to time 1 */
+    /** Way from time 0 to time 1. A sphere whose surface is nearer to the camera than a 65536th of its radius moves by less
+     * than a 32nd of it while the shutter is open; pt_accumulate refuses others with PT_ERROR_UNSUPPORTED. */
+    double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
 } pt_sphere;
@@ -239,8 +244,9 @@ enum {
  *
  * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
  * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
- * of 95% confidence. Light that no sample has met yet is not in it. With fewer than 16 samples nothing is known: the
- * lower bounds are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they
+ * of 95% confidence. Light that no sample has met yet is not in it. Nothing is known with fewer than 16 samples, nor where
+ * more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower bounds
+ * are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they
  * take. */
 typedef struct pt_stats {
     uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
