@@ -5,6 +5,7 @@
 #include <pt/pt.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 
 namespace cli {
@@ -25,8 +26,19 @@ std::string kind_name(std::uint32_t kind) {
 }
 
 std::string memory_text(std::uint64_t bytes) {
+    static constexpr std::array<const char *, 6> larger_units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+    constexpr double rounds_to_1024 = 1023.95; // with one decimal
+    if (bytes < 1024) {
+        return std::to_string(bytes) + " B";
+    }
+    double count = static_cast<double>(bytes) / 1024.0;
+    std::size_t unit = 0;
+    while (count >= rounds_to_1024) {
+        count /= 1024.0;
+        ++unit;
+    }
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f GiB", static_cast<double>(bytes) / 0x1p30);
+    std::snprintf(text.data(), text.size(), "%.1f %s", count, larger_units[unit]);
     return text.data();
 }
 

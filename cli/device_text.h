@@ -10,7 +10,7 @@ namespace cli {
 // kind: PT_DEVICE_*.
 std::string kind_name(std::uint32_t kind);
 
-// "7.7 GiB"
+// "7.7 GiB", "480 B": in the largest unit of which there is one at least.
 std::string memory_text(std::uint64_t bytes);
 
 // 32 hexadecimal digits in the usual groups.

@@ -125,4 +125,16 @@ TEST(RenderReport, Texts) {
     EXPECT_EQ(cli::uuid_text(uuid), "00112233-4455-6677-8899-aabbccddeeff");
 }
 
+TEST(RenderReport, BytesAreToldInTheirUnit) {
+    EXPECT_EQ(cli::memory_text(0), "0 B");
+    EXPECT_EQ(cli::memory_text(1023), "1023 B");
+    EXPECT_EQ(cli::memory_text(1024), "1.0 KiB");
+    EXPECT_EQ(cli::memory_text(15840), "15.5 KiB");
+    EXPECT_EQ(cli::memory_text((1 << 20) - 1), "1.0 MiB"); // and not 1024.0 KiB
+    EXPECT_EQ(cli::memory_text((1 << 20) - 60), "1023.9 KiB");
+    EXPECT_EQ(cli::memory_text(std::uint64_t{3} << 30), "3.0 GiB");
+    EXPECT_EQ(cli::memory_text(std::uint64_t{5} << 40), "5.0 TiB");
+    EXPECT_EQ(cli::memory_text(std::numeric_limits<std::uint64_t>::max()), "16.0 EiB");
+}
+
 } // namespace
