@@ -7,6 +7,7 @@
 #include "bench_run.h"
 #include "context.h"
 #include "exit_code.h"
+#include "host_memory.h"
 #include "image_file.h"
 #include "interrupt.h"
 #include "message.h"
@@ -135,6 +136,7 @@ int run_bench(const BenchOptions &options) {
     const SceneFile file = read_scene_file(options.scene);
     choose_vector_width(file.surface_count()); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);
+    require_host_memory(settings, file.path, 2); // the reference, and the one compared with it
     check_outputs(options);
 
     BenchReport report{};

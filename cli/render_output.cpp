@@ -4,6 +4,7 @@
 
 #include "atomic_file.h"
 #include "exit_code.h"
+#include "host_memory.h"
 #include "message.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ void check_extensions(const RenderOptions &options) {
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {
+    require_host_memory(settings, options.scene, options.standard_error.empty() ? 1 : 2);
     const std::uint32_t side = std::max(settings.render.width, settings.render.height);
     for (const std::string &path : options.outputs) {
         const std::uint32_t longest = longest_side(image_format(path).value());

@@ -3,6 +3,7 @@
 #include "render_picture.h"
 
 #include "device_text.h"
+#include "host_memory.h"
 #include "image_file.h"
 #include "interrupt.h"
 #include "message.h"
@@ -37,8 +38,7 @@ PiecewiseImage render_with_progress(const Context &context, const RenderOptions 
 
 // What an image in pieces takes of memory, before it is rendered.
 void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
-    const std::uint64_t values = std::uint64_t{3} * render.width * render.height;
-    const std::uint64_t host_bytes = values * sizeof(float) * (options.standard_error.empty() ? 1 : 2);
+    const std::uint64_t host_bytes = image_bytes(render, options.standard_error.empty() ? 1 : 2);
     print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
                   " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
                   memory_text(host_bytes) + " for the image");

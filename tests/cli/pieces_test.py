@@ -4,9 +4,11 @@ Arguments: see command_line.py.
 """
 
 import json
+import resource
 import signal
+import subprocess
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_png
+from command_line import COURSEWORK, PT, CommandLineTest, default_signals, main, read_png
 
 SIZE = ("--size", "40x33")
 
@@ -22,7 +24,9 @@ class Pieces(CommandLineTest):
         for rows, count in ((1, 33), (10, 4), (32, 2)):
             with self.subTest(rows=rows):
                 self.assertEqual(self.pixels("--piece-rows", str(rows)), whole)
-                self.assertIn(f"{count} pieces of up to {rows} rows: ", self.errors)
+                # 3 floats for each of 40x33 pixels; the stand-in says 4096 bytes for itself.
+                self.assertIn(f"{count} pieces of up to {rows} rows: 4.0 KiB on the device, 15.5 KiB for the image",
+                              self.errors)
         self.assertEqual(self.pixels("--piece-rows", "34"), whole)
         self.assertEqual(self.errors, "")
 
@@ -52,6 +56,35 @@ class Pieces(CommandLineTest):
                                  "the others are black")
         width, height, *_ = read_png(self.path("a.png"))
         self.assertEqual((width, height), (40, 33))
+
+
+class HostMemory(CommandLineTest):
+    """Within an address space of 2 GiB, whatever the machine has."""
+
+    def refusal(self, code, *arguments):
+        def little_memory():
+            default_signals()
+            resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+        done = subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=little_memory,
+                              capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr
+
+    def test_an_image_that_is_too_large_is_refused_before_it_is_rendered(self):
+        # 12 bytes for each of 2^28 pixels.
+        large = ("--size", "16384x16384", "--spp", "1")
+        self.assertEqual(self.refusal(2, "render", COURSEWORK, "-o", "a.exr", *large),
+                         "pt: --size 16384x16384: the image takes 3.0 GiB of memory, more than the 2.0 GiB that this "
+                         "process can have\n")
+        self.assertIn("--size 16384x8192: 2 images take 3.0 GiB",
+                      self.refusal(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "e.exr", "--size",
+                                   "16384x8192", "--spp", "1"))
+        self.assertIn("2 images take 6.0 GiB", self.refusal(2, "bench", COURSEWORK, *large))
+        self.write("s.json", '{"film": {"width": 16384, "height": 16384}}')
+        self.assertIn("s.json: film of 16384x16384: the image takes 3.0 GiB",
+                      self.refusal(3, "render", "s.json", "-o", "a.exr", "--spp", "1"))
+        self.assertEqual(self.files(), ["s.json"])
 
 
 class RealDevice(CommandLineTest):
