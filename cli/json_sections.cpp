@@ -3,6 +3,7 @@
 #include "json_sections.h"
 
 #include "exit_code.h"
+#include "text_file.h"
 
 #include <algorithm>
 #include <array>
@@ -158,14 +159,11 @@ bool SectionParser::parse_error(std::size_t position, const std::string &token, 
     }
     const std::string_view before =
         text_.substr(0, std::min(position, text_.size() + 1) - std::min<std::size_t>(position, 1));
-    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-    const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 = 0: the first line
     // "[json.exception...] parse error at line 1, column 2: syntax error while ...": the position is said already.
     const std::string_view what = error.what();
     const std::size_t column_word = what.find("column ");
     const std::size_t reason = column_word == std::string_view::npos ? column_word : what.find(": ", column_word);
-    throw Failure(ExitCode::scene, std::string(root_.key) + ":" + std::to_string(line) + ":" +
-                                       std::to_string(before.size() - line_start + 1) + ": " +
+    throw Failure(ExitCode::scene, std::string(root_.key) + ":" + line_and_column(before) + ": " +
                                        std::string(reason == std::string_view::npos ? what : what.substr(reason + 2)));
 }
 

@@ -306,7 +306,7 @@ SceneFile parse_scene(std::string_view text, const std::string &path) {
     SceneFile scene{};
     scene.path = path;
     SceneReader reader(scene);
-    parse_json_sections(text, path, reader);
+    parse_json_sections(require_text(text, path), path, reader);
     reader.finish(JsonPlace{nullptr, path, 0, false});
     return scene;
 }

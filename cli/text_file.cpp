@@ -1,10 +1,11 @@
-// Owns the reading of a whole file.
-// Called by the scene file reader and source_files.
+// Owns the reading of a whole file, and the question whether it is text.
+// Called by the scene file reader, json_sections and source_files.
 #include "text_file.h"
 
 #include "exit_code.h"
 #include "file_descriptor.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
@@ -16,6 +17,19 @@ namespace {
 
 [[noreturn]] void fail(const std::string &path) {
     throw Failure(ExitCode::file, "cannot read " + path + ": " + std::generic_category().message(errno));
+}
+
+// By its byte order mark; or by every other byte being 0, for the first two characters of JSON are ASCII (RFC 4627,
+// section 3).
+bool is_utf16(std::string_view contents) {
+    if (contents.starts_with("\xff\xfe") || contents.starts_with("\xfe\xff")) {
+        return true;
+    }
+    const auto has_zeros = [&](std::size_t first) {
+        return contents[first] == '\0' && contents[first + 2] == '\0' && contents[1 - first] != '\0' &&
+               contents[3 - first] != '\0';
+    };
+    return contents.size() >= 4 && (has_zeros(0) || has_zeros(1));
 }
 
 } // namespace
@@ -40,6 +54,25 @@ std::string read_file(const std::string &path) {
             return text;
         }
     }
+}
+
+std::string_view require_text(std::string_view contents, const std::string &path) {
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8
+    if (is_utf16(contents)) {
+        throw Failure(ExitCode::scene, path + ": is UTF-16: save it as UTF-8");
+    }
+    if (const std::size_t zero = contents.find('\0'); zero != std::string_view::npos) {
+        throw Failure(ExitCode::scene,
+                      path + ":" + line_and_column(contents.substr(0, zero)) + ": a NUL byte: this is not a text file");
+    }
+    contents.remove_prefix(contents.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    return contents;
+}
+
+std::string line_and_column(std::string_view before) {
+    const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+    const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 = 0: the first line
+    return std::to_string(line) + ":" + std::to_string(before.size() - line_start + 1);
 }
 
 } // namespace cli

@@ -1,12 +1,20 @@
-// Owns the reading of a whole file.
-// Called by the scene file reader and source_files.
+// Owns the reading of a whole file, and the question whether it is text.
+// Called by the scene file reader, json_sections and source_files.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace cli {
 
 // Throws Failure(ExitCode::file) with the system's reason.
 std::string read_file(const std::string &path);
+
+// The text of a file without the byte order mark that some editors put in front. Throws Failure(ExitCode::scene) for
+// UTF-16 and for files with a NUL byte, which readers of text would take for their end.
+std::string_view require_text(std::string_view contents, const std::string &path);
+
+// "3:14", of what comes after that part of a text. Both count from 1; columns are bytes.
+std::string line_and_column(std::string_view before);
 
 } // namespace cli
