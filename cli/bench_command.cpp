@@ -10,6 +10,7 @@
 #include "host_memory.h"
 #include "image_file.h"
 #include "interrupt.h"
+#include "json_text.h"
 #include "message.h"
 #include "progress.h"
 #include "render_settings.h"
@@ -21,7 +22,6 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace cli {
@@ -115,7 +115,7 @@ void write_report(const BenchOptions &options, const BenchReport &report) {
         std::cout << bench_table(report) << std::flush;
     }
     if (!options.json.empty()) {
-        AtomicFile::write_text(options.json, bench_json(report).dump(2) + "\n");
+        AtomicFile::write_text(options.json, json_text(bench_json(report)));
     }
     if (!options.csv.empty()) {
         AtomicFile::write_text(options.csv, bench_csv(report));

@@ -4,11 +4,10 @@
 
 #include "device_text.h"
 #include "exit_code.h"
+#include "json_text.h"
 #include "vector_width.h"
 
 #include <pt/pt.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -79,7 +78,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
                         {"suitable", device.suitable != 0},
                         {"reason", device.reason}});
     }
-    std::cout << list.dump(2) << '\n';
+    std::cout << json_text(list);
 }
 
 } // namespace

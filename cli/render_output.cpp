@@ -5,10 +5,10 @@
 #include "atomic_file.h"
 #include "exit_code.h"
 #include "host_memory.h"
+#include "json_text.h"
 #include "message.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 namespace cli {
 namespace {
@@ -88,7 +88,7 @@ std::size_t output_count(const RenderOptions &options) {
 }
 
 void write_stats(const std::string &path, const RenderReport &report) {
-    AtomicFile::write_text(path, stats_json(report).dump(2) + "\n");
+    AtomicFile::write_text(path, json_text(stats_json(report)));
 }
 
 } // namespace cli

@@ -6,12 +6,12 @@
 #include "common_options.h"
 #include "context.h"
 #include "exit_code.h"
+#include "json_text.h"
 #include "selftest_report.h"
 #include "selftest_run.h"
 #include "vector_width.h"
 
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 namespace cli {
 
@@ -41,7 +41,7 @@ int run_selftest(const SelftestOptions &options) {
 
     std::cout << selftest_text(report) << std::flush;
     if (!options.json.empty()) {
-        AtomicFile::write_text(options.json, selftest_json(report).dump(2) + "\n");
+        AtomicFile::write_text(options.json, json_text(selftest_json(report)));
     }
     return static_cast<int>(report.passed() ? ExitCode::done : ExitCode::internal);
 }

@@ -106,7 +106,8 @@ class CommandLineTest(unittest.TestCase):
     def start(self, *arguments, **environment):
         names = {name: str(value) for name, value in environment.items()}
         return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=default_signals)
+                                errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                preexec_fn=default_signals)
 
     def run_pt(self, *arguments, **environment):
         process = self.start(*arguments, **environment)

@@ -223,6 +223,25 @@ class Outputs(CommandLineTest):
         self.assertEqual(read_png(self.path("small.png"))[:2], (256, 128))
         self.assertEqual(self.files(), ["big.exr", "small.png"])
 
+    def test_names_that_are_not_utf_8_cost_no_figures(self):
+        scene = b"sc\xe8ne.json"  # Latin-1
+        with open(os.path.join(os.fsencode(self.folder), scene), "w", encoding="utf-8") as file:
+            file.write("{}")
+        bad_device = {"FAKE_PT_FAIL": "name:1"}
+        self.expect(0, "render", scene, "-o", "a.png", "--spp", "3", "--size", "2x2", "--stats", "s.json", **bad_device)
+        stats = json.loads(self.read("s.json"))
+        self.assertEqual((stats["scene"], stats["device"]["name"], stats["spp"]), ("sc\ufffdne.json", "d\ufffdvice", 3))
+
+        self.expect(0, "bench", scene, "--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2",
+                    "--json", "b.json", **bad_device)
+        bench = json.loads(self.read("b.json"))
+        self.assertEqual((bench["scene"], len(bench["cells"])), ("sc\ufffdne.json", 1))
+
+        self.run_pt("selftest", "--json", "t.json", **bad_device)
+        self.assertEqual(json.loads(self.read("t.json"))["device"]["name"], "d\ufffdvice")
+        self.expect(0, "devices", "--json", **bad_device)
+        self.assertEqual(json.loads(self.output)[0]["name"], "d\ufffdvice")
+
     def test_rejected_samples_are_told(self):
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "1", FAKE_PT_FAIL="rejected:-1",
                     error="pt: warning: 3 samples were left out")

@@ -1,7 +1,7 @@
 // Owns a stand-in for libpt that needs no device and fails on demand, for tests of the command line: which exit code
 // follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which the tests
 // in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the length of one sample;
-// FAKE_PT_LOG=function makes it send a line to the log.
+// FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8; FAKE_PT_LOG=function makes it send a line to the log.
 #include <pt/pt.h>
 
 #include <chrono>
@@ -54,7 +54,7 @@ pt_device_info fake_device() {
     for (int i = 0; i < 16; ++i) {
         device.uuid[i] = static_cast<std::uint8_t>(i * 17);
     }
-    std::strcpy(device.name, "fake device");
+    std::strcpy(device.name, failure("name") == PT_OK ? "fake device" : "d\xe9vice"); // Latin-1
     std::strcpy(device.driver, "fake driver 1.0");
     std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
     return device;
