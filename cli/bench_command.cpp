@@ -2,7 +2,6 @@
 // Called by main.
 #include "bench_command.h"
 
-#include "atomic_file.h"
 #include "bench_report.h"
 #include "bench_run.h"
 #include "context.h"
@@ -14,6 +13,7 @@
 #include "message.h"
 #include "progress.h"
 #include "render_settings.h"
+#include "report_file.h"
 #include "scene_file.h"
 #include "scene_setup.h"
 #include "vector_width.h"
@@ -112,22 +112,10 @@ void measure(const Context &context, const BenchOptions &options, std::vector<fl
 
 void write_report(const BenchOptions &options, const BenchReport &report) {
     if (!options.quiet) {
-        std::cout << bench_table(report) << std::flush;
+        print_for_people(bench_table(report), options.json == standard_stream || options.csv == standard_stream);
     }
-    if (!options.json.empty()) {
-        AtomicFile::write_text(options.json, json_text(bench_json(report)));
-    }
-    if (!options.csv.empty()) {
-        AtomicFile::write_text(options.csv, bench_csv(report));
-    }
-}
-
-void check_outputs(const BenchOptions &options) {
-    for (const std::string &path : {options.csv, options.json}) {
-        if (!path.empty()) {
-            AtomicFile::check_writable(path);
-        }
-    }
+    write_report_file(options.json, json_text(bench_json(report)));
+    write_report_file(options.csv, bench_csv(report));
 }
 
 } // namespace
@@ -137,7 +125,8 @@ int run_bench(const BenchOptions &options) {
     choose_vector_width(file.surface_count()); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);
     require_host_memory(settings, file.path, 2); // the reference, and the one compared with it
-    check_outputs(options);
+    check_report_file(options.csv);
+    check_report_file(options.json);
 
     BenchReport report{};
     report.scene = file.path;

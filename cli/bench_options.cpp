@@ -70,7 +70,9 @@ BenchOptions::BenchOptions() : estimators{PT_ESTIMATOR_BEST} {
 }
 
 void add_bench_options(CLI::App &command, BenchOptions &options) {
-    command.add_option("scene", options.scene, "Scene file (JSON)")->required()->type_name("SCENE");
+    command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
+        ->required()
+        ->type_name("SCENE");
     add_size(command, options.size);
     add_max_path_length(command, options.max_path_length);
     add_methods(command, "--samplers", options.samplers, "sampler", samplers, " (default: all but best)");
@@ -87,8 +89,12 @@ void add_bench_options(CLI::App &command, BenchOptions &options) {
                                     "Samples per pixel of the reference that is rendered (default: 64 times the "
                                     "largest of --spp)")
         ->excludes(reference);
-    command.add_option("--csv", options.csv, "Write the table as CSV")->type_name("FILE");
-    command.add_option("--json", options.json, "Write the table and all conditions as JSON")->type_name("FILE");
+    command.add_option("--csv", options.csv, "Write the table as CSV; - is standard output, as with --json")
+        ->type_name("FILE");
+    command
+        .add_option("--json", options.json,
+                    "Write the table and all conditions as JSON; - is standard output, the table then goes to stderr")
+        ->type_name("FILE");
     add_reporting(command, options.progress, options.quiet);
 }
 

@@ -33,7 +33,10 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
         ->type_name("FILE");
-    command.add_option("--stats", options.stats, "Write the facts of the rendering as JSON")->type_name("FILE");
+    command
+        .add_option("--stats", options.stats,
+                    "Write the facts of the rendering as JSON; - is standard output, the summary then goes to stderr")
+        ->type_name("FILE");
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
@@ -116,7 +119,9 @@ const char *const render_help =
     "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
-    command.add_option("scene", options.scene, "Scene file (JSON)")->required()->type_name("SCENE");
+    command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
+        ->required()
+        ->type_name("SCENE");
     add_output_options(command, options);
     add_picture_options(command, options);
     add_sampling_options(command, options);

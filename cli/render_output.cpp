@@ -1,12 +1,12 @@
-// Owns the outputs of a rendering: the checks before it, the images and the statistics after it.
+// Owns the outputs of a rendering: the checks before it, the images after it.
 // Called by render_command.
 #include "render_output.h"
 
 #include "atomic_file.h"
 #include "exit_code.h"
 #include "host_memory.h"
-#include "json_text.h"
 #include "message.h"
+#include "report_file.h"
 
 #include <algorithm>
 
@@ -23,9 +23,17 @@ void write_image(ImageWriter &writer, const std::string &path, const ToneMap &to
     }
 }
 
+void refuse_standard_output(const std::string &option, std::span<const std::string> paths) {
+    if (std::find(paths.begin(), paths.end(), standard_stream) != paths.end()) {
+        throw Failure(ExitCode::usage, option + " -: images are not written to standard output; give a file's name");
+    }
+}
+
 } // namespace
 
 void check_extensions(const RenderOptions &options) {
+    refuse_standard_output("-o", options.outputs);
+    refuse_standard_output("--standard-error", {&options.standard_error, 1});
     for (const std::string &path : options.outputs) {
         if (!image_format(path)) {
             throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
@@ -51,11 +59,10 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
         }
         AtomicFile::check_writable(path);
     }
-    for (const std::string &path : {options.standard_error, options.stats}) {
-        if (!path.empty()) {
-            AtomicFile::check_writable(path);
-        }
+    if (!options.standard_error.empty()) {
+        AtomicFile::check_writable(options.standard_error);
     }
+    check_report_file(options.stats);
 }
 
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
@@ -85,10 +92,6 @@ bool needs_module(const RenderOptions &options) {
 
 std::size_t output_count(const RenderOptions &options) {
     return options.outputs.size() + (options.standard_error.empty() ? 0 : 1);
-}
-
-void write_stats(const std::string &path, const RenderReport &report) {
-    AtomicFile::write_text(path, json_text(stats_json(report)));
 }
 
 } // namespace cli

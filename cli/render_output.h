@@ -1,4 +1,4 @@
-// Owns the outputs of a rendering: the checks before it, the images and the statistics after it.
+// Owns the outputs of a rendering: the checks before it, the images after it.
 // Called by render_command.
 #pragma once
 
@@ -29,7 +29,5 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 bool needs_module(const RenderOptions &options);
 
 std::size_t output_count(const RenderOptions &options);
-
-void write_stats(const std::string &path, const RenderReport &report);
 
 } // namespace cli

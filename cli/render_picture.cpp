@@ -6,11 +6,13 @@
 #include "host_memory.h"
 #include "image_file.h"
 #include "interrupt.h"
+#include "json_text.h"
 #include "message.h"
 #include "piecewise_render.h"
 #include "progress.h"
 #include "render_output.h"
 #include "render_report.h"
+#include "report_file.h"
 #include "scene_setup.h"
 
 #include <csignal>
@@ -44,16 +46,17 @@ void print_pieces(const Context &context, const RenderOptions &options, const pt
                   memory_text(host_bytes) + " for the image");
 }
 
-void print_summary(const RenderReport &report, const std::vector<std::string> &written) {
+void print_summary(const RenderOptions &options, const RenderReport &report, const std::vector<std::string> &written) {
     if (report.stats.rejected_samples > 0) {
         print_message("warning: " + std::to_string(report.stats.rejected_samples) +
                       " samples were left out: not finite, negative or too bright");
     }
-    std::cout << "wrote ";
+    std::string names;
     for (const std::string &path : written) {
-        std::cout << path << (&path == &written.back() ? ": " : ", ");
+        names += path + (&path == &written.back() ? ": " : ", ");
     }
-    std::cout << summary_text(report) << '\n' << error_text(report) << std::endl;
+    print_for_people("wrote " + names + summary_text(report) + "\n" + error_text(report) + "\n",
+                     options.stats == standard_stream);
 }
 
 // Whether all images could be written.
@@ -61,11 +64,9 @@ bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderRepo
                    std::span<const float> radiance, std::span<const float> standard_error, Clock::time_point start) {
     const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
     report.total_seconds = seconds_since(start);
-    if (!options.stats.empty()) {
-        write_stats(options.stats, report);
-    }
+    write_report_file(options.stats, json_text(stats_json(report)));
     if (!options.quiet && !written.empty()) {
-        print_summary(report, written);
+        print_summary(options, report, written);
     }
     return written.size() == output_count(options);
 }

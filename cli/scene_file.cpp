@@ -7,6 +7,7 @@
 #include "json_value.h"
 #include "method_names.h"
 #include "number.h"
+#include "report_file.h"
 #include "suggestion.h"
 #include "text_file.h"
 
@@ -312,7 +313,8 @@ SceneFile parse_scene(std::string_view text, const std::string &path) {
 }
 
 SceneFile read_scene_file(const std::string &path) {
-    return parse_scene(read_file(path), path);
+    return path == standard_stream ? parse_scene(read_standard_input(), "standard input")
+                                   : parse_scene(read_file(path), path);
 }
 
 } // namespace cli

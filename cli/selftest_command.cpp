@@ -2,16 +2,14 @@
 // Called by main.
 #include "selftest_command.h"
 
-#include "atomic_file.h"
 #include "common_options.h"
 #include "context.h"
 #include "exit_code.h"
 #include "json_text.h"
+#include "report_file.h"
 #include "selftest_report.h"
 #include "selftest_run.h"
 #include "vector_width.h"
-
-#include <iostream>
 
 namespace cli {
 
@@ -23,13 +21,14 @@ const char *const selftest_help =
 
 void add_selftest_options(CLI::App &command, SelftestOptions &options) {
     add_device(command, options.device);
-    command.add_option("--json", options.json, "Write the same as JSON")->type_name("FILE");
+    command
+        .add_option("--json", options.json,
+                    "Write the same as JSON; - is standard output, the text then goes to stderr")
+        ->type_name("FILE");
 }
 
 int run_selftest(const SelftestOptions &options) {
-    if (!options.json.empty()) {
-        AtomicFile::check_writable(options.json);
-    }
+    check_report_file(options.json);
     choose_vector_width(0); // all its scenes are small
     pt_create_info info{};
     info.struct_size = sizeof(pt_create_info);
@@ -39,10 +38,8 @@ int run_selftest(const SelftestOptions &options) {
     context.require(pt_get_context_device(context.get(), &report.device));
     report.checks = run_selftest_checks(context);
 
-    std::cout << selftest_text(report) << std::flush;
-    if (!options.json.empty()) {
-        AtomicFile::write_text(options.json, json_text(selftest_json(report)));
-    }
+    print_for_people(selftest_text(report), options.json == standard_stream);
+    write_report_file(options.json, json_text(selftest_json(report)));
     return static_cast<int>(report.passed() ? ExitCode::done : ExitCode::internal);
 }
 

@@ -32,28 +32,36 @@ bool is_utf16(std::string_view contents) {
     return contents.size() >= 4 && (has_zeros(0) || has_zeros(1));
 }
 
-} // namespace
-
-// System calls and not a stream: a stream opens a directory without complaint and keeps no reason for a failed read.
-std::string read_file(const std::string &path) {
+std::string read_all(int descriptor, const std::string &name) {
     constexpr std::size_t block = std::size_t{1} << 20;
-    const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.is_open()) {
-        fail(path);
-    }
     std::string text;
     for (;;) {
         const std::size_t used = text.size();
         text.resize(used + block);
-        const ssize_t count = read(file.get(), text.data() + used, block);
+        const ssize_t count = read(descriptor, text.data() + used, block);
         if (count < 0 && errno != EINTR) {
-            fail(path);
+            fail(name);
         }
         text.resize(used + static_cast<std::size_t>(count < 0 ? 0 : count));
         if (count == 0) {
             return text;
         }
     }
+}
+
+} // namespace
+
+// System calls and not a stream: a stream opens a directory without complaint and keeps no reason for a failed read.
+std::string read_file(const std::string &path) {
+    const FileDescriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.is_open()) {
+        fail(path);
+    }
+    return read_all(file.get(), path);
+}
+
+std::string read_standard_input() {
+    return read_all(STDIN_FILENO, "standard input");
 }
 
 std::string_view require_text(std::string_view contents, const std::string &path) {

@@ -7,8 +7,9 @@
 
 namespace cli {
 
-// Throws Failure(ExitCode::file) with the system's reason.
+// Both throw Failure(ExitCode::file) with the system's reason.
 std::string read_file(const std::string &path);
+std::string read_standard_input();
 
 // The text of a file without the byte order mark that some editors put in front. Throws Failure(ExitCode::scene) for
 // UTF-16 and for files with a NUL byte, which readers of text would take for their end.

@@ -9,13 +9,13 @@
 #include "render_output.h"
 #include "render_picture.h"
 #include "render_settings.h"
+#include "report_file.h"
 #include "scene_file.h"
 #include "source_watch.h"
 #include "vector_width.h"
 
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +30,9 @@ constexpr std::chrono::milliseconds patience{200};
 
 // A pipe can be read once, and its reader waits for its writer.
 void require_files(const RenderOptions &options) {
+    if (options.scene == standard_stream) {
+        throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
+    }
     std::error_code ignored;
     if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored)) {
         throw Failure(ExitCode::usage, options.scene + ": not a regular file, which --watch needs");
@@ -128,9 +131,9 @@ private:
 
     void tell_once_what_is_watched() {
         if (!std::exchange(is_told_, true) && !options_.quiet) {
-            std::cout << "watching " << options_.scene
-                      << (options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir)
-                      << "; Ctrl-C ends" << std::endl;
+            const std::string shaders = options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir;
+            print_for_people("watching " + options_.scene + shaders + "; Ctrl-C ends\n",
+                             options_.stats == standard_stream);
         }
     }
 
