@@ -12,23 +12,23 @@
 #include <unistd.h>
 
 namespace cli {
-namespace {
 
-// A rename would replace a symbolic link; users mean the file that it points to.
-std::filesystem::path follow_links(const std::string &path) {
-    std::error_code error;
-    std::filesystem::path target = std::filesystem::canonical(path, error);
-    return error ? std::filesystem::path(path) : target;
-}
-
-} // namespace
-
-AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(follow_links(path)), file_(create_temporary()) {}
+AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(target_of(path)), file_(create_temporary()) {}
 
 AtomicFile::~AtomicFile() {
     if (file_.is_open()) {
         unlink(temporary_.c_str());
     }
+}
+
+std::filesystem::path AtomicFile::target_of(const std::string &path) {
+    constexpr int most_links = 40; // Linux follows no more (path_resolution(7))
+    std::error_code error;
+    std::filesystem::path target = path;
+    for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+        target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    }
+    return target;
 }
 
 void AtomicFile::fail(int error) const {

@@ -32,6 +32,10 @@ public:
     // All that the constructor checks, and leaves nothing behind.
     static void check_writable(const std::string &path) { const AtomicFile probe(path); }
 
+    // The file that is written: a rename would replace a symbolic link, while users mean what it points to, be it
+    // there yet or not.
+    static std::filesystem::path target_of(const std::string &path);
+
 private:
     [[noreturn]] void fail(int error) const;
     void refuse_unsuitable_target() const;

@@ -5,6 +5,7 @@
 #include "bench_report.h"
 #include "bench_run.h"
 #include "context.h"
+#include "distinct_files.h"
 #include "exit_code.h"
 #include "host_memory.h"
 #include "image_file.h"
@@ -121,6 +122,8 @@ void write_report(const BenchOptions &options, const BenchReport &report) {
 } // namespace
 
 int run_bench(const BenchOptions &options) {
+    require_distinct_files({{"the scene", options.scene}, {"--reference", options.reference}},
+                           {{"--csv", options.csv}, {"--json", options.json}});
     const SceneFile file = read_scene_file(options.scene);
     choose_vector_width(file.surface_count()); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);

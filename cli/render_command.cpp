@@ -20,7 +20,7 @@ namespace {
 int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
-    check_extensions(options);
+    check_names(options);
     const SceneFile file = read_scene_file(options.scene);
     const RenderSettings settings = merge_settings(options, file);
     check_outputs(options, settings);

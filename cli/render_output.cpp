@@ -3,10 +3,12 @@
 #include "render_output.h"
 
 #include "atomic_file.h"
+#include "distinct_files.h"
 #include "exit_code.h"
 #include "host_memory.h"
 #include "message.h"
 #include "report_file.h"
+#include "source_files.h"
 
 #include <algorithm>
 
@@ -29,8 +31,6 @@ void refuse_standard_output(const std::string &option, std::span<const std::stri
     }
 }
 
-} // namespace
-
 void check_extensions(const RenderOptions &options) {
     refuse_standard_output("-o", options.outputs);
     refuse_standard_output("--standard-error", {&options.standard_error, 1});
@@ -43,9 +43,30 @@ void check_extensions(const RenderOptions &options) {
     if (!path.empty() && image_format(path) != ImageFormat::exr) {
         throw Failure(ExitCode::usage, "--standard-error " + path + ": the name must end in .exr");
     }
-    if (!path.empty() && std::find(options.outputs.begin(), options.outputs.end(), path) != options.outputs.end()) {
-        throw Failure(ExitCode::usage, "--standard-error " + path + ": is the name of the picture too");
+}
+
+void check_sources_are_kept(const RenderOptions &options) {
+    std::vector<NamedFile> sources{{"the scene", options.scene}};
+    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
+        sources.push_back({"the shader", path});
     }
+    std::vector<NamedFile> outputs;
+    for (const std::string &path : options.outputs) {
+        outputs.push_back({"-o", path});
+    }
+    outputs.push_back({"--standard-error", options.standard_error});
+    outputs.push_back({"--stats", options.stats});
+    require_distinct_files(sources, outputs);
+    if (!options.shader_dir.empty()) {
+        require_outside({"--shader-dir", options.shader_dir}, outputs);
+    }
+}
+
+} // namespace
+
+void check_names(const RenderOptions &options) {
+    check_extensions(options);
+    check_sources_are_kept(options);
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {

@@ -14,8 +14,8 @@
 
 namespace cli {
 
-// Throws Failure(ExitCode::usage) if an output's name tells no known format.
-void check_extensions(const RenderOptions &options);
+// Throws Failure(ExitCode::usage) if an output's name tells no known format, or the output is another one or a source.
+void check_names(const RenderOptions &options);
 
 // All else that can go wrong with the outputs and can be known before an hour of rendering.
 void check_outputs(const RenderOptions &options, const RenderSettings &settings);

@@ -36,7 +36,8 @@ struct SceneFile {
     std::string explain(const std::string &message) const;
 };
 
-// The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not a scene file.
+// The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not
+// a scene file.
 SceneFile read_scene_file(const std::string &path);
 SceneFile parse_scene(std::string_view text, const std::string &path);
 

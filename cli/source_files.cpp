@@ -1,5 +1,5 @@
 // Owns the knowledge of which files a picture is made of: the scene, and the kernels with what they include.
-// Called by source_watch.
+// Called by source_watch and render_output.
 #include "source_files.h"
 
 #include "exit_code.h"
@@ -39,8 +39,8 @@ std::string_view included_name(std::string_view line) {
 
 } // namespace
 
-SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir) {
-    SourceFiles files{{scene, contents_of(scene)}};
+SourceFiles read_shader_files(const std::filesystem::path &shader_dir) {
+    SourceFiles files;
     std::vector<std::filesystem::path> to_read;
     if (!shader_dir.empty()) {
         for (const char *kernel : {"pathtrace.comp", "commit.comp", "fold.comp", "accuracy.comp"}) {
@@ -63,6 +63,12 @@ SourceFiles read_source_files(const std::filesystem::path &scene, const std::fil
             }
         }
     }
+    return files;
+}
+
+SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir) {
+    SourceFiles files = read_shader_files(shader_dir);
+    files.try_emplace(scene, contents_of(scene));
     return files;
 }
 

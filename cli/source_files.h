@@ -1,5 +1,5 @@
 // Owns the knowledge of which files a picture is made of: the scene, and the kernels with what they include.
-// Called by source_watch.
+// Called by source_watch and render_output.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +14,7 @@ namespace cli {
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
 // shader_dir may be empty: the kernels in the library are no files. Scene files include none.
+SourceFiles read_shader_files(const std::filesystem::path &shader_dir);
 SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir);
 
 } // namespace cli

@@ -90,6 +90,7 @@ private:
     void render() {
         RenderTimes times{};
         times.start = std::chrono::steady_clock::now();
+        check_names(options_);
         const SceneFile file = read_scene_file(options_.scene);
         const RenderSettings settings = merge_settings(options_, file);
         check_outputs(options_, settings);
@@ -158,7 +159,7 @@ private:
 } // namespace
 
 int watch(const RenderOptions &options, ValidationLog &log) {
-    check_extensions(options);
+    check_names(options);
     require_files(options);
     catch_interrupts();
     return Watch(options, log).run();

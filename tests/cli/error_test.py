@@ -89,7 +89,7 @@ class StandardError(CommandLineTest):
         for name in ("e.png", "e", "e.exr.bak"):
             self.expect(2, "render", COURSEWORK, "-o", "a.png", "--standard-error", name,
                         error=f"--standard-error {name}: the name must end in .exr")
-        self.expect(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "a.exr", error="the picture too")
+        self.expect(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "a.exr", error="--standard-error a.exr")
         # A thousand samples of a second: the test would run out of time.
         self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "none/e.exr", "--spp", "1000",
                     error="cannot write none/e.exr", FAKE_PT_SAMPLE_MS=1000)

@@ -74,5 +74,98 @@ class StandardStreams(CommandLineTest):
         self.assertEqual(json.loads(self.read("-"))["spp"], 1)
 
 
+class SameFiles(CommandLineTest):
+    """What would be overwritten is refused at once: rendering would take a thousand samples of a second."""
+
+    def refuse(self, error, *arguments, command="render"):
+        before = {name: self.contents(name) for name in self.files()}
+        slow = {} if command == "bench" else {"FAKE_PT_SAMPLE_MS": 1000}
+        self.expect(2, command, *arguments, *(BENCH if command == "bench" else ("--spp", "1000")), **slow)
+        self.assertEqual(self.errors, f"pt: {error}\n")
+        self.assertEqual({name: self.contents(name) for name in self.files()}, before)
+
+    def contents(self, name):
+        return self.read(name) if os.path.isfile(self.path(name)) else None
+
+    def setUp(self):
+        super().setUp()
+        self.write("s.png", SCENE)  # a scene may have any name
+        os.mkdir(self.path("folder"))
+
+    def test_the_scene_is_kept(self):
+        os.symlink("s.png", self.path("soft.png"))
+        os.link(self.path("s.png"), self.path("hard.png"))
+        os.symlink("..", self.path("folder/up"))
+        for name in ("s.png", "./s.png", "folder/../s.png", "folder/up/s.png", self.path("s.png"), "soft.png",
+                     "hard.png"):
+            with self.subTest(name=name):
+                self.refuse(f"-o {name}: is the same file as the scene s.png", "s.png", "-o", name)
+                self.refuse(f"--stats {name}: is the same file as the scene soft.png", "soft.png", "-o", "a.png",
+                            "--stats", name)
+                self.refuse(f"--csv {name}: is the same file as the scene s.png", "s.png", "--csv", name,
+                            command="bench")
+        self.refuse("-o s.png: is the same file as the scene s.png", "s.png", "--watch", "-o", "s.png")
+        with open(self.path("s.png"), encoding="utf-8") as scene:
+            done = subprocess.run([self.program, "render", "-", "-o", "s.png", "--spp", "1"], cwd=self.folder,
+                                  stdin=scene, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (2, "pt: -o s.png: is the same file as the scene -\n"))
+        self.assertEqual(self.read("s.png"), SCENE)
+
+    def test_the_reference_is_kept(self):
+        self.expect(0, "render", "s.png", "-o", "r.exr", "--size", "2x2")
+        for option in ("--csv", "--json"):
+            done = subprocess.run([self.program, "bench", "s.png", "--reference", "r.exr", option, "./r.exr", *BENCH],
+                                  cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, f"pt: {option} ./r.exr: is the same file as --reference r.exr\n"))
+
+    def test_no_output_is_written_twice(self):
+        os.symlink("to-be.exr", self.path("dangling.exr"))
+        for first, second in (("a.exr", "a.exr"), ("a.exr", "folder/../a.exr"), ("to-be.exr", "dangling.exr"),
+                              ("dangling.exr", "to-be.exr")):
+            with self.subTest(first=first, second=second):
+                for option in ("-o", "--standard-error", "--stats"):
+                    self.refuse(f"{option} {second}: is the same file as -o {first}", "s.png", "-o", first, option,
+                                second)
+                self.refuse(f"--stats {second}: is the same file as --standard-error {first}", "s.png", "-o", "a.jpg",
+                            "--standard-error", first, "--stats", second)
+                self.refuse(f"--json {second}: is the same file as --csv {first}", "s.png", "--csv", first, "--json",
+                            second, command="bench")
+        self.refuse("--json -: is the same file as --csv -", "s.png", "--csv", "-", "--json", "-", command="bench")
+
+    def test_shaders_are_kept(self):
+        os.mkdir(self.path("shaders"))
+        self.write("shaders/pathtrace.comp", '#include "folder/part.glsl"\n')
+        os.mkdir(self.path("shaders/folder"))
+        self.write("shaders/folder/part.glsl", "\n")
+        os.link(self.path("shaders/folder/part.glsl"), self.path("hard.json"))
+        arguments = ("s.png", "--shader-dir", "shaders", "-o")
+        for watch in ((), ("--watch",)):
+            self.refuse("--stats hard.json: is the same file as the shader shaders/folder/part.glsl", *arguments,
+                        "a.png", "--stats", "hard.json", *watch)
+            self.refuse("--stats shaders/pathtrace.comp: is the same file as the shader shaders/pathtrace.comp",
+                        *arguments, "a.png", "--stats", "shaders/pathtrace.comp", *watch)
+            self.refuse("-o ./shaders/a.png: is in the folder of --shader-dir shaders, whose files are read",
+                        *arguments, "./shaders/a.png", *watch)
+        self.expect(0, "render", *arguments, "shaders/folder/a.png")  # which is no shader
+
+    def test_distinct_files_are_distinct(self):
+        os.mkdir(self.path("a"))
+        self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
+                    "a.json")
+        with open("/dev/null", encoding="utf-8") as null:  # may be all three streams
+            done = subprocess.run([self.program, "bench", "-", *BENCH, "--json", "-"], stdin=null,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
+
+    def test_a_link_leads_to_the_file_that_it_makes(self):
+        os.symlink("folder/new.png", self.path("link.png"))
+        self.expect(0, "render", "s.png", "-o", "link.png")
+        self.assertTrue(os.path.islink(self.path("link.png")))
+        self.assertEqual(os.listdir(self.path("folder")), ["new.png"])
+        os.symlink("loop.png", self.path("loop.png"))
+        self.expect(6, "render", "s.png", "-o", "loop.png", error="cannot write loop.png: Too many levels")
+
+
 if __name__ == "__main__":
     main()
