@@ -162,9 +162,10 @@ int run_bench(const BenchOptions &options) {
     if (interrupt_signal() == 0) {
         return static_cast<int>(ExitCode::done);
     }
-    print_message(any ? "stopped by a signal; the runs done so far are reported"
-                      : "stopped by a signal before the first run was done; nothing was written");
-    return static_cast<int>(ExitCode::signal) + interrupt_signal();
+    print_message(
+        "stopped by " + interrupt_name() +
+        (any ? "; the runs done so far are reported" : " before the first run was done; nothing was written"));
+    return exit_code_of_signal(interrupt_signal());
 }
 
 } // namespace cli

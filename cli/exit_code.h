@@ -29,9 +29,10 @@ inline constexpr const char *exit_code_help =
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
-    "  130  SIGINT: the samples done so far were written, if there were any\n"
+    "  129  SIGHUP: the samples done so far were written, if there were any\n"
+    "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"
-    "A --watch that either signal ends while it waits for changes has done its work: 0.\n";
+    "A --watch that such a signal ends while it waits for changes has done its work: 0.\n";
 
 class Failure : public std::runtime_error {
 public:

@@ -1,4 +1,4 @@
-// Owns SIGINT and SIGTERM: they set a flag that the rendering reads.
+// Owns SIGINT, SIGTERM and SIGHUP, which a terminal that goes away sends: they set a flag that the rendering reads.
 // Called by render_command and bench_command.
 #include "interrupt.h"
 
@@ -18,7 +18,7 @@ extern "C" void note_signal(int signal) {
 } // namespace
 
 void catch_interrupts() {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
         if (old.sa_handler == SIG_IGN) {
@@ -34,6 +34,17 @@ void catch_interrupts() {
 
 int interrupt_signal() {
     return noted_signal;
+}
+
+std::string interrupt_name() {
+    switch (interrupt_signal()) {
+    case SIGINT:
+        return "SIGINT";
+    case SIGHUP:
+        return "SIGHUP";
+    default:
+        return "SIGTERM";
+    }
 }
 
 } // namespace cli

@@ -1,6 +1,8 @@
-// Owns SIGINT and SIGTERM: they set a flag that the rendering reads.
+// Owns SIGINT, SIGTERM and SIGHUP, which a terminal that goes away sends: they set a flag that the rendering reads.
 // Called by render_command and bench_command.
 #pragma once
+
+#include <string>
 
 namespace cli {
 
@@ -9,5 +11,8 @@ void catch_interrupts();
 
 // Number of the signal that came; 0 if none did.
 int interrupt_signal();
+
+// "SIGINT"
+std::string interrupt_name();
 
 } // namespace cli

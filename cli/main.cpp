@@ -88,8 +88,10 @@ int main(int argument_count, char **arguments) {
     } catch (const std::exception &error) {
         return fail(cli::ExitCode::internal, std::string("internal error: ") + error.what());
     }
+    // What went wrong before weighs more: a signal of a terminal that went away, for one.
     if (!std::cout.flush()) {
-        return fail(cli::ExitCode::file, "cannot write to standard output");
+        const int output_code = fail(cli::ExitCode::file, "cannot write to standard output");
+        return code == 0 ? output_code : code;
     }
     return code;
 }

@@ -15,7 +15,6 @@
 #include "report_file.h"
 #include "scene_setup.h"
 
-#include <csignal>
 #include <iostream>
 #include <span>
 #include <unistd.h>
@@ -72,10 +71,9 @@ bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderRepo
 }
 
 void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
-    const std::string signal = interrupt_signal() == SIGINT ? "SIGINT" : "SIGTERM";
     const bool whole = rows_done == settings.render.height;
     const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
-    print_message("stopped by " + signal + " after " + std::to_string(done) + " of " +
+    print_message("stopped by " + interrupt_name() + " after " + std::to_string(done) + " of " +
                   std::to_string(settings.sample_count) + " samples per pixel" +
                   (done == 0 ? "; nothing was written"
                    : whole   ? ""

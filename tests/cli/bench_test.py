@@ -41,7 +41,7 @@ class Bench(CommandLineTest):
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
-        self.assertIn("pt: stopped by a signal; the runs done so far are reported", errors)
+        self.assertIn("pt: stopped by SIGINT; the runs done so far are reported", errors)
         rows = list(csv.DictReader(self.read("b.csv").splitlines()))
         self.assertEqual([(row["spp"], row["rounds"]) for row in rows], [("2", "1")])
         self.assertIn("random", output)

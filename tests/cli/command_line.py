@@ -80,7 +80,7 @@ def read_exr_blocks(path):
 
 def default_signals():
     """A job in the background of a shell inherits an ignored SIGINT, which the program then respects."""
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
 
 
@@ -103,11 +103,11 @@ class CommandLineTest(unittest.TestCase):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
 
-    def start(self, *arguments, **environment):
+    def start(self, *arguments, before=default_signals, **environment):
         names = {name: str(value) for name, value in environment.items()}
         return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
                                 errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                preexec_fn=default_signals)
+                                preexec_fn=before)
 
     def run_pt(self, *arguments, **environment):
         process = self.start(*arguments, **environment)

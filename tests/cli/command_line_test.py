@@ -3,6 +3,7 @@
 Arguments: see command_line.py.
 """
 
+import fcntl
 import glob
 import json
 import os
@@ -11,6 +12,7 @@ import resource
 import signal
 import struct
 import subprocess
+import termios
 import time
 
 from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes,
@@ -22,7 +24,7 @@ class Usage(CommandLineTest):
         self.expect(0, "--version")
         self.assertRegex(self.output, r"^pt \d+\.\d+\.\d+\n$")
         self.expect(0, "render", "--help")
-        for text in ("--max-path-length", "Exit codes:", "143", "Sampling:"):
+        for text in ("--max-path-length", "Exit codes:", "143", "129", "Sampling:"):
             self.assertIn(text, self.output)
 
     def test_wrong_command_lines(self):
@@ -263,13 +265,46 @@ class Interruption(CommandLineTest):
         return process.returncode
 
     def test_the_samples_done_are_written(self):
-        for number, code, name in ((signal.SIGINT, 130, "SIGINT"), (signal.SIGTERM, 143, "SIGTERM")):
+        for number, code, name in ((signal.SIGINT, 130, "SIGINT"), (signal.SIGTERM, 143, "SIGTERM"),
+                                   (signal.SIGHUP, 129, "SIGHUP")):
             self.assertEqual(self.interrupt(number, 2, "--stats", "s.json"), code)
             self.assertRegex(self.errors, f"pt: stopped by {name} after \\d+ of 200 samples per pixel\n")
             samples = json.loads(self.read("s.json"))["spp"]
             self.assertTrue(2 <= samples < 100, samples)
             self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
             self.assertEqual(self.files(), ["a.png", "s.json"])
+
+    def test_a_terminal_that_goes_away(self):
+        """It sends SIGHUP to its foreground process group; from then on whatever is written to it fails."""
+        try:
+            ours, theirs = pty.openpty()
+        except OSError as error:  # a chroot without /dev/pts
+            self.skipTest(str(error))
+
+        def take_terminal():
+            default_signals()
+            os.setsid()
+            fcntl.ioctl(theirs, termios.TIOCSCTTY, 0)
+
+        process = subprocess.Popen([self.program, "render", COURSEWORK, "-o", self.path("a.png"), "--spp", "200",
+                                    "--progress", "json", "--size", "2x2"], stdin=theirs, stdout=theirs, stderr=theirs,
+                                   preexec_fn=take_terminal, env={**os.environ, "FAKE_PT_SAMPLE_MS": "100"})
+        os.close(theirs)
+        output = b""
+        while b'"samples_per_pixel":2' not in output:
+            output += os.read(ours, 4096)
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=120), 129)
+        self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
+        self.assertEqual(self.files(), ["a.png"])
+
+    def test_nohup_is_respected(self):
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "20", "--progress", "json", "--size", "2x2",
+                             FAKE_PT_SAMPLE_MS=50, before=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.stderr.readline()
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(timeout=120), 0)
+        process.communicate()
 
     def test_nothing_is_touched_before_the_first_sample(self):
         self.write("a.png", "old")
