@@ -136,11 +136,13 @@ void ImageWriter::write_radiance(const std::string &path, std::uint32_t width, s
 }
 
 void ImageWriter::write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
-                              std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes) {
+                              std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes,
+                              std::optional<double> gamma) {
     pt_image_data image{};
     image.width = width;
     image.height = height;
     image.bytes = bytes.data();
+    image.gamma = gamma.value_or(0.0);
     write(path, image, attributes);
 }
 

@@ -56,8 +56,10 @@ public:
     // Both throw Failure(ExitCode::file) and leave an existing file as it was. Three components to a pixel.
     void write_radiance(const std::string &path, std::uint32_t width, std::uint32_t height,
                         std::span<const float> radiance, std::span<const pt_image_attribute> attributes);
+    // gamma: of the bytes' encoding; nothing: it is that of sRGB.
     void write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
-                     std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes);
+                     std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes,
+                     std::optional<double> gamma = std::nullopt);
 
 private:
     void write(const std::string &path, pt_image_data image, std::span<const pt_image_attribute> attributes);

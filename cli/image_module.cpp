@@ -2,6 +2,8 @@
 // Called by image_file.cpp through dlsym.
 #include "image_module.h"
 
+#include "image_attribute_text.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -16,10 +18,30 @@
 
 namespace {
 
+// JPEG has no attributes of any name, but a description: a line for each.
+std::string description(std::span<const pt_image_attribute> attributes) {
+    std::string text;
+    for (const pt_image_attribute &attribute : attributes) {
+        if (!text.empty()) {
+            text += '\n';
+        }
+        text += attribute.name;
+        text += ": ";
+        text += image_attribute_text(attribute);
+    }
+    return text;
+}
+
 OIIO::ImageSpec describe(const pt_image_data &image) {
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3,
                          image.radiance != nullptr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-    for (const pt_image_attribute &attribute : std::span(image.attributes, image.attribute_count)) {
+    const std::span attributes(image.attributes, image.attribute_count);
+    if (image.radiance == nullptr) {
+        spec.attribute("ImageDescription", description(attributes));
+    } else {
+        spec.attribute("DateTime", ""); // of no date at all OpenImageIO makes the present one
+    }
+    for (const pt_image_attribute &attribute : attributes) {
         if (attribute.text != nullptr) {
             spec.attribute(attribute.name, attribute.text);
         } else if (attribute.is_float != 0) {

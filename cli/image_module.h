@@ -22,6 +22,7 @@ struct pt_image_data {
     uint32_t height;
     const float *radiance; // R, G, B triples for "exr", else NULL
     const uint8_t *bytes;  // R, G, B triples for the others, else NULL
+    double gamma;          // light is the byte / 255 to this power; 0: by the sRGB curve. For PNG
     const pt_image_attribute *attributes;
     size_t attribute_count;
 };

@@ -2,8 +2,11 @@
 // Called by image_file.
 #include "png_encoder.h"
 
+#include "image_attribute_text.h"
+
 #include <png.h>
 
+#include <algorithm>
 #include <csetjmp>
 #include <new>
 #include <span>
@@ -55,18 +58,29 @@ struct Encoding {
     }
 };
 
-std::vector<png_text> texts_of(const pt_image_data &image) {
+// Text chunks are Latin-1, and international ones UTF-8. The result points into both arguments.
+std::vector<png_text> texts_of(const pt_image_data &image, std::span<std::string> values) {
     std::vector<png_text> texts;
-    for (const pt_image_attribute &attribute : std::span(image.attributes, image.attribute_count)) {
-        if (attribute.text != nullptr) {
-            png_text text{};
-            text.compression = PNG_TEXT_COMPRESSION_NONE;
-            text.key = const_cast<char *>(attribute.name); // libpng copies both
-            text.text = const_cast<char *>(attribute.text);
-            texts.push_back(text);
-        }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool is_ascii = std::ranges::all_of(values[i], [](unsigned char byte) { return byte < 0x80; });
+        png_text text{};
+        text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        text.key = const_cast<char *>(image.attributes[i].name); // libpng copies both
+        text.text = values[i].data();
+        texts.push_back(text);
     }
     return texts;
+}
+
+// What the bytes mean as light (PNG, ISO 15948, 11.3.3): sRGB, or a power of it with the primaries of sRGB, which are
+// those of Rec. 709 (ITU-R BT.709, table 1). Perceptual is the intent for photographs.
+void set_colour_space(const Encoding &encoding, double gamma) {
+    if (gamma == 0.0) {
+        png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
+    } else {
+        png_set_gAMA(encoding.png, encoding.info, 1.0 / gamma);
+        png_set_cHRM(encoding.png, encoding.info, 0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06);
+    }
 }
 
 std::vector<png_bytep> rows_of(const pt_image_data &image) {
@@ -84,6 +98,7 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
     }
     png_set_IHDR(encoding.png, encoding.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    set_colour_space(encoding, image.gamma);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
     png_set_rows(encoding.png, encoding.info, rows);
     png_write_png(encoding.png, encoding.info, PNG_TRANSFORM_IDENTITY, nullptr);
@@ -93,7 +108,9 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
 } // namespace
 
 std::vector<std::byte> encode_png(const pt_image_data &image) {
-    std::vector<png_text> texts = texts_of(image);
+    std::vector<std::string> values(image.attribute_count);
+    std::transform(image.attributes, image.attributes + image.attribute_count, values.begin(), &image_attribute_text);
+    std::vector<png_text> texts = texts_of(image, values);
     std::vector<png_bytep> rows = rows_of(image);
     Encoding encoding;
     if (!write(encoding, image, texts, rows.data())) {

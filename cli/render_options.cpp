@@ -114,7 +114,8 @@ const char *const render_help =
     "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
     "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
     "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
-    "A file that cannot be written whole is left as it was.\n\n"
+    "A file that cannot be written whole is left as it was. The metadata of images say what made them, and no time:\n"
+    "equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a date.\n\n"
     "With --watch, what is wrong with a scene or a shader is told once, and the picture stays as it was until that is\n"
     "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 

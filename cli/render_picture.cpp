@@ -14,6 +14,7 @@
 #include "render_report.h"
 #include "report_file.h"
 #include "scene_setup.h"
+#include "source_date.h"
 
 #include <iostream>
 #include <span>
@@ -86,6 +87,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
                        const RenderSettings &settings, const RenderTimes &times, const Stop &superseded) {
     RenderReport report{};
     report.scene = file.path;
+    report.date = source_date();
     report.render = settings.render;
     report.requested_sample_count = settings.sample_count;
     report.target_error = settings.target_error;

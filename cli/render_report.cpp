@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -74,16 +74,6 @@ std::string target_text(const RenderReport &report) {
            (interrupted ? "" : ", raise --spp");
 }
 
-// The form that OpenEXR's standard attribute capDate and TIFF's DateTime have: local time.
-std::string date_text() {
-    const std::time_t now = std::time(nullptr);
-    std::tm local{};
-    localtime_r(&now, &local);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y:%m:%d %H:%M:%S", &local);
-    return text.data();
-}
-
 } // namespace
 
 std::string version_text() {
@@ -139,22 +129,41 @@ std::string error_text(const RenderReport &report) {
     return estimate_text(report.stats) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
-// samplesPerPixel and renderTimeSeconds have pbrt's names and types, which other tools read. Numbers that may not fit
-// OpenEXR's signed 32-bit integer are texts.
-ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity) {
+// No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
+// pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
+ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map) {
     add("software", "pt " + version_text());
-    add("DateTime", date_text()); // becomes capDate in OpenEXR
+    if (!report.date.empty()) {
+        add("DateTime", report.date); // becomes capDate in OpenEXR
+    }
     add_whole("samplesPerPixel", report.stats.sample_count);
-    attributes_.push_back({"renderTimeSeconds", nullptr, report.accumulate_seconds, 1, 0});
-    add("pt.quantity", quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error");
+    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
+                           (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
+    if (tone_map != nullptr) {
+        add_tone_map(*tone_map);
+    }
+    add("pt.scene", std::filesystem::path(report.scene).filename());
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add_whole("pt.maxPathLength", report.render.max_path_length);
     add("pt.sampler", std::string(samplers.name(report.render.sampler)));
     add("pt.estimator", std::string(estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
+    if (std::isfinite(report.stats.relative_rmse)) {
+        add_real("pt.relativeError", report.stats.relative_rmse);
+    }
     add("pt.device", report.device.name);
     add("pt.driver", report.device.driver);
+}
+
+void ImageMetadata::add_tone_map(const ToneMap &tone_map) {
+    add("pt.toneMap", std::string(tone_curve_names[static_cast<std::size_t>(tone_map.curve)]));
+    add_real("pt.exposure", tone_map.exposure);
+    if (tone_map.gamma) {
+        add_real("pt.gamma", *tone_map.gamma);
+    } else {
+        add("pt.encoding", "sRGB");
+    }
 }
 
 void ImageMetadata::add(const char *name, std::string text) {
@@ -165,6 +174,10 @@ void ImageMetadata::add(const char *name, std::string text) {
 void ImageMetadata::add_whole(const char *name, std::uint32_t number) {
     constexpr std::uint32_t largest = std::numeric_limits<std::int32_t>::max();
     attributes_.push_back({name, nullptr, static_cast<double>(std::min(number, largest)), 0, 0});
+}
+
+void ImageMetadata::add_real(const char *name, double number) {
+    attributes_.push_back({name, nullptr, number, 1, 0});
 }
 
 } // namespace cli

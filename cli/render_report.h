@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image_module.h"
+#include "tone_map.h"
 
 #include <pt/pt.h>
 
@@ -17,6 +18,7 @@ namespace cli {
 
 struct RenderReport {
     std::string scene;
+    std::string date; // for the images; empty: none
     pt_render render;
     std::uint32_t requested_sample_count; // the most, if there is a target
     double target_error;                  // relative; 0: none
@@ -43,8 +45,8 @@ std::string error_text(const RenderReport &report);
 // Attributes of the image file, which keep the texts that they point to.
 class ImageMetadata {
 public:
-    // quantity: what the pixels are, PT_QUANTITY_*.
-    ImageMetadata(const RenderReport &report, std::uint32_t quantity);
+    // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing was.
+    ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
     ImageMetadata(const ImageMetadata &) = delete;
     ImageMetadata &operator=(const ImageMetadata &) = delete;
 
@@ -53,6 +55,8 @@ public:
 private:
     void add(const char *name, std::string text);
     void add_whole(const char *name, std::uint32_t number);
+    void add_real(const char *name, double number);
+    void add_tone_map(const ToneMap &tone_map);
 
     std::vector<std::unique_ptr<std::string>> texts_;
     std::vector<pt_image_attribute> attributes_;

@@ -70,7 +70,7 @@ def read_exr_attributes(path):
 
 
 def read_exr_blocks(path):
-    """The compressed pixels, without the header, in which times differ, and the table of where they are."""
+    """The compressed pixels, without the header and the table of where they are."""
     with open(path, "rb") as file:
         data = file.read()
     table = parse_exr_header(data)[1]

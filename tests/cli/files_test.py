@@ -1,13 +1,16 @@
-"""Tests of which files the program reads and writes: standard streams, and outputs that would overwrite what is needed.
+"""Tests of the files that the program reads and writes: standard streams, outputs that would overwrite what is needed,
+and what the metadata of images say.
 
 Arguments: see command_line.py.
 """
 
 import json
 import os
+import struct
 import subprocess
+import time
 
-from command_line import COURSEWORK, CommandLineTest, default_signals, main
+from command_line import COURSEWORK, CommandLineTest, default_signals, main, read_exr_attributes
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 BENCH = ("--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2")
@@ -165,6 +168,74 @@ class SameFiles(CommandLineTest):
         self.assertEqual(os.listdir(self.path("folder")), ["new.png"])
         os.symlink("loop.png", self.path("loop.png"))
         self.expect(6, "render", "s.png", "-o", "loop.png", error="cannot write loop.png: Too many levels")
+
+
+class EqualRuns(CommandLineTest):
+    OUTPUTS = ("a.png", "a.jpg", "a.exr", "e.exr")
+
+    def images(self, folder, **environment):
+        """What they are with this environment, rendered in a folder of that name for once."""
+        os.mkdir(self.path(folder))
+        paths = [f"{folder}/{name}" for name in self.OUTPUTS]
+        self.expect(0, "render", COURSEWORK, "-o", paths[0], "-o", paths[1], "-o", paths[2], "--standard-error",
+                    paths[3], "--size", "8x4", "--spp", "16", **environment)
+        images = []
+        for path in paths:
+            with open(self.path(path), "rb") as file:
+                images.append(file.read())
+        return images
+
+    def test_images_do_not_tell_when_they_were_rendered(self):
+        # More than a second apart, the unit of dates; the stand-in takes a millisecond a sample, then two.
+        first = self.images("first", FAKE_PT_SAMPLE_MS=1)
+        time.sleep(1.1)
+        self.assertEqual(self.images("second", FAKE_PT_SAMPLE_MS=2, TZ="Pacific/Auckland"), first)
+
+    def test_they_tell_a_date_that_is_given(self):
+        environment = {"SOURCE_DATE_EPOCH": "1000000000", "TZ": "Pacific/Auckland"}
+        for image in self.images("first", **environment):
+            self.assertIn(b"2001:09:09 01:46:40", image)
+        attributes = read_exr_attributes(self.path("first/a.exr"))
+        self.assertEqual(attributes["capDate"], ("string", b"2001:09:09 01:46:40"))
+
+    def test_a_date_that_is_none_is_refused(self):
+        for text in ("yesterday", ""):
+            self.expect(2, "render", COURSEWORK, "-o", "a.png", "--spp", "1000", error="SOURCE_DATE_EPOCH: must be",
+                        SOURCE_DATE_EPOCH=text, FAKE_PT_SAMPLE_MS=1000)
+        self.assertEqual(self.files(), [])
+
+
+class Metadata(CommandLineTest):
+    def texts(self, *options):
+        """Keyword -> text of a PNG, and the names of its chunks."""
+        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "16", "--size", "4x3", *options)
+        with open(self.path("a.png"), "rb") as file:
+            data = file.read()
+        texts, kinds, position = {}, [], 8
+        while position < len(data):
+            length, kind = struct.unpack(">I4s", data[position:position + 8])
+            kinds.append(kind.decode())
+            if kind == b"tEXt":
+                name, text = data[position + 8:position + 8 + length].decode("latin-1").split("\0")
+                texts[name] = text
+            position += 12 + length
+        return texts, kinds
+
+    def test_a_png_says_how_it_was_made(self):
+        texts, kinds = self.texts("--seed", "7", "--max-path-length", "3", "--first-sample", "9", "--sampler", "random",
+                                  "--estimator", "mis", "--exposure", "-2.5", "--tonemap", "agx")
+        software = texts.pop("software")
+        self.assertRegex(software, r"^pt \d+\.\d+\.\d+$")
+        self.assertEqual(texts, {
+            "samplesPerPixel": "16", "pt.quantity": "tone-mapped radiance", "pt.toneMap": "agx", "pt.exposure": "-2.5",
+            "pt.encoding": "sRGB", "pt.scene": "coursework.json", "pt.seed": "7", "pt.firstSample": "9",
+            "pt.maxPathLength": "3", "pt.sampler": "random", "pt.estimator": "mis", "pt.rejectedSamples": "0",
+            "pt.relativeError": "0.03125", "pt.device": "fake device", "pt.driver": "fake driver 1.0"})
+        self.assertIn("sRGB", kinds)
+        texts, kinds = self.texts("--gamma", "2.2")
+        self.assertEqual((texts["pt.gamma"], texts["pt.toneMap"], texts["pt.exposure"]), ("2.2", "none", "0"))
+        self.assertIn("gAMA", kinds)
+        self.assertNotIn("sRGB", kinds)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ using cli::ImageFormat;
 using cli::ImageWriter;
 
 constexpr std::array<pt_image_attribute, 3> attributes{{{"samplesPerPixel", nullptr, 64.0, 0, 0},
-                                                        {"renderTimeSeconds", nullptr, 1.5, 1, 0},
+                                                        {"pt.exposure", nullptr, 1.5, 1, 0},
                                                         {"pt.seed", "18446744073709551615", 0.0, 0, 0}}};
 
 template <typename Value>
@@ -66,7 +66,7 @@ TEST(ImageFile, ExrHasChannelsAndMetadata) {
     EXPECT_EQ(spec.channelnames, (std::vector<std::string>{"R", "G", "B"}));
     EXPECT_EQ(spec.format, OIIO::TypeDesc::FLOAT);
     EXPECT_EQ(spec.get_int_attribute("samplesPerPixel"), 64);
-    EXPECT_EQ(spec.get_float_attribute("renderTimeSeconds"), 1.5F);
+    EXPECT_EQ(spec.get_float_attribute("pt.exposure"), 1.5F);
     EXPECT_EQ(spec.get_string_attribute("pt.seed"), "18446744073709551615");
 }
 
@@ -112,6 +112,30 @@ TEST(ImageFile, PngHasMetadata) {
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().nchannels, 3);
     EXPECT_EQ(input->spec().get_string_attribute("pt.seed"), "18446744073709551615");
+    EXPECT_EQ(input->spec().get_string_attribute("samplesPerPixel"), "64"); // text is all that PNG has
+    EXPECT_EQ(input->spec().get_string_attribute("pt.exposure"), "1.5");
+}
+
+TEST(ImageFile, PngKeepsNamesInUtf8) {
+    const TemporaryFolder folder;
+    const std::string name = "sc\xc3\xa8ne.json"; // as which libpng reads international text chunks
+    const std::array<pt_image_attribute, 1> named{{{"pt.scene", name.c_str(), 0.0, 0, 0}}};
+    ImageWriter().write_bytes(folder.file("a.png"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, named);
+    EXPECT_EQ(OIIO::ImageInput::open(folder.file("a.png"))->spec().get_string_attribute("pt.scene"), name);
+    EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
+}
+
+TEST(ImageFile, PngTellsItsColourSpace) {
+    const TemporaryFolder folder;
+    const std::array<std::uint8_t, 3> bytes{1, 2, 3};
+    ImageWriter().write_bytes(folder.file("srgb.png"), 1, 1, bytes, attributes);
+    EXPECT_NE(folder.read("srgb.png").find("sRGB"), std::string::npos);
+    ImageWriter().write_bytes(folder.file("gamma.png"), 1, 1, bytes, attributes, 2.2);
+    const std::string file = folder.read("gamma.png");
+    EXPECT_EQ(file.find("sRGB"), std::string::npos);
+    EXPECT_NE(file.find("cHRM"), std::string::npos);
+    const std::string gamma{"gAMA\0\0\xb1\x8f", 8}; // 1 / 2.2 in units of 1e-5
+    EXPECT_NE(file.find(gamma), std::string::npos);
 }
 
 // Several megabytes of noise, which is not compressed: libpng hands it over in many parts.
@@ -133,6 +157,15 @@ TEST(ImageFile, JpegIsClose) {
     for (const std::uint8_t value : read) {
         EXPECT_NEAR(value, 100, 1); // one colour: only the rounding of its coefficient is lost
     }
+}
+
+TEST(ImageFile, JpegHasMetadataInItsDescription) {
+    const TemporaryFolder folder;
+    ImageWriter().write_bytes(folder.file("a.jpg"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    const auto input = OIIO::ImageInput::open(folder.file("a.jpg"));
+    ASSERT_TRUE(input);
+    EXPECT_EQ(input->spec().get_string_attribute("ImageDescription"),
+              "samplesPerPixel: 64\npt.exposure: 1.5\npt.seed: 18446744073709551615");
 }
 
 TEST(ImageFile, AFailureLeavesTheOldFile) {

@@ -96,26 +96,81 @@ TEST(RenderReport, ErrorText) {
     EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
 }
 
-TEST(RenderReport, MetadataKeepsAllDigits) {
-    const cli::ImageMetadata metadata(example(), PT_QUANTITY_RADIANCE);
+struct Attributes {
     std::map<std::string, std::string> texts;
     std::map<std::string, double> numbers;
+};
+
+Attributes attributes_of(const cli::ImageMetadata &metadata) {
+    Attributes found;
     for (const pt_image_attribute &attribute : metadata.attributes()) {
         if (attribute.text != nullptr) {
-            texts[attribute.name] = attribute.text;
+            found.texts[attribute.name] = attribute.text;
         } else {
-            numbers[attribute.name] = attribute.number;
+            found.numbers[attribute.name] = attribute.number;
         }
     }
+    return found;
+}
+
+TEST(RenderReport, MetadataKeepsAllDigits) {
+    const auto [texts, numbers] = attributes_of({example(), PT_QUANTITY_RADIANCE, nullptr});
     EXPECT_EQ(texts.at("pt.quantity"), "radiance");
     EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
     EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
     EXPECT_EQ(texts.at("pt.rejectedSamples"), "3");
     EXPECT_EQ(texts.at("pt.sampler"), "halton-cp");
     EXPECT_EQ(texts.at("pt.estimator"), "mis");
+    EXPECT_EQ(texts.at("pt.scene"), "scene.json");
+    EXPECT_EQ(texts.at("pt.device"), "a device");
     EXPECT_EQ(texts.at("software"), "pt " + cli::version_text());
     EXPECT_EQ(numbers.at("samplesPerPixel"), 32.0);
-    EXPECT_EQ(numbers.at("renderTimeSeconds"), 2.0);
+    EXPECT_EQ(numbers.at("pt.maxPathLength"), 6.0);
+}
+
+TEST(RenderReport, MetadataSayWhatWasMadeForADisplay) {
+    const Attributes linear = attributes_of({example(), PT_QUANTITY_RADIANCE, nullptr});
+    for (const char *name : {"pt.toneMap", "pt.exposure", "pt.encoding", "pt.gamma"}) {
+        EXPECT_EQ(linear.texts.count(name) + linear.numbers.count(name), 0U) << name;
+    }
+    cli::ToneMap map{-2.5, cli::ToneCurve::agx, std::nullopt};
+    const Attributes mapped = attributes_of({example(), PT_QUANTITY_RADIANCE, &map});
+    EXPECT_EQ(mapped.texts.at("pt.quantity"), "tone-mapped radiance");
+    EXPECT_EQ(mapped.texts.at("pt.toneMap"), "agx");
+    EXPECT_EQ(mapped.texts.at("pt.encoding"), "sRGB");
+    EXPECT_EQ(mapped.numbers.at("pt.exposure"), -2.5);
+    map.gamma = 2.2;
+    const Attributes power = attributes_of({example(), PT_QUANTITY_RADIANCE, &map});
+    EXPECT_EQ(power.numbers.at("pt.gamma"), 2.2);
+    EXPECT_EQ(power.texts.count("pt.encoding"), 0U);
+}
+
+TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
+    cli::RenderReport report = example();
+    report.scene = "folder/scene.json";
+    const Attributes first = attributes_of({report, PT_QUANTITY_RADIANCE, nullptr});
+    EXPECT_EQ(first.texts.at("pt.scene"), "scene.json");
+    EXPECT_EQ(first.texts.count("DateTime"), 0U);
+    report.scene = "elsewhere/scene.json";
+    report.create_seconds += 1.0;
+    report.accumulate_seconds += 1.0;
+    report.total_seconds += 1.0;
+    report.stats.device_seconds += 1.0;
+    report.stats.submit_count += 1;
+    const Attributes second = attributes_of({report, PT_QUANTITY_RADIANCE, nullptr});
+    EXPECT_EQ(first.texts, second.texts);
+    EXPECT_EQ(first.numbers, second.numbers);
+
+    report.date = "2001:09:09 01:46:40"; // which the user gave
+    EXPECT_EQ(attributes_of({report, PT_QUANTITY_RADIANCE, nullptr}).texts.at("DateTime"), report.date);
+}
+
+TEST(RenderReport, MetadataStateTheErrorIfItIsKnown) {
+    cli::RenderReport report = example();
+    set_error(report, infinity, 0.0, infinity);
+    EXPECT_EQ(attributes_of({report, PT_QUANTITY_RADIANCE, nullptr}).numbers.count("pt.relativeError"), 0U);
+    set_error(report, 0.0042, 0.0040, 0.0044);
+    EXPECT_EQ(attributes_of({report, PT_QUANTITY_RADIANCE, nullptr}).numbers.at("pt.relativeError"), 0.0042);
 }
 
 TEST(RenderReport, Texts) {
