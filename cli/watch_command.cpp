@@ -159,7 +159,6 @@ private:
 } // namespace
 
 int watch(const RenderOptions &options, ValidationLog &log) {
-    check_names(options);
     require_files(options);
     catch_interrupts();
     return Watch(options, log).run();

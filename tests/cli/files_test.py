@@ -10,7 +10,7 @@ import struct
 import subprocess
 import time
 
-from command_line import COURSEWORK, CommandLineTest, default_signals, main, read_exr_attributes
+from command_line import COURSEWORK, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 BENCH = ("--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2")
@@ -78,12 +78,11 @@ class StandardStreams(CommandLineTest):
 
 
 class SameFiles(CommandLineTest):
-    """What would be overwritten is refused at once: rendering would take a thousand samples of a second."""
+    """What would be overwritten is refused before there is a device, which is not to be had."""
 
     def refuse(self, error, *arguments, command="render"):
         before = {name: self.contents(name) for name in self.files()}
-        slow = {} if command == "bench" else {"FAKE_PT_SAMPLE_MS": 1000}
-        self.expect(2, command, *arguments, *(BENCH if command == "bench" else ("--spp", "1000")), **slow)
+        self.expect(2, command, *arguments, FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}")
         self.assertEqual(self.errors, f"pt: {error}\n")
         self.assertEqual({name: self.contents(name) for name in self.files()}, before)
 
@@ -200,8 +199,8 @@ class EqualRuns(CommandLineTest):
 
     def test_a_date_that_is_none_is_refused(self):
         for text in ("yesterday", ""):
-            self.expect(2, "render", COURSEWORK, "-o", "a.png", "--spp", "1000", error="SOURCE_DATE_EPOCH: must be",
-                        SOURCE_DATE_EPOCH=text, FAKE_PT_SAMPLE_MS=1000)
+            self.expect(2, "render", COURSEWORK, "-o", "a.png", error="SOURCE_DATE_EPOCH: must be",
+                        SOURCE_DATE_EPOCH=text, FAKE_PT_FAIL=f"accumulate:{RESULT['DEVICE_LOST']}")
         self.assertEqual(self.files(), [])
 
 
