@@ -64,14 +64,16 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0.
 // Far above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the
 // ray: the squared length of the gradient is 1 + 2 k h. side: the height of the camera. Where it tells the side, a ray
-// that leads towards the surface meets it, at no distance if rounding has put the ray's origin behind it.
+// that leads towards the surface meets it, at a negative distance if rounding has put the ray's origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
     if (CURVATURE == 0) {
         float distance = -level.height / slope;
-        if (KNOWN_SIDES == 1)
-            return !leaving && slope * side < 0.0 ? max(distance, 0.0) : NO_HIT;
+        if (KNOWN_SIDES == 1) {
+            bool towards = side > 0.0 ? slope < 0.0 : slope > 0.0;
+            return !leaving && towards ? distance : NO_HIT;
+        }
         return !leaving && distance > 0.0 ? distance : NO_HIT;
     }
     float height = leaving ? 0.0 : level.height;
@@ -91,7 +93,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT if there is none
+    float distance; // NO_HIT if there is none; less than 0, by rounding, where the ray starts beyond the surface
     uint surface;   // NO_SURFACE if there is none
 };
 
@@ -220,6 +222,8 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay to
     blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));
     FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane, time));
+    if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u) // along a plane a little height is a long way back
+        hit.distance = max(hit.distance, 0.0);
     return hit;
 }
 
