@@ -171,10 +171,10 @@ double Device::finish(Ticket ticket) {
 bool Device::comes_to_rest() noexcept {
     for (Submission &submission : submissions_) {
         try {
-            while (submission.pending) {
+            for (bool was_overdue = false; submission.pending; was_overdue = is_overdue(submission)) {
                 const std::uint64_t step = wait_nanoseconds();
                 submission.pending = handle().waitForFences(*submission.fence, VK_TRUE, step) == vk::Result::eTimeout;
-                if (submission.pending && is_overdue(submission)) {
+                if (submission.pending && was_overdue) {
                     gave_up_ = true;
                     return false;
                 }
@@ -204,10 +204,14 @@ std::uint64_t Device::wait_nanoseconds() const {
     return static_cast<std::uint64_t>(std::min(wait_step, policy_.patience).count());
 }
 
+// Only what was overdue before a look at it is given up, here and in comes_to_rest(): a process that was stopped, or got
+// no processor for long, may find its patience over and the work done.
 void Device::wait(const Submission &submission) {
     try {
-        while (handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout)
-            if (is_overdue(submission)) {
+        for (bool was_overdue = false;
+             handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout;
+             was_overdue = is_overdue(submission))
+            if (was_overdue) {
                 gave_up_ = true;
                 lose("it did not end a submission within " +
                      std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +

@@ -17,7 +17,7 @@ namespace faults {
 struct Setting {
     bool gpu;                     // see pose_as_gpu
     uint32_t device_count;        // to share the work, all of them the one device there is
-    uint32_t submit_milliseconds; // of which the clock takes one to each look at it
+    uint32_t submit_milliseconds; // of which a submission takes one by the clock
 };
 
 using Image = std::vector<float>;

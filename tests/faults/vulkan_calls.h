@@ -18,7 +18,9 @@ struct CallFault {
 };
 
 // The call with a number, counted from 1 over those that can fail, returns the function's error with an index, modulo
-// their number. 0: none does. A submission that returns VK_TIMEOUT is made, but is never seen to end.
+// their number. 0: none does. A submission that returns VK_TIMEOUT is made, but is never seen to end: each look at it
+// takes a tenth of a second by the library's clock. A wait that returns it takes an hour of it, as if the process had
+// been stopped meanwhile; the work goes on.
 void fail_call(std::size_t number, std::size_t error_index);
 
 // What came of it.

@@ -34,7 +34,8 @@
     X(DestroyFence, Destroys)                                                                                          \
     X(ResetFences, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                                   \
     X(GetFenceStatus, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST)          \
-    X(WaitForFences, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST)           \
+    X(WaitForFences, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST,           \
+      VK_TIMEOUT)                                                                                                      \
     X(QueueSubmit, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST, VK_TIMEOUT) \
     X(CreatePipelineCache, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                        \
     X(DestroyPipelineCache, Destroys)                                                                                  \
