@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t events =
     IN_CLOSE_WRITE | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO | IN_ATTRIB | IN_DELETE_SELF | IN_MOVE_SELF;
 
-constexpr std::chrono::milliseconds notified_interval{2000};
 constexpr std::chrono::milliseconds polled_interval{250};
 // A directory in which others are busy must not keep this program busy.
 constexpr std::chrono::milliseconds least_interval{20};
@@ -39,8 +38,9 @@ bool poll_until(pollfd *descriptors, nfds_t count, std::chrono::steady_clock::ti
 
 } // namespace
 
-DirectoryEvents::DirectoryEvents(Method method) :
-    notifications_(method == Method::notified ? inotify_init1(IN_NONBLOCK | IN_CLOEXEC) : -1) {}
+DirectoryEvents::DirectoryEvents(Method method, std::chrono::milliseconds notified_interval) :
+    notifications_(method == Method::notified ? inotify_init1(IN_NONBLOCK | IN_CLOEXEC) : -1),
+    notified_interval_(notified_interval) {}
 
 void DirectoryEvents::watch(const std::filesystem::path &directory) {
     if (!notifications_.is_open()) {
@@ -55,7 +55,7 @@ void DirectoryEvents::watch(const std::filesystem::path &directory) {
 
 bool DirectoryEvents::wait(std::chrono::milliseconds timeout) {
     const Clock::time_point end = Clock::now() + timeout;
-    const Clock::time_point next_look = last_look_ + (notifications_.is_open() ? notified_interval : polled_interval);
+    const Clock::time_point next_look = last_look_ + (notifications_.is_open() ? notified_interval_ : polled_interval);
     const Clock::time_point earliest_look = last_look_ + least_interval;
     pollfd descriptor{notifications_.get(), POLLIN, 0}; // a negative one is ignored
     poll_until(nullptr, 0, std::min(earliest_look, end));

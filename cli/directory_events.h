@@ -13,11 +13,12 @@ class DirectoryEvents {
 public:
     enum class Method {
         notified, // by inotify, if the system has some left; changes that another machine makes are not told, so that there
-                  // is a look every other second too
+                  // is a look at intervals too
         polled // a look four times a second
     };
 
-    explicit DirectoryEvents(Method method = Method::notified);
+    explicit DirectoryEvents(Method method = Method::notified,
+                             std::chrono::milliseconds notified_interval = std::chrono::seconds{2});
 
     // What is in it, not in directories below. To be called again after every event: a directory may have been
     // replaced. One that is not there is told of once it is.
@@ -35,6 +36,7 @@ private:
     void read_notifications();
 
     FileDescriptor notifications_;
+    std::chrono::milliseconds notified_interval_;
     Clock::time_point last_look_ = Clock::now();
 };
 

@@ -34,17 +34,16 @@ class Bench(CommandLineTest):
         self.assertEqual((row["mse"], row["efficiency"], row["near_reference_noise"]), ("0", "", "0"))
 
     def test_an_interrupted_bench_reports_what_is_done(self):
-        process = self.start("bench", COURSEWORK, "--samplers", "random", "--spp", "2,100", "--size", "2x2",
-                             "--reference-spp", "2", "--progress", "json", "--csv", "b.csv", FAKE_PT_SAMPLE_MS=50)
-        while json.loads(process.stderr.readline())["samples_per_pixel"] < 6:
-            pass
-        process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130, errors)
-        self.assertIn("pt: stopped by SIGINT; the runs done so far are reported", errors)
+        # Four submissions a sample: 2 of the reference, 2 and one for the kernel, and after one more in the second run.
+        submission = 4 * (2 + 1 + 2 + 1 + 5) + 1
+        code = self.run_pt("bench", COURSEWORK, "--samplers", "random", "--spp", "2,100", "--size", "2x2",
+                           "--reference-spp", "2", "--csv", "b.csv",
+                           FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
+        self.assertEqual(code, 130, self.errors)
+        self.assertIn("pt: stopped by SIGINT; the runs done so far are reported", self.errors)
         rows = list(csv.DictReader(self.read("b.csv").splitlines()))
         self.assertEqual([(row["spp"], row["rounds"]) for row in rows], [("2", "1")])
-        self.assertIn("random", output)
+        self.assertIn("random", self.output)
         self.assertEqual(self.files(), ["b.csv"])
 
 

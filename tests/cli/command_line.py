@@ -17,6 +17,10 @@ import zlib
 PT, FAKE_PT, SCENES = sys.argv[1:4]
 COURSEWORK = os.path.join(SCENES, "coursework.json")
 
+# Seconds after which a program is taken to hang. No test passes or fails by the clock: what is waited for is an event
+# that comes soon on any machine, or never.
+PATIENCE = 600
+
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
           "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10}
 
@@ -105,13 +109,15 @@ class CommandLineTest(unittest.TestCase):
 
     def start(self, *arguments, before=default_signals, **environment):
         names = {name: str(value) for name, value in environment.items()}
-        return subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
-                                errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                preexec_fn=before)
+        process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,
+                                   errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=before)
+        for undo in (process.stdout.close, process.stderr.close, process.wait, process.kill):  # the last comes first
+            self.addCleanup(undo)
+        return process
 
     def run_pt(self, *arguments, **environment):
         process = self.start(*arguments, **environment)
-        self.output, self.errors = process.communicate(timeout=120)
+        self.output, self.errors = process.communicate(timeout=PATIENCE)
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):

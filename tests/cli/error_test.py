@@ -5,7 +5,7 @@ import resource
 import signal
 import subprocess
 
-from command_line import (COURSEWORK, PT, CommandLineTest, default_signals, main, read_exr_attributes,
+from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, default_signals, main, read_exr_attributes,
                           read_exr_blocks)
 
 KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low", "_high")]
@@ -64,17 +64,13 @@ class TargetError(CommandLineTest):
             self.assertEqual((lines[-1]["fraction"], lines[-1]["samples_per_pixel"]), (1.0, samples))
 
     def test_interrupted(self):
-        process = self.start("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats",
-                             "s.json", "--progress", "json", FAKE_PT_SAMPLE_MS=50)
-        while json.loads(process.stderr.readline())["samples_per_pixel"] < 17:  # not in the first call
-            pass
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130, errors)
-        self.assertRegex(errors, r"pt: stopped by SIGINT after \d+ of 65536 samples per pixel\n")
+        submission = 4 * 17 + 1  # not in the first call, which takes the 16 samples that an error needs
+        code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--error", "0.1%", "--stats", "s.json",
+                           FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
+        self.assertEqual(code, 130, self.errors)
+        self.assertEqual(self.errors, "pt: stopped by SIGINT after 17 of 65536 samples per pixel\n")
         stats = json.loads(self.read("s.json"))
-        self.assertFalse(stats["target_reached"])
-        self.assertTrue(17 <= stats["spp"] < 100, stats["spp"])
+        self.assertEqual((stats["target_reached"], stats["spp"]), (False, 17))
 
 
 class StandardError(CommandLineTest):
@@ -90,9 +86,8 @@ class StandardError(CommandLineTest):
             self.expect(2, "render", COURSEWORK, "-o", "a.png", "--standard-error", name,
                         error=f"--standard-error {name}: the name must end in .exr")
         self.expect(2, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "a.exr", error="--standard-error a.exr")
-        # A thousand samples of a second: the test would run out of time.
-        self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "none/e.exr", "--spp", "1000",
-                    error="cannot write none/e.exr", FAKE_PT_SAMPLE_MS=1000)
+        self.expect(6, "render", COURSEWORK, "-o", "a.exr", "--standard-error", "none/e.exr",
+                    error="cannot write none/e.exr", FAKE_PT_FAIL=f"accumulate:{RESULT['INTERNAL']}")
         self.assertEqual(self.files(), [])
 
     def test_a_failed_write_leaves_the_old_file_and_the_picture_is_written(self):

@@ -1,11 +1,14 @@
 // Owns a stand-in for libpt that needs no device and fails on demand, for tests of the command line: which exit code
 // follows, and what is left of the outputs. Linked into the program pt_with_fake_library, which the tests
-// in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the length of one sample;
-// FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8; FAKE_PT_LOG=function makes it send a line to the log.
+// in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one
+// sample; FAKE_PT_SIGNAL=number:submission makes the program get a signal in that submission, of which a sample takes
+// four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
+// FAKE_PT_LOG=function makes a function send a line to the log.
 #include <pt/pt.h>
 
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -58,6 +61,16 @@ pt_device_info fake_device() {
     std::strcpy(device.driver, "fake driver 1.0");
     std::strcpy(device.reason, device.suitable != 0 ? "" : "it is not real");
     return device;
+}
+
+// As if somebody sent it meanwhile.
+void raise_wanted_signal() {
+    static std::uint64_t submission_count = 0;
+    const std::string wanted = setting("FAKE_PT_SIGNAL");
+    const std::size_t colon = wanted.find(':');
+    if (colon != std::string::npos && std::stoull(wanted.substr(colon + 1)) == ++submission_count) {
+        std::raise(std::stoi(wanted));
+    }
 }
 
 // Upper bound of both errors, unknown at first.
@@ -160,6 +173,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
             return PT_TARGET_REACHED;
         }
         std::this_thread::sleep_for(pause);
+        raise_wanted_signal();
         context->sample_count = before + static_cast<std::uint32_t>(done / submissions_per_sample);
         if (info->progress != nullptr &&
             info->progress(info->progress_user, static_cast<double>(done) / static_cast<double>(submissions)) != 0) {

@@ -3,8 +3,9 @@
 import json
 import os
 import signal
+import time
 
-from command_line import PT, main, read_png
+from command_line import PATIENCE, PT, main, read_png
 from watching import WatchTest, scene_text
 
 
@@ -50,7 +51,7 @@ class Scenes(WatchTest):
         pt.line_with("pt: cannot read s.json: No such file or directory")
         with open(self.path("a.png"), "rb") as file:
             self.assertEqual(file.read(), picture)
-        self.write("s.json", scene_text(4))
+        self.save("s.json", scene_text(4))
         pt.line_with("wrote a.png: 4x2")
         self.assertEqual(pt.end(signal.SIGTERM), 0)
         self.assertEqual(pt.count("syntax error"), 1)
@@ -94,7 +95,7 @@ class Scenes(WatchTest):
         self.expect(2, "render", "s.json", "--watch", "-o", "a.png", error="not a regular file")
 
     def test_a_change_stops_the_rendering(self):
-        pt = self.watch("--progress", "json", "--spp", "1000", FAKE_PT_SAMPLE_MS=200)
+        pt = self.watch("--progress", "json", "--spp", "1000000", FAKE_PT_SAMPLE_MS=200)  # two days
         pt.line_with('"fraction"')
         self.write("s.json", "{")
         pt.line_with("syntax error")
@@ -110,19 +111,21 @@ class Scenes(WatchTest):
                         "--standard-error", "e.exr", "-q")
         # Without a line to wait for, the file is looked at: it appears whole.
         self.await_stats(pt, 3)
-        self.write("s.json", scene_text(5))
+        self.save("s.json", scene_text(5))
         self.await_stats(pt, 5)
         self.assertEqual(self.files(), ["a.png", "e.exr", "s.json", "stats.json"])
         self.assertEqual(pt.end(), 0)
         self.assertEqual(pt.seen, [])
 
     def await_stats(self, pt, width):
-        while pt.process.poll() is None:
+        end = time.monotonic() + PATIENCE
+        while pt.process.poll() is None and time.monotonic() < end:
             if os.path.exists(self.path("stats.json")):
                 stats = json.loads(self.read("stats.json"))
                 if stats["width"] == width:
                     self.assertTrue(stats["target_reached"])
                     return
+            time.sleep(0.01)
         self.fail("".join(pt.seen))
 
 

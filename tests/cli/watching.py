@@ -7,9 +7,7 @@ import signal
 import subprocess
 import threading
 
-from command_line import CommandLineTest, default_signals
-
-PATIENCE = 100  # seconds; nothing takes so long that comes at all
+from command_line import PATIENCE, CommandLineTest, default_signals
 
 
 def scene_text(width, emission=1.0):
