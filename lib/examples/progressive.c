@@ -26,7 +26,7 @@ typedef struct render_job {
     pt_context *context;
     uint32_t samples;
     pt_result result;         /* valid when the thread has ended, like pt_last_error(context) */
-    int shown;                /* likewise: the last image was written */
+    atomic_int shown;         /* the last image was written */
     atomic_int step_permille; /* of the step under way */
     atomic_int ended;
 } render_job;
@@ -101,8 +101,8 @@ static pt_result show(render_job *job, const pt_stats *stats)
 
     if (result < 0)
         return result;
-    job->shown = write_ppm(pixels);
-    if (!job->shown) {
+    atomic_store(&job->shown, write_ppm(pixels));
+    if (!atomic_load(&job->shown)) {
         perror("progressive.ppm");
         atomic_store(&stop, 1);
     }
@@ -144,7 +144,7 @@ static void *render_thread(void *user)
     return NULL;
 }
 
-/* Until the thread has ended; seconds 0: without a limit. */
+/* Until the thread has ended; seconds 0: without a limit, which waits for the first samples. */
 static void watch(render_job *job, double seconds)
 {
     const struct timespec pause = {0, 20000000};
@@ -155,7 +155,7 @@ static void watch(render_job *job, double seconds)
         fflush(stdout);
         nanosleep(&pause, NULL);
         waited += 0.02;
-        if (seconds > 0.0 && waited >= seconds)
+        if (seconds > 0.0 && waited >= seconds && atomic_load(&job->shown))
             atomic_store(&stop, 1);
     }
     printf("\n");
@@ -182,5 +182,5 @@ int main(int argc, char **argv)
     if (job.result < 0)
         fprintf(stderr, "%s: %s\n", pt_result_name(job.result), pt_last_error(job.context));
     pt_destroy(job.context);
-    return job.result >= 0 && job.shown ? EXIT_SUCCESS : EXIT_FAILURE;
+    return job.result >= 0 && atomic_load(&job.shown) ? EXIT_SUCCESS : EXIT_FAILURE;
 }
