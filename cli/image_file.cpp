@@ -17,10 +17,18 @@
 namespace cli {
 namespace {
 
-// PT_MODULE_DIRECTORY is relative to the program, so that an installed tree can be moved.
+// PT_MODULE_DIRECTORY is relative to the program, so that an installed tree can be moved. Throws
+// Failure(ExitCode::file) if the module is not there: it is a package of its own, and not built everywhere.
 std::filesystem::path module_path() {
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-    return (program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so").lexically_normal();
+    std::filesystem::path path = program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so";
+    path = path.lexically_normal();
+    if (access(path.c_str(), R_OK) != 0) {
+        throw Failure(ExitCode::file, "EXR and JPEG need the image module, and there is no " + path.string() +
+                                          ": install the package pt-image-formats, or libopenimageio-dev before "
+                                          "building pt; PNG needs neither");
+    }
+    return path;
 }
 
 // Never unloaded: OpenImageIO keeps threads and static objects.
@@ -113,9 +121,6 @@ RadianceImage read_radiance(const std::string &path) {
 
 void ImageWriter::load_module() {
     const std::filesystem::path path = module_path();
-    if (access(path.c_str(), R_OK) != 0) {
-        throw Failure(ExitCode::internal, "the image module is missing: " + path.string());
-    }
     encode_ = std::async(std::launch::async, [this, path] {
         try {
             return load_function<pt_encode_image_fn>(path, PT_ENCODE_IMAGE_SYMBOL);

@@ -33,14 +33,14 @@ struct RadianceImage {
     std::vector<float> radiance; // R, G, B of each pixel, row by row from the top
 };
 
-// Throws Failure: ExitCode::file if it cannot be read or has other channels, ExitCode::internal without the module.
+// Throws Failure: ExitCode::file if it cannot be read or has other channels, or without the module.
 RadianceImage read_radiance(const std::string &path);
 
 // Encodes and writes images: PNG itself, all others by the module.
 class ImageWriter {
 public:
     // In the background, so that it is there when the first image is to be written; otherwise it is loaded then. Throws
-    // Failure(ExitCode::internal) at once if the module is not there.
+    // Failure(ExitCode::file) at once if the module is not there.
     void load_module();
 
     // The module turned out to be unusable: a long rendering may as well stop.

@@ -1,12 +1,17 @@
 # Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt
-# the program, and libpt0-glsl with which either compiles kernels while it runs. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
+# the program, pt-image-formats with which it writes EXR and JPEG, and libpt0-glsl with which programs compile kernels while
+# they run. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
 set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR})
 set(pt_development_package libpt-dev)
 set(pt_program_package pt)
+set(pt_image_formats_package pt-image-formats)
 set(pt_compiler_package libpt${PROJECT_VERSION_MAJOR}-glsl)
 set(CPACK_COMPONENTS_ALL pt_runtime pt_development)
 if(PT_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL pt_program)
+endif()
+if(TARGET pt-image-file)
+  list(APPEND CPACK_COMPONENTS_ALL pt_image_formats)
 endif()
 if(TARGET pt-glsl)
   list(APPEND CPACK_COMPONENTS_ALL pt_compiler)
@@ -75,10 +80,19 @@ set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_DEPENDS "${pt_runtime_package} ${same_ve
 set(CPACK_DEBIAN_PT_PROGRAM_DESCRIPTION
     "${pt_story}
 This package has the command line program, which renders scene files to
-EXR, PNG and JPEG."
+PNG and, with pt-image-formats, to EXR and JPEG."
 )
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_DEPENDS "${pt_runtime_package} ${same_version}")
+set(CPACK_DEBIAN_PT_PROGRAM_PACKAGE_RECOMMENDS "${pt_image_formats_package} ${same_version}")
+
+set(CPACK_DEBIAN_PT_IMAGE_FORMATS_DESCRIPTION
+    "${pt_story}
+This package has the module with which the command line program writes
+EXR and JPEG and reads reference images, by OpenImageIO."
+)
+set(CPACK_DEBIAN_PT_IMAGE_FORMATS_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PT_IMAGE_FORMATS_PACKAGE_DEPENDS "${pt_program_package} ${same_version}")
 
 set(CPACK_DEBIAN_PT_COMPILER_DESCRIPTION
     "${pt_story}

@@ -166,8 +166,42 @@ class Steps:
         for output, magic in zip(outputs, (b"\x76\x2f\x31\x01", b"\xff\xd8\xff", b"\x89PNG")):
             require(output.read_bytes().startswith(magic), f"{output} is of another format")
 
+    def check_program_without_module(self, program, folder, **environment):
+        """It writes PNG; what needs the module is refused before the rendering, and says what to install."""
+        scene = SOURCE / "cli" / "scenes" / "coursework.json"
+        small = [scene, "--size", "16x8", "--spp", "1"]
+        run(program, "render", *small, "-o", folder / "only.png", **environment)
+        require((folder / "only.png").read_bytes().startswith(b"\x89PNG"), "only.png is of another format")
+        for name in "only.exr", "only.jpg":
+            said = run(program, "render", *small, "--progress", "json", "-o", folder / name, expect=6, **environment)
+            require("pt-image-formats" in said and "libopenimageio-dev" in said, f"without the module: {said}")
+            require("fraction" not in said, f"rendered before the module was missed: {said}")
+            require(not (folder / name).exists(), f"{name} was written without the module")
+        said = run(program, "bench", scene, "--reference", folder / "only.exr", expect=6, **environment)
+        require("pt-image-formats" in said, f"without the module: {said}")
+
     def program(self):
-        self.check_program(self.prefix / "bin" / "pt", self.folder("program"))
+        folder = self.folder("program")
+        self.check_program(self.prefix / "bin" / "pt", folder)
+        shutil.copytree(self.prefix, folder / "without", symlinks=True)
+        (folder / "without" / self.options.libdir / "pt" / "libpt-image-file.so").unlink()
+        self.check_program_without_module(folder / "without" / "bin" / "pt", folder)
+
+    def without_openimageio(self):
+        """The program can be configured without it, which is said, and has no module to build and to pack."""
+        build = self.folder("without_openimageio")
+        said = run(self.options.cmake, "-G", "Ninja", "-S", SOURCE, "-B", build, "-DPT_BUILD_TESTS=OFF",
+                   "-DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
+                   f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}")
+        require(said.count("libopenimageio-dev is not there") == 1, f"CMake says\n{said}")
+        targets = run(self.options.cmake, "--build", build, "--target", "help")
+        require("pt-cli:" in targets and "pt-image-file" not in targets, f"the targets are\n{targets}")
+        packages = (build / "CPackConfig.cmake").read_text()
+        require("pt_program" in packages and "pt_image_formats;" not in packages, "the packages are others")
+
+    @staticmethod
+    def field(package, name):
+        return run("dpkg-deb", "--field", package, name).strip().split(", ")
 
     def debian(self):
         """The packages have what they should, say what they need, and work from where they are unpacked."""
@@ -175,17 +209,28 @@ class Steps:
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
         compiler = "libpt0-glsl"  # where its libraries were there when it was built
-        expected = ["libpt-dev", "libpt0", *([compiler] if compiler in packages else []), "pt"]
+        expected = ["libpt-dev", "libpt0", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
         exact = f"libpt0 (= {self.options.version})"
         for name, wanted in {
             "libpt0": ["libc6", "libstdc++6", "libvulkan1"],
             "libpt-dev": [exact, "libvulkan-dev"],
-            "pt": [exact, "libopenimageio2.", "libpng16-16", "libstdc++6"]
+            "pt": [exact, "libpng16-16", "libstdc++6"],
+            "pt-image-formats": [f"pt (= {self.options.version})", "libopenimageio2."]
         }.items():
-            depends = run("dpkg-deb", "--field", packages[name], "Depends").strip().split(", ")
+            depends = self.field(packages[name], "Depends")
             for start in wanted:
                 require(any(entry.startswith(start) for entry in depends), f"{name} depends on {depends}")
+            other = [entry for entry in depends if entry.startswith("libopenimageio")]
+            require(name == "pt-image-formats" or not other, f"{name} depends on {other}")
+        recommends = self.field(packages["pt"], "Recommends")
+        require(recommends == [f"pt-image-formats (= {self.options.version})"], f"pt recommends {recommends}")
+
+        alone = folder / "alone"
+        for name in "libpt0", "pt":
+            run("dpkg-deb", "--extract", packages[name], alone)
+        self.check_program_without_module(alone / "usr/bin/pt", folder,
+                                          LD_LIBRARY_PATH=str(alone / "usr" / self.options.libdir))
         root = folder / "root"
         for path in packages.values():
             run("dpkg-deb", "--extract", path, root)
