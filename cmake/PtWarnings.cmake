@@ -9,6 +9,13 @@ target_compile_options(
             -Wconversion
             $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
 )
+# Without a build type CMake does not optimise, and a project that adds this one as a folder may have none: these targets
+# are optimised there too. A build type, and a level in CMAKE_CXX_FLAGS, are that project's choice.
+get_cmake_property(pt_is_multi_config GENERATOR_IS_MULTI_CONFIG)
+if(NOT CMAKE_BUILD_TYPE AND NOT pt_is_multi_config AND NOT CMAKE_CXX_FLAGS MATCHES "(^| )-O")
+  separate_arguments(pt_release_flags NATIVE_COMMAND "${CMAKE_CXX_FLAGS_RELEASE}")
+  target_compile_options(pt_warnings INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:${pt_release_flags}>")
+endif()
 if(PT_SANITIZE)
   target_compile_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(pt_warnings INTERFACE -fsanitize=${PT_SANITIZE})

@@ -4,6 +4,7 @@ Debian's packages. Called by CTest as consumers_test.py STEP with the paths belo
 What is installed is moved before anybody looks at it, and no program finds the build folder."""
 
 import argparse
+import json
 import os
 import pathlib
 import shutil
@@ -128,15 +129,35 @@ class Steps:
         for program in "package/enclosure_shared", "package/enclosure_static", "package_c/enclosure_static":
             check_enclosure(folder / program)
 
-    def subproject(self):
-        """add_subdirectory. Without optimisation, for the compiler's time."""
-        folder = self.folder("subproject")
-        build = folder / "build"
-        run(self.options.cmake, "-G", "Ninja", "-S", HERE / "subproject", "-B", build, "-DCMAKE_CXX_FLAGS=-O0",
+    def configure_subproject(self, build, *settings):
+        """Folders of the sources with files that are compiled with optimisation, and without: two sets."""
+        run(self.options.cmake, "-S", HERE / "subproject", "-B", build, "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
             f"-DPT_DIRECTORY={SOURCE}", f"-DCMAKE_C_COMPILER={self.options.c_compiler}",
-            f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}")
+            f"-DCMAKE_CXX_COMPILER={self.options.cxx_compiler}", "-G", "Ninja", *settings)
+        fast, slow = set(), set()
+        for entry in json.loads((build / "compile_commands.json").read_text()):
+            path = pathlib.Path(entry["file"])
+            if path.is_relative_to(SOURCE) and not path.is_relative_to(build):
+                last = [word for word in entry["command"].split() if word.startswith("-O")][-1:]
+                (fast if last in (["-O2"], ["-O3"]) else slow).add(path.relative_to(SOURCE).parts[0])
+        return fast, slow
+
+    def subproject(self):
+        """add_subdirectory. Built without optimisation, for the compiler's time."""
+        folder = self.folder("subproject")
+        # The library is optimised where the project leaves that open, and only then; never the project.
+        for number, (settings, expected) in enumerate((
+                ([], ({"lib"}, {"tests"})),
+                (["-DCMAKE_BUILD_TYPE=Debug"], (set(), {"lib", "tests"})),
+                (["-DCMAKE_BUILD_TYPE=Release"], ({"lib", "tests"}, set())),
+                (["-G", "Ninja Multi-Config", "-DCMAKE_CONFIGURATION_TYPES=Debug"], (set(), {"lib", "tests"})))):
+            found = self.configure_subproject(folder / str(number), *settings)
+            require(found == expected, f"with {settings}, (optimised, not optimised) are {found}")
+        build = folder / "build"
+        found = self.configure_subproject(build, "-DCMAKE_CXX_FLAGS=-O0")
+        require(found == (set(), {"lib", "tests"}), f"with -O0, (optimised, not optimised) are {found}")
         run(self.options.cmake, "--build", build, "-j2")
-        for program in "enclosure_shared", "enclosure_static":
+        for program in "enclosure_shared", "enclosure_static", "enclosure_cpp":
             check_enclosure(build / program)
         run(self.options.cmake, "--install", build, "--prefix", folder / "installed")
         installed = [path.name for path in (folder / "installed").rglob("*") if path.is_file()]
