@@ -1,21 +1,22 @@
 #!/bin/sh
 # From a fresh clone on a bare Debian 12 to programs, a picture or passed tests:
-#   sh cmake/quickstart.sh build    installs the packages and builds everything into build/ (programs in build/bin/)
-#   sh cmake/quickstart.sh render   the same for the program alone, and renders the coursework scene to coursework.png
-#   sh cmake/quickstart.sh test     the same, and runs all tests: with the validation layer, then with sanitizers
-# Packages are installed as root, or through sudo. Without apt-get, install the equivalents first.
+#   sh cmake/quickstart.sh render   builds the program for PNG and renders the coursework scene to coursework.png
+#   sh cmake/quickstart.sh build    builds the library, the program with all its parts and the examples into build/
+#   sh cmake/quickstart.sh test     builds everything and runs all tests: with the validation layer, then with sanitizers
+# Each installs the packages that it needs, as root or through sudo. Without apt-get, install the equivalents first.
 set -eu
 cd "$(dirname "$0")/.."
 
-packages="build-essential cmake ninja-build pkg-config
-    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-dev glslang-tools spirv-tools
-    libglm-dev libopenimageio-dev libpng-dev nlohmann-json3-dev libcli11-dev libgtest-dev python3
-    doxygen file"
+render_packages="g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang-tools spirv-tools
+    libglm-dev libpng-dev nlohmann-json3-dev libcli11-dev"
+# EXR and JPEG, kernels compiled while a program runs, and Debian packages.
+build_packages="$render_packages pkg-config libopenimageio-dev glslang-dev dpkg-dev file"
+test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 doxygen"
 
-install_packages() {
+install_packages() { # package...
     command -v apt-get >/dev/null || return 0
     missing=
-    for package in $packages; do
+    for package; do
         dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing="$missing $package"
     done
     [ -n "$missing" ] || return 0
@@ -26,30 +27,43 @@ install_packages() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
 }
 
-build() { # preset [cmake --build arguments]
+build() { # preset, whether with tests [cmake --build arguments]
     preset=$1
-    shift
-    cmake --preset "$preset"
+    cmake --preset "$preset" -DPT_BUILD_TESTS="$2" || return
+    shift 2
     cmake --build --preset "$preset" "$@"
 }
 
+# Both halves run, whatever becomes of the first; the exit status is the worse of the two.
+test_all() {
+    worst=0
+    report=
+    for preset in release sanitize; do
+        status=0
+        build "$preset" ON && ctest --preset "$preset" || status=$?
+        [ "$status" -le "$worst" ] || worst=$status
+        report="$report
+quickstart: $preset: $([ "$status" -eq 0 ] && echo passed || echo "FAILED with exit status $status")"
+    done
+    echo "$report"
+    return "$worst"
+}
+
+# shellcheck disable=SC2086 # one word a package
 case ${1-} in
-build)
-    install_packages
-    build release
-    ;;
 render)
-    install_packages
-    build release --target pt-cli
+    install_packages $render_packages
+    build release OFF --target pt-cli
     build/bin/pt render cli/scenes/coursework.json --size 1024x512 --spp 64 --max-path-length 6 \
         --exposure -3 --tonemap agx -o coursework.png
     ;;
+build)
+    install_packages $build_packages
+    build release OFF
+    ;;
 test)
-    install_packages
-    build release
-    ctest --preset release
-    build sanitize
-    ctest --preset sanitize
+    install_packages $test_packages
+    test_all
     ;;
 *)
     sed -n 's/^# \{0,1\}//; 2,6p' "$0" >&2

@@ -1,0 +1,116 @@
+"""What cmake/quickstart.sh runs and how it ends, with stand-ins for the programs that it calls. Arguments: the script."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(sys.argv[1])
+
+# Notes its command line, and exits with the status that FAILING has for it.
+STAND_IN = """#!/bin/sh
+line="$(basename "$0") $*"
+echo "$line" >> "$NOTES"
+IFS='|'
+for failing in $FAILING; do
+    case $line in "${failing%=*}"*) exit "${failing##*=}" ;; esac
+done
+"""
+
+
+class Quickstart(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        (self.root / "cmake").mkdir()
+        shutil.copy(SCRIPT, self.root / "cmake" / "quickstart.sh")
+        for name in "cmake", "ctest", "apt-get", "build/bin/pt":
+            self.stand_in(name, STAND_IN)
+        self.stand_in("sudo", '#!/bin/sh\nexec "$@"\n')
+        self.stand_in("dpkg-query", '#!/bin/sh\ncase " $INSTALLED " in *" $3 "*) echo install ok installed ;; esac\n')
+
+    def stand_in(self, name, text):
+        path = self.root / (name if "/" in name else f"bin/{name}")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def run_script(self, command, failing="", installed=""):
+        """Its exit status; self.lines are the command lines that it ran, self.output what it said."""
+        notes = self.root / "notes"
+        notes.write_text("")
+        done = subprocess.run(["sh", self.root / "cmake" / "quickstart.sh", command], text=True, capture_output=True,
+                              env={"PATH": f"{self.root / 'bin'}:{os.environ['PATH']}", "NOTES": str(notes),
+                                   "FAILING": failing, "INSTALLED": installed})
+        self.lines = notes.read_text().splitlines()
+        self.output = done.stdout
+        return done.returncode
+
+    def packages(self):
+        line, = (line for line in self.lines if line.startswith("apt-get install"))
+        return [word for word in line.split()[2:] if not word.startswith("-")]
+
+    def test_a_picture_needs_few_packages(self):
+        self.assertEqual(self.run_script("render"), 0)
+        for name in ("libopenimageio-dev", "glslang-dev", "vulkan-validationlayers", "libgtest-dev", "doxygen",
+                     "build-essential", "pkg-config", "file"):
+            self.assertNotIn(name, self.packages())
+        for name in "g++", "libpng-dev", "mesa-vulkan-drivers":
+            self.assertIn(name, self.packages())
+        self.assertIn("cmake --preset release -DPT_BUILD_TESTS=OFF", self.lines)
+        self.assertTrue(self.lines[-1].startswith("pt render "), self.lines)
+        self.assertTrue(self.lines[-1].endswith(" -o coursework.png"), self.lines)
+
+    def test_each_command_needs_those_of_the_one_before_too(self):
+        packages = []
+        for command in "render", "build", "test":
+            self.assertEqual(self.run_script(command), 0)
+            self.assertLess(set(packages), set(self.packages()))
+            packages = self.packages()
+
+    def test_what_is_installed_is_left_alone(self):
+        self.run_script("render", installed="cmake g++")
+        self.assertFalse({"cmake", "g++"} & set(self.packages()))
+        everything = " ".join(self.packages())
+        self.run_script("render", installed=f"cmake g++ {everything}")
+        self.assertFalse([line for line in self.lines if line.startswith("apt-get")])
+
+    def test_both_halves_of_the_tests_run_and_the_worse_status_counts(self):
+        steps = [f"{step} {preset}" for preset in ("release", "sanitize")
+                 for step in ("cmake --preset", "cmake --build --preset", "ctest --preset")]
+        for failing, status, left_out, failed in (
+                ("", 0, [], []),
+                ("ctest --preset release=8", 8, [], ["release"]),
+                ("ctest --preset sanitize=8", 8, [], ["sanitize"]),
+                ("cmake --build --preset release=1", 1, ["ctest --preset release"], ["release"]),
+                ("cmake --preset release=1", 1, ["ctest --preset release", "cmake --build --preset release"],
+                 ["release"]),
+                ("cmake --build --preset sanitize=1|ctest --preset release=8", 8, ["ctest --preset sanitize"],
+                 ["release", "sanitize"]),
+                ("cmake --build --preset release=1|ctest --preset sanitize=8", 8, ["ctest --preset release"],
+                 ["release", "sanitize"])):
+            with self.subTest(failing=failing):
+                self.assertEqual(self.run_script("test", failing=failing), status)
+                ran = [line.removesuffix(" -DPT_BUILD_TESTS=ON") for line in self.lines if "apt-get" not in line]
+                self.assertEqual(ran, [step for step in steps if step not in left_out])
+                for preset in "release", "sanitize":
+                    self.assertRegex(self.output, f"quickstart: {preset}: " +
+                                     ("FAILED with exit status" if preset in failed else "passed"))
+
+    def test_a_build_that_fails_renders_nothing(self):
+        self.assertEqual(self.run_script("render", failing="cmake --preset release=3"), 3)
+        self.assertFalse([line for line in self.lines if line.startswith("pt")])
+        self.assertEqual(self.run_script("render", failing="apt-get install=100"), 100)
+        self.assertFalse([line for line in self.lines if line.startswith("cmake")])
+
+    def test_an_unknown_command_is_told(self):
+        self.assertEqual(self.run_script("rendr"), 2)
+        self.assertEqual(self.lines, [])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
