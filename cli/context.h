@@ -3,6 +3,7 @@
 #pragma once
 
 #include "exit_code.h"
+#include "field_names.h"
 
 #include <pt/pt.h>
 
@@ -18,7 +19,7 @@ public:
     explicit Context(const pt_create_info &info) : has_given_shaders_(info.shader_dir != nullptr) {
         const pt_result result = pt_create(&info, &context_);
         if (result < 0) {
-            throw Failure(code_of(result), pt_last_error(nullptr));
+            throw Failure(code_of(result), in_words_of_options(pt_last_error(nullptr)));
         }
     }
     Context(const Context &) = delete;

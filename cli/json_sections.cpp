@@ -21,7 +21,7 @@ class SectionParser : public nlohmann::json_sax<json> {
 public:
     SectionParser(std::string_view text, const std::string &file_name, JsonSectionHandler &handler) :
         text_(text),
-        root_{nullptr, file_name, 0, false},
+        file_name_(file_name),
         handler_(handler) {}
 
     bool null() override { return scalar(nullptr); }
@@ -59,7 +59,7 @@ private:
     void with_place(Use use) const;
 
     std::string_view text_;
-    JsonPlace root_;
+    const std::string &file_name_;
     JsonSectionHandler &handler_;
     std::vector<Level> levels_;
     // Names met in the root and in the present section. Within items, the tree itself knows.
@@ -71,7 +71,7 @@ private:
 // Calls use(place) with the place of the value that begins now.
 template <typename Use>
 void SectionParser::with_place(Use use) const {
-    std::vector<JsonPlace> places{root_};
+    std::vector<JsonPlace> places(1);   // the root
     places.reserve(levels_.size() + 1); // elements point to each other and must not move
     for (const Level &level : levels_) {
         places.push_back(level.is_array ? places.back().element(level.index) : places.back().member(level.key));
@@ -84,7 +84,7 @@ bool SectionParser::key(string_t &name) {
     const std::size_t depth = levels_.size() - 1;
     const bool fresh = depth < names_.size() ? names_[depth].insert(name).second : !open_.back()->contains(name);
     if (!fresh) {
-        with_place([](const JsonPlace &place) { refuse(place, "is given twice"); });
+        with_place([](const JsonPlace &place) { throw JsonRefusal(place.path(), "is given twice", 2); });
     }
     return true;
 }
@@ -101,7 +101,7 @@ json *SectionParser::add(json value) {
     count_element();
     if (levels_.empty()) {
         if (!value.is_object()) {
-            refuse(root_, "must contain an object, is " + json_kind(value.type()));
+            refuse({}, "must contain an object, is " + json_kind(value.type()));
         }
         return nullptr;
     }
@@ -163,7 +163,7 @@ bool SectionParser::parse_error(std::size_t position, const std::string &token, 
     const std::string_view what = error.what();
     const std::size_t column_word = what.find("column ");
     const std::size_t reason = column_word == std::string_view::npos ? column_word : what.find(": ", column_word);
-    throw Failure(ExitCode::scene, std::string(root_.key) + ":" + line_and_column(before) + ": " +
+    throw Failure(ExitCode::scene, file_name_ + ":" + line_and_column(before) + ": " +
                                        std::string(reason == std::string_view::npos ? what : what.substr(reason + 2)));
 }
 

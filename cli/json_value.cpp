@@ -2,13 +2,11 @@
 // Called by scene_file.
 #include "json_value.h"
 
-#include "exit_code.h"
 #include "suggestion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace cli {
 namespace {
@@ -47,25 +45,17 @@ std::array<double, Count> read_numbers(const json &value, const JsonPlace &place
 
 } // namespace
 
-std::string JsonPlace::text() const {
-    std::vector<const JsonPlace *> steps;
-    for (const JsonPlace *step = this; step != nullptr; step = step->parent) {
-        steps.push_back(step);
+JsonPath JsonPlace::path() const {
+    JsonPath path;
+    for (const JsonPlace *step = this; step->parent != nullptr; step = step->parent) {
+        path.push_back({std::string(step->key), step->index, step->in_array});
     }
-    json::json_pointer pointer;
-    for (auto step = std::next(steps.rbegin()); step != steps.rend(); ++step) {
-        if ((*step)->in_array) {
-            pointer /= (*step)->index;
-        } else {
-            pointer /= std::string((*step)->key);
-        }
-    }
-    const std::string file(steps.back()->key);
-    return pointer.empty() ? file : file + ": " + pointer.to_string();
+    std::reverse(path.begin(), path.end());
+    return path;
 }
 
 void refuse(const JsonPlace &place, const std::string &rule) {
-    throw Failure(ExitCode::scene, place.text() + ": " + rule);
+    throw JsonRefusal(place.path(), rule);
 }
 
 std::string json_kind(json::value_t kind) {

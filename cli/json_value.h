@@ -2,6 +2,8 @@
 // Called by scene_file.
 #pragma once
 
+#include "json_path.h"
+
 #include <nlohmann/json.hpp>
 
 #include <array>
@@ -9,27 +11,39 @@
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cli {
 
-// Where a value stands, as a chain towards the root, so that text is made only for messages: a scene may have millions
-// of values. The root is the file's name.
+// Where a value stands, as a chain towards the root, so that a path is made only for messages: a scene may have millions
+// of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
-    std::string_view key; // the file's name at the root; empty in arrays
+    std::string_view key; // empty at the root and in arrays
     std::size_t index = 0;
     bool in_array = false;
 
     JsonPlace member(std::string_view name) const { return {this, name, 0, false}; }
     JsonPlace element(std::size_t number) const { return {this, {}, number, true}; }
 
-    // "scene.json: /spheres/3/radius", the part after the file's name being a JSON pointer (RFC 6901).
-    std::string text() const;
+    JsonPath path() const; // from the root
 };
 
-// Throws Failure(ExitCode::scene) with "scene.json: /spheres/3/radius: <rule>".
+// A value that breaks a rule. Whoever has the text says in which file and line it stands.
+struct JsonRefusal : std::runtime_error {
+    JsonRefusal(JsonPath place, const std::string &rule, std::size_t time = 1) :
+        std::runtime_error(rule),
+        path(std::move(place)),
+        occurrence(time) {}
+
+    JsonPath path;
+    std::size_t occurrence; // of a key that is given several times
+};
+
+// Throws JsonRefusal, as all below do.
 [[noreturn]] void refuse(const JsonPlace &place, const std::string &rule);
 
 // `a number`, `an array` and so on, for messages.

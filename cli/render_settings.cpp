@@ -2,6 +2,9 @@
 // Called by render_command.
 #include "render_settings.h"
 
+#include <algorithm>
+#include <sstream>
+
 namespace cli {
 namespace {
 
@@ -18,10 +21,23 @@ Value first_given(const std::optional<Value> &option, const std::optional<Value>
 
 } // namespace
 
-ExitCode RenderSettings::blame(const std::string &message) const {
-    const bool about_path_length = message.find("max_path_length") != std::string::npos;
-    const bool from_scene = about_path_length ? max_path_length_from_scene : size_from_scene;
-    return from_scene ? ExitCode::scene : ExitCode::usage;
+// A rule about no setting, and a message that names none, is about the scene.
+bool RenderSettings::is_from_scene(const FieldName *name) const {
+    return name == nullptr || name->option.empty() ||
+           std::find(scene_keys.begin(), scene_keys.end(), name->key) != scene_keys.end();
+}
+
+Failure RenderSettings::explain(const std::string &message, const SceneFile &scene) const {
+    ExitCode code = ExitCode::scene;
+    std::string explained;
+    std::istringstream lines(message); // one for each broken rule
+    for (std::string line; std::getline(lines, line);) {
+        const bool from_scene = is_from_scene(find_field_name(line));
+        code = from_scene ? code : ExitCode::usage;
+        explained.append(explained.empty() ? "" : "\n");
+        explained.append(from_scene ? scene.explain(line) : in_words_of_options(line));
+    }
+    return {code, explained};
 }
 
 RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene) {
@@ -38,8 +54,12 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     settings.target_error = options.target_error.value_or(0.0);
     settings.sample_count = first_given(options.sample_count, scene.sample_count,
                                         options.target_error ? default_most_samples : default_sample_count);
-    settings.size_from_scene = !options.size && (scene.width || scene.height);
-    settings.max_path_length_from_scene = !options.max_path_length && scene.max_path_length;
+    if (!options.size && (scene.width || scene.height)) {
+        settings.scene_keys.insert(settings.scene_keys.end(), {"film.width", "film.height"});
+    }
+    if (!options.max_path_length && scene.max_path_length) {
+        settings.scene_keys.emplace_back("render.max_path_length");
+    }
     return settings;
 }
 

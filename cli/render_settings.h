@@ -3,6 +3,7 @@
 #pragma once
 
 #include "exit_code.h"
+#include "field_names.h"
 #include "render_options.h"
 #include "scene_file.h"
 
@@ -10,18 +11,23 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace cli {
 
 struct RenderSettings {
     pt_render render;
-    std::uint32_t sample_count; // the most, if there is a target
-    double target_error;        // relative; 0: none
-    bool size_from_scene;
-    bool max_path_length_from_scene;
+    std::uint32_t sample_count;               // the most, if there is a target
+    double target_error;                      // relative; 0: none
+    std::vector<std::string_view> scene_keys; // whose values these are, as in field_names.h
 
-    // Who gave the value that the library's message complains of: ExitCode::scene or ExitCode::usage.
-    ExitCode blame(const std::string &message) const;
+    // What the library refuses, in the words of whoever gave the value: the command line (ExitCode::usage) or the scene
+    // file (ExitCode::scene).
+    Failure explain(const std::string &message, const SceneFile &scene) const;
+
+private:
+    bool is_from_scene(const FieldName *name) const;
 };
 
 RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene);

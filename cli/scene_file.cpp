@@ -3,20 +3,24 @@
 #include "scene_file.h"
 
 #include "exit_code.h"
+#include "field_names.h"
+#include "json_path.h"
 #include "json_sections.h"
 #include "json_value.h"
 #include "method_names.h"
-#include "number.h"
 #include "report_file.h"
 #include "suggestion.h"
 #include "text_file.h"
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numbers>
 #include <sstream>
+#include <system_error>
 #include <unordered_map>
 
 namespace cli {
@@ -46,6 +50,10 @@ void store(const std::array<Number, Count> &from, Number (&destination)[Count]) 
     std::copy(from.begin(), from.end(), destination);
 }
 
+std::size_t hash_of(std::string_view text) {
+    return std::hash<std::string_view>{}(text);
+}
+
 class SceneReader : public JsonSectionHandler {
 public:
     explicit SceneReader(SceneFile &scene);
@@ -54,7 +62,7 @@ public:
     void item(const JsonPlace &place, const json &value) override { (this->*read_item_)(place, value); }
 
     // What can be said only at the end of the file.
-    void finish(const JsonPlace &root);
+    void finish();
 
 private:
     using ItemReader = void (SceneReader::*)(const JsonPlace &, const json &);
@@ -77,7 +85,7 @@ private:
     // Spheres and planes may stand before the materials: names are numbered as they are met and looked up at the end.
     struct UsedName {
         std::string name;
-        std::string first_place;
+        JsonPath first_place;
     };
     std::vector<UsedName> used_names_;
     std::unordered_map<std::string, std::uint32_t> used_name_numbers_;
@@ -134,9 +142,9 @@ void SceneReader::camera_item(const JsonPlace &place, const json &value) {
         store(up, camera.up);
     } else if (place.key == "vertical_fov") {
         const double degrees = read_number(value, place);
-        // The library's rule in the file's unit; 0 would be pt.h's default.
-        if (!(degrees > 0.0 && degrees < 180.0)) {
-            refuse(place, "must be more than 0 and less than 180 degrees, is " + value.dump());
+        // The library's rule, [1e-8, pi), in the file's unit; 0 would be pt.h's default.
+        if (!(degrees >= 6e-7 && degrees < 180.0)) {
+            refuse(place, "must be at least 6e-7 and less than 180 degrees, is " + value.dump());
         }
         camera.vertical_fov = degrees * (std::numbers::pi / 180.0);
     } else if (place.key == "shutter") {
@@ -222,7 +230,7 @@ std::uint32_t SceneReader::material_number(const JsonPlace &place, const json &n
     const auto [entry, fresh] = used_name_numbers_.try_emplace(std::string(read_text(name, place)),
                                                                static_cast<std::uint32_t>(used_names_.size()));
     if (fresh) {
-        used_names_.push_back({entry->first, place.text()});
+        used_names_.push_back({entry->first, place.path()});
     }
     return entry->second;
 }
@@ -238,14 +246,15 @@ std::vector<std::uint32_t> SceneReader::material_indices() const {
         const auto found = defined.find(used.name);
         if (found == defined.end()) {
             const std::vector<std::string_view> known(scene_.material_names.begin(), scene_.material_names.end());
-            throw Failure(ExitCode::scene, used.first_place + ": " + unknown_name("material", used.name, known));
+            throw JsonRefusal(used.first_place, unknown_name("material", used.name, known));
         }
         indices.push_back(found->second);
     }
     return indices;
 }
 
-void SceneReader::finish(const JsonPlace &root) {
+void SceneReader::finish() {
+    const JsonPlace root;
     if (has_camera_ && !has_position_) {
         refuse(root.member("camera"), "\"position\" is missing");
     }
@@ -261,20 +270,48 @@ void SceneReader::finish(const JsonPlace &root) {
     }
 }
 
-std::string explain_line(const SceneFile &scene, std::string line) {
-    constexpr std::string_view target = "camera.target";
-    constexpr std::string_view array = "materials[";
-    if (line.starts_with(target)) {
-        line.replace(0, target.size(), "camera.look_at"); // the file's word for it
+// "scene.json:12: spheres[3].radius", without what is not known.
+std::string place_text(const std::string &file, std::optional<std::size_t> line, const std::string &path) {
+    std::string text = file;
+    if (line) {
+        text.append(":").append(std::to_string(*line));
     }
-    if (line.starts_with(array)) {
-        const std::string_view index_text = std::string_view(line).substr(array.size(), line.find(']') - array.size());
-        const auto index = parse_number<std::size_t>(index_text);
-        if (index && *index < scene.material_names.size()) {
-            line.append(" (material \"").append(scene.material_names[*index]).append("\")");
-        }
+    if (!path.empty()) {
+        text.append(": ").append(path);
     }
-    return scene.path + ": " + line;
+    return text;
+}
+
+// The text that was read, if the file still holds it: one that was edited does not, and a pipe is read once.
+std::optional<std::string> read_again(const SceneFile &scene) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(scene.path, ignored)) {
+        return std::nullopt;
+    }
+    try {
+        std::string text = read_file(scene.path);
+        return hash_of(text) == scene.text_hash ? std::optional(std::move(text)) : std::nullopt;
+    } catch (const Failure &) {
+        return std::nullopt;
+    }
+}
+
+std::string in_words_of_keys(const std::string &line) {
+    const FieldName *name = find_field_name(line);
+    return name == nullptr ? line : std::string(name->key).append(line, name->field.size());
+}
+
+// text: of the file, if it is known.
+std::string explain_line(const SceneFile &scene, const std::optional<std::string> &text, const std::string &line) {
+    const std::string words = in_words_of_keys(line);
+    std::string_view rest = words;
+    JsonPath path = take_path(rest);
+    const bool is_material = path.size() >= 2 && path[0].key == "materials" && path[1].in_array;
+    if (is_material && path[1].index < scene.material_names.size()) {
+        path[1] = {scene.material_names[path[1].index], 0, false}; // members of an object in the file
+    }
+    const auto number = text && !path.empty() ? find_line(*text, path) : std::nullopt;
+    return place_text(scene.path, number, path_text(path)).append(path.empty() ? ": " : "").append(rest);
 }
 
 } // namespace
@@ -292,13 +329,14 @@ pt_scene SceneFile::scene() const {
 }
 
 std::string SceneFile::explain(const std::string &message) const {
+    const std::optional<std::string> text = read_again(*this);
     std::istringstream lines(message); // one for each broken rule
     std::string explained;
     for (std::string line; std::getline(lines, line);) {
         if (!explained.empty()) {
             explained += '\n';
         }
-        explained += explain_line(*this, line);
+        explained += explain_line(*this, text, line);
     }
     return explained;
 }
@@ -306,9 +344,16 @@ std::string SceneFile::explain(const std::string &message) const {
 SceneFile parse_scene(std::string_view text, const std::string &path) {
     SceneFile scene{};
     scene.path = path;
+    scene.text_hash = hash_of(text);
     SceneReader reader(scene);
-    parse_json_sections(require_text(text, path), path, reader);
-    reader.finish(JsonPlace{nullptr, path, 0, false});
+    const std::string_view json = require_text(text, path);
+    try {
+        parse_json_sections(json, path, reader);
+        reader.finish();
+    } catch (const JsonRefusal &refusal) {
+        const auto line = find_line(json, refusal.path, refusal.occurrence);
+        throw Failure(ExitCode::scene, place_text(path, line, path_text(refusal.path)) + ": " + refusal.what());
+    }
     return scene;
 }
 

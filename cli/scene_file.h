@@ -15,6 +15,7 @@ namespace cli {
 
 struct SceneFile {
     std::string path;
+    std::size_t text_hash;                   // of what was read
     std::vector<std::string> material_names; // like all three arrays in the order of the file
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
@@ -32,7 +33,8 @@ struct SceneFile {
     pt_scene scene() const; // points into this object
     std::size_t surface_count() const { return spheres.size() + planes.size(); }
 
-    // The library's lines "materials[1].glossiness = -1: must be >= 0", with the file and the material's name added.
+    // The library's lines "materials[1].glossiness = -1: must be >= 0" in the file's words, with the line of the file where
+    // that can be read again: scene.json:7: materials.gold.glossiness = -1: must be >= 0.
     std::string explain(const std::string &message) const;
 };
 

@@ -19,9 +19,7 @@ void require_scene(const Context &context, const SceneFile &file, pt_result resu
 
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
     if (result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_UNSUPPORTED) {
-        const std::string message = context.last_error();
-        const ExitCode code = settings.blame(message);
-        throw Failure(code, code == ExitCode::scene ? file.explain(message) : message);
+        throw settings.explain(context.last_error(), file);
     }
     context.require(result);
 }

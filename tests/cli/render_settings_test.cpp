@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 namespace {
 
 using cli::ExitCode;
@@ -71,17 +74,31 @@ TEST(RenderSettings, AZeroSeedOnTheCommandLineCounts) {
     EXPECT_EQ(merge_settings(options, full_scene()).render.seed, 0U);
 }
 
-TEST(RenderSettings, BlameFollowsTheValue) {
+TEST(RenderSettings, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     constexpr const char *size = "render.width = 0: must be >= 1";
     constexpr const char *length = "render.max_path_length = 2000: must be <= 1024";
-    EXPECT_EQ(merge_settings({}, full_scene()).blame(size), ExitCode::scene);
-    EXPECT_EQ(merge_settings({}, full_scene()).blame(length), ExitCode::scene);
-    EXPECT_EQ(merge_settings(full_options(), full_scene()).blame(size), ExitCode::usage);
-    EXPECT_EQ(merge_settings(full_options(), full_scene()).blame(length), ExitCode::usage);
+    SceneFile scene = full_scene();
+    scene.path = "s.json";
+    const auto explained = [&](const RenderOptions &options, const std::string &message, const SceneFile &file) {
+        const cli::Failure failure = merge_settings(options, file).explain(message, file);
+        return std::pair(failure.code(), std::string(failure.what()));
+    };
+    EXPECT_EQ(explained({}, size, scene),
+              std::pair(ExitCode::scene, std::string("s.json: film.width = 0: must be >= 1")));
+    EXPECT_EQ(explained({}, length, scene),
+              std::pair(ExitCode::scene, std::string("s.json: render.max_path_length = 2000: must be <= 1024")));
+    EXPECT_EQ(explained(full_options(), size, scene),
+              std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1")));
+    EXPECT_EQ(explained(full_options(), length, scene),
+              std::pair(ExitCode::usage, std::string("--max-path-length = 2000: must be <= 1024")));
     RenderOptions size_only;
     size_only.size = cli::ImageSize{1, 1};
-    EXPECT_EQ(merge_settings(size_only, full_scene()).blame(size), ExitCode::usage);
-    EXPECT_EQ(merge_settings(size_only, full_scene()).blame(length), ExitCode::scene);
+    EXPECT_EQ(explained(size_only, std::string(size) + "\n" + length, scene),
+              std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
+                                                     "s.json: render.max_path_length = 2000: must be <= 1024")));
+    // Neither gave it.
+    EXPECT_EQ(explained({}, "render.width * rows = 512 * 1: too many", {}),
+              std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "scene_file.h"
 
 #include "exit_code.h"
+#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -144,75 +145,86 @@ TEST(SceneFile, SyntaxErrorsHaveLineAndColumn) {
 TEST(SceneFile, DeepNestingIsNotDangerous) {
     const std::string open(1'000'000, '[');
     const std::string close(1'000'000, ']');
-    EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), " /spheres/0: must be an object, is an array");
+    EXPECT_EQ(refusal("{\"spheres\":[" + open + close + "]}"), "1: spheres[0]: must be an object, is an array");
     EXPECT_TRUE(refusal("{\"spheres\":[" + open).starts_with("1:1000013: syntax error"));
 }
 
 TEST(SceneFile, WrongTypesAreNamed) {
     const auto sphere = [](const std::string &members) { return refusal("{\"spheres\":[{" + members + "}]}"); };
-    EXPECT_EQ(refusal("[]"), " must contain an object, is an array");
-    EXPECT_EQ(refusal("1"), " must contain an object, is a number");
-    EXPECT_EQ(refusal(R"({"spheres":{}})"), " /spheres: must be an array, is an object");
-    EXPECT_EQ(refusal(R"({"camera":null})"), " /camera: must be an object, is null");
-    EXPECT_EQ(refusal(R"({"planes":[{},true]})"), " /planes/0: \"normal\" is missing");
-    EXPECT_EQ(refusal(R"({"planes":[true]})"), " /planes/0: must be an object, is true");
+    EXPECT_EQ(refusal("[]"), "1: must contain an object, is an array");
+    EXPECT_EQ(refusal("1"), "1: must contain an object, is a number");
+    EXPECT_EQ(refusal(R"({"spheres":{}})"), "1: spheres: must be an array, is an object");
+    EXPECT_EQ(refusal(R"({"camera":null})"), "1: camera: must be an object, is null");
+    EXPECT_EQ(refusal(R"({"planes":[{},true]})"), "1: planes[0]: \"normal\" is missing");
+    EXPECT_EQ(refusal(R"({"planes":[true]})"), "1: planes[0]: must be an object, is true");
     EXPECT_EQ(sphere(R"("center":[0,0,0],"radius":"two","material":"a")"),
-              " /spheres/0/radius: must be a number, is \"two\"");
+              "1: spheres[0].radius: must be a number, is \"two\"");
     EXPECT_EQ(sphere(R"("center":[0,0],"radius":1,"material":"a")"),
-              " /spheres/0/center: must be an array of 3 numbers, has 2");
+              "1: spheres[0].center: must be an array of 3 numbers, has 2");
     EXPECT_EQ(sphere(R"("center":3,"radius":1,"material":"a")"),
-              " /spheres/0/center: must be an array of 3 numbers, is 3");
+              "1: spheres[0].center: must be an array of 3 numbers, is 3");
     EXPECT_EQ(sphere(R"("center":[0,null,0],"radius":1,"material":"a")"),
-              " /spheres/0/center/1: must be a number, is null");
-    EXPECT_EQ(sphere(R"("center":[0,0,0],"radius":1,"material":3)"), " /spheres/0/material: must be a string, is 3");
+              "1: spheres[0].center[1]: must be a number, is null");
+    EXPECT_EQ(sphere(R"("center":[0,0,0],"radius":1,"material":3)"), "1: spheres[0].material: must be a string, is 3");
     EXPECT_EQ(refusal(R"({"materials":{"a/b":{"diffuse":[1,2]}}})"),
-              " /materials/a~1b/diffuse: must be a number or an array of 3 numbers, has 2");
+              "1: materials[\"a/b\"].diffuse: must be a number or an array of 3 numbers, has 2");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"glossiness":"0123456789012345678901234567890123456789"}}})"),
-              " /materials/a/glossiness: must be a number, is a string"); // too long to be shown
+              "1: materials.a.glossiness: must be a number, is a string"); // too long to be shown
 }
 
 TEST(SceneFile, MissingMembersAreNamed) {
-    EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"material":"a"}]})"), " /spheres/0: \"radius\" is missing");
-    EXPECT_EQ(refusal(R"({"camera":{"look_at":[0,0,0]}})"), " /camera: \"position\" is missing");
-    EXPECT_EQ(refusal(R"({"camera":{"position":[0,0,0]}})"), " /camera: \"look_at\" is missing");
-    EXPECT_EQ(refusal(R"({"camera":{}})"), " /camera: \"position\" is missing");
+    EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"material":"a"}]})"), "1: spheres[0]: \"radius\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{"look_at":[0,0,0]}})"), "1: camera: \"position\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{"position":[0,0,0]}})"), "1: camera: \"look_at\" is missing");
+    EXPECT_EQ(refusal(R"({"camera":{}})"), "1: camera: \"position\" is missing");
 }
 
 TEST(SceneFile, UnknownNamesGetASuggestion) {
-    EXPECT_EQ(refusal(R"({"speres":[]})"), " unknown key \"speres\", did you mean \"spheres\"?");
+    EXPECT_EQ(refusal(R"({"speres":[]})"), "1: unknown key \"speres\", did you mean \"spheres\"?");
     EXPECT_EQ(refusal(R"({"camera":{"lookat":[0,0,0]}})"),
-              " /camera: unknown key \"lookat\", did you mean \"look_at\"?");
-    EXPECT_EQ(refusal(R"({"film":{"size":1}})"), " /film: unknown key \"size\", known: width, height");
-    EXPECT_EQ(refusal(R"({"render":{"samples":1}})").substr(0, 33), " /render: unknown key \"samples\", ");
-    EXPECT_EQ(refusal(R"({"materials":{"a":{"colour":1}}})").substr(0, 34), " /materials/a: unknown key \"colour");
+              "1: camera: unknown key \"lookat\", did you mean \"look_at\"?");
+    EXPECT_EQ(refusal(R"({"film":{"size":1}})"), "1: film: unknown key \"size\", known: width, height");
+    EXPECT_EQ(refusal(R"({"render":{"samples":1}})").substr(0, 34), "1: render: unknown key \"samples\", ");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"colour":1}}})").substr(0, 35), "1: materials.a: unknown key \"colour");
     EXPECT_EQ(refusal(R"({"spheres":[{"raduis":1}]})"),
-              " /spheres/0: unknown key \"raduis\", did you mean \"radius\"?");
+              "1: spheres[0]: unknown key \"raduis\", did you mean \"radius\"?");
     EXPECT_EQ(refusal(R"({"spheres":[{"center":[0,0,0],"radius":1,"material":"glod"}],"materials":{"gold":{}}})"),
-              " /spheres/0/material: unknown material \"glod\", did you mean \"gold\"?");
+              "1: spheres[0].material: unknown material \"glod\", did you mean \"gold\"?");
     EXPECT_EQ(refusal(R"({"render":{"sampler":"halton-pc"}})"),
-              " /render/sampler: unknown sampler \"halton-pc\", did you mean \"halton-cp\"?");
+              "1: render.sampler: unknown sampler \"halton-pc\", did you mean \"halton-cp\"?");
     EXPECT_EQ(refusal(R"({"render":{"estimator":"mss"}})"),
-              " /render/estimator: unknown estimator \"mss\", did you mean \"mis\"?");
+              "1: render.estimator: unknown estimator \"mss\", did you mean \"mis\"?");
 }
 
 TEST(SceneFile, DuplicatesAreRefused) {
-    EXPECT_EQ(refusal(R"({"film":{},"film":{}})"), " /film: is given twice");
-    EXPECT_EQ(refusal(R"({"film":{"width":1,"width":1}})"), " /film/width: is given twice");
-    EXPECT_EQ(refusal(R"({"materials":{"a":{},"b":{},"a":{}}})"), " /materials/a: is given twice");
-    EXPECT_EQ(refusal(R"({"spheres":[{"radius":1,"radius":2}]})"), " /spheres/0/radius: is given twice");
+    EXPECT_EQ(refusal(R"({"film":{},"film":{}})"), "1: film: is given twice");
+    EXPECT_EQ(refusal(R"({"film":{"width":1,"width":1}})"), "1: film.width: is given twice");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{},"b":{},"a":{}}})"), "1: materials.a: is given twice");
+    EXPECT_EQ(refusal(R"({"spheres":[{"radius":1,"radius":2}]})"), "1: spheres[0].radius: is given twice");
     EXPECT_EQ(refusal(R"({"materials":{"width":{}},"film":{"width":1}})"), ""); // in different places
 }
 
+TEST(SceneFile, RefusalsHaveTheLineOfTheValue) {
+    EXPECT_EQ(refusal("{\n\"film\": {\n\"width\":\n-1}}").substr(0, 14), "3: film.width:");
+    EXPECT_EQ(refusal("{\n\"spheres\": [\n{},\n3]}"), "3: spheres[0]: \"center\" is missing");
+    EXPECT_EQ(refusal("{\n\"film\": {\n\"width\": 1,\n\"width\": 2}}"), "4: film.width: is given twice");
+    EXPECT_EQ(refusal("{\"planes\": [\n{\"normal\": [0,\n1e400\n]}]}"),
+              "3: planes[0].normal[1]: the number 1e400 is too large");
+    EXPECT_EQ(refusal("{\"spheres\": [\n{\"center\": [0, 0, 0], \"radius\": 1,\n\"material\": \"a\"}]}"),
+              "3: spheres[0].material: unknown material \"a\"");
+    EXPECT_EQ(refusal("\n\n{\"camera\": {}}"), "3: camera: \"position\" is missing");
+}
+
 TEST(SceneFile, NumbersHaveLimits) {
-    EXPECT_EQ(refusal(R"({"spheres":[{},{"center":[0,0,1e400]}]})"), " /spheres/0: \"center\" is missing");
+    EXPECT_EQ(refusal(R"({"spheres":[{},{"center":[0,0,1e400]}]})"), "1: spheres[0]: \"center\" is missing");
     EXPECT_EQ(refusal(R"({"planes":[{"normal":[0,0,-1e400]}]})"),
-              " /planes/0/normal/2: the number -1e400 is too large");
-    EXPECT_EQ(refusal(R"({"film":{"width":1e400}})"), " /film/width: the number 1e400 is too large");
+              "1: planes[0].normal[2]: the number -1e400 is too large");
+    EXPECT_EQ(refusal(R"({"film":{"width":1e400}})"), "1: film.width: the number 1e400 is too large");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"emission":1e39}}})"),
-              " /materials/a/emission: must lie in the range of 32-bit floating point numbers, is 1e+39");
+              "1: materials.a.emission: must lie in the range of 32-bit floating point numbers, is 1e+39");
     for (const char *width : {"-1", "1.5", "4294967296", "1e20", "\"1\""}) {
         EXPECT_TRUE(refusal(std::string(R"({"film":{"width":)") + width + "}}")
-                        .starts_with(" /film/width: must be a whole number from 0 to 4294967295, is "))
+                        .starts_with("1: film.width: must be a whole number from 0 to 4294967295, is "))
             << width;
     }
     EXPECT_NE(refusal(R"({"render":{"seed":18446744073709551616}})"), "");
@@ -225,24 +237,47 @@ TEST(SceneFile, ZerosAreNotDefaults) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
     };
     EXPECT_EQ(camera(R"("vertical_fov":0)"),
-              " /camera/vertical_fov: must be more than 0 and less than 180 degrees, is 0");
+              "1: camera.vertical_fov: must be at least 6e-7 and less than 180 degrees, is 0");
     EXPECT_NE(camera(R"("vertical_fov":180)"), "");
+    EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // 8.7e-9 radians, below the library's bound
+    EXPECT_EQ(camera(R"("vertical_fov":6e-7)"), "");
     EXPECT_EQ(camera(R"("vertical_fov":179.9)"), "");
-    EXPECT_EQ(camera(R"("up":[0,0,0])"), " /camera/up: must not be [0, 0, 0]");
+    EXPECT_EQ(camera(R"("up":[0,0,0])"), "1: camera.up: must not be [0, 0, 0]");
     EXPECT_NE(refusal(R"({"render":{"max_path_length":0}})"), "");
     EXPECT_NE(refusal(R"({"render":{"spp":0}})"), "");
 }
 
 TEST(SceneFile, ExplainsTheLibrarysMessages) {
-    const SceneFile scene = parse_scene(small, "s.json");
+    const SceneFile scene = parse_scene(small, "s.json"); // no such file: the line is not known
     EXPECT_EQ(scene.explain("spheres[3].radius = -1: must be > 0"), "s.json: spheres[3].radius = -1: must be > 0");
     EXPECT_EQ(scene.explain("materials[1].glossiness = -1: must be >= 0\nmaterials[2].diffuse[0] = -1: must be >= 0"),
-              "s.json: materials[1].glossiness = -1: must be >= 0 (material \"b\")\n"
-              "s.json: materials[2].diffuse[0] = -1: must be >= 0 (material \"a\")");
-    EXPECT_EQ(scene.explain("camera.target = (0, 0, 0): must differ from position"),
-              "s.json: camera.look_at = (0, 0, 0): must differ from position");
+              "s.json: materials.b.glossiness = -1: must be >= 0\n"
+              "s.json: materials.a.diffuse[0] = -1: must be >= 0");
+    EXPECT_EQ(scene.explain("camera.target[1] = inf: must be finite"),
+              "s.json: camera.look_at[1] = inf: must be finite");
+    EXPECT_EQ(scene.explain("render.width * height = 5: must be <= 4"),
+              "s.json: film.width * height = 5: must be <= 4");
+    EXPECT_EQ(scene.explain("camera.shutter_close = 2: must be <= 1"), "s.json: camera.shutter[1] = 2: must be <= 1");
     EXPECT_EQ(scene.explain("materials[99].x = 0: y"), "s.json: materials[99].x = 0: y");
     EXPECT_EQ(scene.explain("materials[x"), "s.json: materials[x");
+    EXPECT_EQ(scene.explain("... and 3 more"), "s.json: ... and 3 more");
+}
+
+TEST(SceneFile, TheLibrarysMessagesGetTheLineOfTheValue) {
+    const TemporaryFolder folder;
+    const std::string path = folder.file("s.json");
+    folder.write("s.json", small);
+    const SceneFile scene = cli::read_scene_file(path);
+    EXPECT_EQ(scene.explain("spheres[1].radius = -1: must be > 0"), path + ":4: spheres[1].radius = -1: must be > 0");
+    EXPECT_EQ(scene.explain("materials[1].glossiness = -1: x"), path + ":6: materials.b.glossiness = -1: x");
+    EXPECT_EQ(scene.explain("materials[2].emission[1] = -1: x"),
+              path + ":7: materials.a.emission[1] = -1: x"); // a grey
+    EXPECT_EQ(scene.explain("render.height = 0: x"), path + ":9: film.height = 0: x");
+    EXPECT_EQ(scene.explain("render.max_path_length = 0: x"), path + ":10: render.max_path_length = 0: x");
+    EXPECT_EQ(scene.explain("render.estimator = 9: x"), path + ":11: render.estimator = 9: x");
+    EXPECT_EQ(scene.explain("out of everything"), path + ": out of everything");
+    folder.write("s.json", std::string("\n").append(small)); // edited meanwhile: the lines would be others
+    EXPECT_EQ(scene.explain("spheres[1].radius = -1: x"), path + ": spheres[1].radius = -1: x");
 }
 
 // In two bytes a character, with the lower or the upper one first.
