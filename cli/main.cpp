@@ -8,12 +8,15 @@
 #include "render_options.h"
 #include "render_report.h"
 #include "selftest_command.h"
+#include "unknown_argument.h"
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
 #include <iostream>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -53,12 +56,11 @@ int parse_and_run(int argument_count, char **arguments) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
             return program.exit(error); // --help and --version
         }
-        return fail(cli::ExitCode::usage, std::string(error.what()) + " (see pt " +
-                                              (render->parsed()     ? "render "
-                                               : bench->parsed()    ? "bench "
-                                               : selftest->parsed() ? "selftest "
-                                                                    : "") +
-                                              "--help)");
+        const std::vector<CLI::App *> parsed = program.get_subcommands();
+        const CLI::App &command = parsed.empty() ? program : *parsed.front();
+        const std::string name = parsed.empty() ? "" : command.get_name() + " ";
+        return fail(cli::ExitCode::usage,
+                    cli::unknown_argument(command).value_or(error.what()) + " (see pt " + name + "--help)");
     }
     if (render->parsed()) {
         return cli::run_render(options);

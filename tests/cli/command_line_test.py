@@ -47,6 +47,21 @@ class Usage(CommandLineTest):
                 self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=option)
         self.assertEqual(self.files(), [])
 
+    def test_misspelt_names_get_a_suggestion(self):
+        for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt --h'),
+                                 (["scene.json"], 'subcommand "scene.json", known: render, bench, selftest, devices'),
+                                 (["render", COURSEWORK, "--outptu", "a.png"], 'unknown option "--outptu", did you mean '
+                                                                               '"--output"? (see pt render --help)'),
+                                 (["render", COURSEWORK, "-o", "a.png", "--expsure", "-3"], 'mean "--exposure"?'),
+                                 (["render", COURSEWORK, "-o", "a.png", "--expsure=-3"], 'unknown option "--expsure",'),
+                                 (["bench", COURSEWORK, "--sampler", "sobol"], 'mean "--samplers"? (see pt bench --help)'),
+                                 (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
+                                 (["render", COURSEWORK, "-o", "a.png", "-Z"], 'unknown option "-Z" (see'),
+                                 (["render", COURSEWORK, "b.json", "-o", "a.png"], 'unexpected argument "b.json"')):
+            with self.subTest(arguments=arguments):
+                self.expect(2, *arguments, error=error)
+        self.assertEqual(self.files(), [])
+
     def test_unknown_extensions(self):
         for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):
             with self.subTest(name=name):
