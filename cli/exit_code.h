@@ -17,6 +17,7 @@ enum class ExitCode {
     no_device = 4,
     device_lost = 5,
     file = 6,
+    target_missed = 7,
     signal = 128 // plus the signal's number
 };
 
@@ -29,6 +30,7 @@ inline constexpr const char *exit_code_help =
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
+    "  7    the target error was not reached; all files were written\n"
     "  129  SIGHUP: the samples done so far were written, if there were any\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"

@@ -8,12 +8,21 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <utility>
 
 namespace cli {
 namespace {
 
 constexpr std::chrono::milliseconds update_interval{100};
 constexpr const char *erase_line = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
+
+std::string formatted(const char *format, double number) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, number);
+    return text.data();
+}
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -39,9 +48,16 @@ ProgressStyle progress_style(const std::string &name, bool quiet, bool is_termin
     return is_terminal ? ProgressStyle::line : ProgressStyle::none;
 }
 
+std::size_t terminal_columns() {
+    constexpr std::size_t usual = 80;
+    winsize size{};
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
 Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
-                   Clock::time_point start) :
+                   Clock::time_point start, std::function<std::size_t()> column_count) :
     output_(output),
+    column_count_(std::move(column_count)),
     style_(style),
     pixel_count_(static_cast<double>(pixel_count)),
     sample_count_(sample_count),
@@ -76,19 +92,31 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     }
 }
 
+// What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that wraps
+// could not be written over.
 void Progress::print_line(double samples, double seconds) {
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%5.1f %%  %.0f/%.0f spp  %.1f Mpaths/s  ETA %s", 100.0 * fraction_,
-                  std::floor(samples), static_cast<double>(sample_count_), samples * pixel_count_ / seconds * 1e-6,
-                  duration_text(remaining_seconds(samples, sample_count_, seconds)).c_str());
-    output_ << erase_line << text.data() << std::flush;
+    const std::array<std::string, 4> parts{
+        formatted("%5.1f %%", 100.0 * fraction_),
+        "  ETA " + duration_text(remaining_seconds(samples, sample_count_, seconds)),
+        formatted("  %.0f/", std::floor(samples)) + formatted("%.0f spp", static_cast<double>(sample_count_)),
+        formatted("  %.1f Msamples/s", samples * pixel_count_ / seconds * 1e-6),
+    };
+    const std::size_t columns = column_count_();
+    std::string line;
+    for (const std::string &part : parts) {
+        if (line.size() + part.size() >= columns) { // the last column stays free: some terminals wrap behind it
+            break;
+        }
+        line += part;
+    }
+    output_ << erase_line << line << std::flush;
 }
 
 void Progress::print_json(double samples, double seconds) {
     const nlohmann::ordered_json line{{"fraction", fraction_},
                                       {"samples_per_pixel", static_cast<std::uint64_t>(samples)},
                                       {"samples_per_pixel_total", sample_count_},
-                                      {"paths_per_second", samples * pixel_count_ / seconds},
+                                      {"samples_per_second", samples * pixel_count_ / seconds},
                                       {"seconds", seconds},
                                       {"eta_seconds", remaining_seconds(samples, sample_count_, seconds)}};
     output_ << line.dump() << std::endl;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <ostream>
 #include <string>
 
@@ -11,13 +13,16 @@ namespace cli {
 
 enum class ProgressStyle { none, line, json };
 
+// Of the terminal that stderr is; 80 if it does not say.
+std::size_t terminal_columns();
+
 class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // pixel_count times sample_count paths are to be traced from now on.
+    // pixel_count times sample_count samples are to be taken from now on. column_count: how wide the terminal is now.
     Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
-             Clock::time_point start);
+             Clock::time_point start, std::function<std::size_t()> column_count = &terminal_columns);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
     ~Progress(); // leaves the terminal's line empty for what is printed next
@@ -34,7 +39,7 @@ public:
     // The same by the samples that are done. The share that is told never falls, whatever is expected in between.
     void update_samples(double samples_of_part, Clock::time_point now);
 
-    // From now on this many samples are to be traced in all.
+    // From now on this many samples a pixel are to be taken in all.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
 private:
@@ -42,6 +47,7 @@ private:
     void print_json(double samples, double seconds);
 
     std::ostream &output_;
+    std::function<std::size_t()> column_count_;
     ProgressStyle style_;
     double pixel_count_;
     std::uint64_t sample_count_;

@@ -33,6 +33,9 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     if (outcome == Outcome::not_all_written) {
         return static_cast<int>(ExitCode::file);
     }
+    if (outcome == Outcome::target_missed) {
+        return static_cast<int>(ExitCode::target_missed);
+    }
     return interrupt_signal() == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(interrupt_signal());
 }
 

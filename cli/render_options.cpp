@@ -16,8 +16,10 @@ CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_e
         }
     };
     return command
-        .add_option_function<std::string>("--error", read,
-                                          "Stop at this relative error, like 0.5% or 0.005 (default: take all samples)")
+        .add_option_function<std::string>(
+            "--error", read,
+            "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take "
+            "all samples)")
         ->type_name("E");
 }
 
@@ -41,15 +43,23 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
-    add_real_number(command, "--exposure", options.tone_map.exposure, -64.0, 64.0,
-                    "Brighten by EV stops; .png and .jpg only (default: 0)")
+    const auto read_exposure = [&options](const std::string &text) {
+        options.exposure = parse_exposure(text);
+        if (!options.exposure) {
+            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--exposure", read_exposure,
+                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: the "
+                                          "scene's, else auto)")
         ->type_name("EV")
         ->group("Picture");
-    add_name(command, "--tonemap", options.tone_map.curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp; the default), reinhard, aces, agx, neutral; .png and .jpg only")
+    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
+             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: the scene's, else none)")
         ->group("Picture");
-    add_real_number(command, "--gamma", options.tone_map.gamma, 0.1, 10.0,
-                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only")
+    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
+                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only (default: the scene's)")
         ->type_name("G")
         ->group("Picture");
 }
@@ -114,6 +124,11 @@ const char *const render_help =
     "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
     "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
     "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
+    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the exponential of "
+    "the\n"
+    "mean of the logarithms of its pixels, each the mean of its three channels; black ones do not count. It is rounded "
+    "to\n"
+    "hundredths and shown, so that it can be given as a number where pictures are to be compared.\n\n"
     "A file that cannot be written whole is left as it was. The metadata of images say what made them, and no time:\n"
     "equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a date.\n\n"
     "With --watch, what is wrong with a scene or a shader is told once, and the picture stays as it was until that is\n"

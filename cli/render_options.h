@@ -2,6 +2,7 @@
 // Called by main; read by render_command and render_settings.
 #pragma once
 
+#include "exposure.h"
 #include "number.h"
 #include "tone_map.h"
 
@@ -32,7 +33,10 @@ struct RenderOptions {
     std::optional<std::uint32_t> estimator;
     std::uint32_t first_sample = 0;
 
-    ToneMap tone_map;
+    // Of .png and .jpg alone.
+    std::optional<Exposure> exposure;
+    std::optional<ToneCurve> tone_curve;
+    std::optional<double> gamma;
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default

@@ -15,13 +15,14 @@
 namespace cli {
 namespace {
 
-void write_image(ImageWriter &writer, const std::string &path, const ToneMap &tone_map, const RenderReport &report,
-                 std::span<const float> values, std::uint32_t quantity) {
+void write_image(ImageWriter &writer, const std::string &path, const RenderReport &report, std::span<const float> values,
+                 std::uint32_t quantity) {
     const auto [width, height] = std::pair(report.render.width, report.render.height);
     if (image_format(path) == ImageFormat::exr) {
         const ImageMetadata metadata(report, quantity, nullptr);
         writer.write_radiance(path, width, height, values, metadata.attributes());
     } else {
+        const ToneMap &tone_map = report.tone_map.value();
         const ImageMetadata metadata(report, quantity, &tone_map);
         writer.write_bytes(path, width, height, map_to_8_bits(values, tone_map), metadata.attributes(), tone_map.gamma);
     }
@@ -93,7 +94,7 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
     std::vector<std::string> written;
     const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity) {
         try {
-            write_image(writer, path, options.tone_map, report, values, quantity);
+            write_image(writer, path, report, values, quantity);
             written.push_back(path);
         } catch (const Failure &failure) {
             print_message(failure.what());

@@ -15,8 +15,11 @@
 #include "report_file.h"
 #include "scene_setup.h"
 #include "source_date.h"
+#include "warnings.h"
 
+#include <algorithm>
 #include <iostream>
+#include <optional>
 #include <span>
 #include <unistd.h>
 #include <vector>
@@ -47,21 +50,23 @@ void print_pieces(const Context &context, const RenderOptions &options, const pt
 }
 
 void print_summary(const RenderOptions &options, const RenderReport &report, const std::vector<std::string> &written) {
-    if (report.stats.rejected_samples > 0) {
-        print_message("warning: " + std::to_string(report.stats.rejected_samples) +
-                      " samples were left out: not finite, negative or too bright");
-    }
     std::string names;
     for (const std::string &path : written) {
         names += path + (&path == &written.back() ? ": " : ", ");
     }
-    print_for_people("wrote " + names + summary_text(report) + "\n" + error_text(report) + "\n",
+    const std::string exposure = report.automatic_exposure ? exposure_text(report) + "\n" : "";
+    print_for_people("wrote " + names + summary_text(report) + "\n" + exposure + error_text(report) + "\n",
                      options.stats == standard_stream);
 }
 
 // Whether all images could be written.
 bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
                    std::span<const float> radiance, std::span<const float> standard_error, Clock::time_point start) {
+    const std::vector<std::string> warnings = image_warnings(report, radiance);
+    report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
+    if (!options.quiet) {
+        print_warnings(warnings);
+    }
     const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
     report.total_seconds = seconds_since(start);
     write_report_file(options.stats, json_text(stats_json(report)));
@@ -69,6 +74,17 @@ bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderRepo
         print_summary(options, report, written);
     }
     return written.size() == output_count(options);
+}
+
+// Nothing if no output is tone-mapped.
+std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSettings &settings,
+                                   std::span<const float> radiance) {
+    const auto is_mapped = [](const std::string &path) { return image_format(path) != ImageFormat::exr; };
+    if (std::none_of(options.outputs.begin(), options.outputs.end(), is_mapped)) {
+        return std::nullopt;
+    }
+    const std::optional<double> stops = settings.exposure.stops;
+    return ToneMap{stops ? *stops : automatic_exposure(radiance), settings.tone_curve, settings.gamma};
 }
 
 void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
@@ -94,6 +110,10 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
 
     context.require(pt_get_context_device(context.get(), &report.device));
     describe_scene(context, file);
+    report.warnings = input_warnings(file, settings);
+    if (!options.quiet) {
+        print_warnings(report.warnings);
+    }
     const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
     if (rows < settings.render.height && !options.quiet) {
         print_pieces(context, options, settings.render, rows);
@@ -121,11 +141,17 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     } else if (superseded()) {
         return Outcome::superseded;
     }
+    report.tone_map = tone_map_of(options, settings, image.radiance);
+    report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
     if (!write_outputs(writer, options, report, image.radiance, image.standard_error, times.start)) {
         return Outcome::not_all_written;
     }
-    return interrupted ? Outcome::interrupted : Outcome::written;
+    if (interrupted) {
+        return Outcome::interrupted;
+    }
+    const bool missed = report.target_error > 0.0 && !report.target_reached();
+    return missed ? Outcome::target_missed : Outcome::written;
 }
 
 } // namespace cli

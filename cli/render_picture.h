@@ -14,6 +14,7 @@ namespace cli {
 
 enum class Outcome {
     written,
+    target_missed,   // all was written, but the target error was not reached
     not_all_written, // what could not is told on stderr
     interrupted,     // by a signal; the samples done so far were written, if there were any
     superseded       // nothing was written

@@ -40,7 +40,18 @@ std::uint64_t peak_host_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-double paths_per_second(const RenderReport &report) {
+nlohmann::ordered_json tone_map_json(const RenderReport &report) {
+    if (!report.tone_map) {
+        return nullptr;
+    }
+    const ToneMap &map = *report.tone_map;
+    return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
+            {"exposure", map.exposure},
+            {"automatic_exposure", report.automatic_exposure},
+            {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
+}
+
+double samples_per_second(const RenderReport &report) {
     const double pixels = static_cast<double>(report.render.width) * report.render.height;
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
 }
@@ -115,7 +126,9 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"device_bytes", report.stats.device_bytes},
             {"peak_host_bytes", peak_host_bytes()},
             {"features", feature_names(report.stats.features)},
-            {"paths_per_second", paths_per_second(report)}};
+            {"samples_per_second", samples_per_second(report)},
+            {"tone_map", tone_map_json(report)},
+            {"warnings", report.warnings}};
 }
 
 std::string summary_text(const RenderReport &report) {
@@ -123,6 +136,13 @@ std::string summary_text(const RenderReport &report) {
     std::snprintf(text.data(), text.size(), "%ux%u, %u spp in %.2f s on ", report.render.width, report.render.height,
                   report.stats.sample_count, report.total_seconds);
     return text.data() + std::string(report.device.name);
+}
+
+std::string exposure_text(const RenderReport &report) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "exposure %.2f EV%s", report.tone_map.value_or(ToneMap{}).exposure,
+                  report.automatic_exposure ? " (auto)" : "");
+    return text.data();
 }
 
 std::string error_text(const RenderReport &report) {

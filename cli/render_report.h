@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct RenderReport {
     double create_seconds;
     double accumulate_seconds;
     double total_seconds;
+    std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
+    bool automatic_exposure;
+    std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
 };
@@ -38,6 +42,9 @@ nlohmann::ordered_json stats_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
+
+// "exposure -3.13 EV (auto)"
+std::string exposure_text(const RenderReport &report);
 
 // "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
 std::string error_text(const RenderReport &report);

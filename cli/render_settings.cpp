@@ -19,6 +19,20 @@ Value first_given(const std::optional<Value> &option, const std::optional<Value>
     return option.value_or(scene.value_or(otherwise));
 }
 
+// Indices of samples end at 2^32 - 1.
+void limit_samples(RenderSettings &settings) {
+    const std::uint64_t left = (std::uint64_t{1} << 32) - settings.render.first_sample;
+    if (settings.sample_count <= left) {
+        return;
+    }
+    if (settings.target_error == 0.0) {
+        throw Failure(ExitCode::usage, "--first-sample " + std::to_string(settings.render.first_sample) + ": " +
+                                           std::to_string(settings.sample_count) +
+                                           " samples from there on would pass the last index, 4294967295");
+    }
+    settings.sample_count = static_cast<std::uint32_t>(left); // is the most that may be taken
+}
+
 } // namespace
 
 // A rule about no setting, and a message that names none, is about the scene.
@@ -54,6 +68,10 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     settings.target_error = options.target_error.value_or(0.0);
     settings.sample_count = first_given(options.sample_count, scene.sample_count,
                                         options.target_error ? default_most_samples : default_sample_count);
+    limit_samples(settings);
+    settings.exposure = first_given(options.exposure, scene.exposure, Exposure{});
+    settings.tone_curve = first_given(options.tone_curve, scene.tone_curve, ToneCurve::none);
+    settings.gamma = options.gamma ? options.gamma : scene.gamma;
     if (!options.size && (scene.width || scene.height)) {
         settings.scene_keys.insert(settings.scene_keys.end(), {"film.width", "film.height"});
     }

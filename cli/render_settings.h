@@ -10,6 +10,7 @@
 #include <pt/pt.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,11 @@ namespace cli {
 
 struct RenderSettings {
     pt_render render;
-    std::uint32_t sample_count;               // the most, if there is a target
-    double target_error;                      // relative; 0: none
+    std::uint32_t sample_count; // the most, if there is a target
+    double target_error;        // relative; 0: none
+    Exposure exposure;
+    ToneCurve tone_curve;
+    std::optional<double> gamma;
     std::vector<std::string_view> scene_keys; // whose values these are, as in field_names.h
 
     // What the library refuses, in the words of whoever gave the value: the command line (ExitCode::usage) or the scene

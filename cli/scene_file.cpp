@@ -45,6 +45,15 @@ std::uint32_t read_method(const json &value, const JsonPlace &place, std::string
     return *method;
 }
 
+Exposure read_exposure(const json &value, const JsonPlace &place) {
+    const bool is_text = value.is_string();
+    const auto exposure = parse_exposure(is_text ? std::string(read_text(value, place)) : value.dump());
+    if (!exposure || (is_text && exposure->stops)) {
+        refuse(place, "must be a number from -64 to 64, or \"auto\", is " + value.dump());
+    }
+    return *exposure;
+}
+
 template <typename Number, std::size_t Count>
 void store(const std::array<Number, Count> &from, Number (&destination)[Count]) {
     std::copy(from.begin(), from.end(), destination);
@@ -159,11 +168,24 @@ void SceneReader::camera_item(const JsonPlace &place, const json &value) {
 }
 
 void SceneReader::film_item(const JsonPlace &place, const json &value) {
-    static constexpr std::array<std::string_view, 2> known{"width", "height"};
+    static constexpr std::array<std::string_view, 5> known{"width", "height", "exposure", "tonemap", "gamma"};
     if (place.key == "width") {
         scene_.width = read_uint32(value, place, 0);
     } else if (place.key == "height") {
         scene_.height = read_uint32(value, place, 0);
+    } else if (place.key == "exposure") {
+        scene_.exposure = read_exposure(value, place);
+    } else if (place.key == "tonemap") {
+        const std::string_view name = read_text(value, place);
+        scene_.tone_curve = find_tone_curve(name);
+        if (!scene_.tone_curve) {
+            refuse(place, unknown_name("tone map", name, tone_curve_names));
+        }
+    } else if (place.key == "gamma") {
+        scene_.gamma = read_number(value, place);
+        if (!(*scene_.gamma >= least_gamma && *scene_.gamma <= largest_gamma)) {
+            refuse(place, "must be a number from 0.1 to 10, is " + value.dump());
+        }
     } else {
         refuse_unknown_key(*place.parent, place.key, known);
     }

@@ -2,6 +2,9 @@
 // the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
 #pragma once
 
+#include "exposure.h"
+#include "tone_map.h"
+
 #include <pt/pt.h>
 
 #include <cstddef>
@@ -24,6 +27,9 @@ struct SceneFile {
 
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
+    std::optional<Exposure> exposure;
+    std::optional<ToneCurve> tone_curve;
+    std::optional<double> gamma;
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sample_count;
     std::optional<std::uint64_t> seed;

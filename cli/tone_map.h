@@ -25,6 +25,9 @@ inline constexpr std::array<std::string_view, 5> tone_curve_names{"none", "reinh
 
 std::optional<ToneCurve> find_tone_curve(std::string_view name);
 
+inline constexpr double least_gamma = 0.1;
+inline constexpr double largest_gamma = 10.0;
+
 struct ToneMap {
     double exposure = 0.0; // stops: radiance is multiplied by 2^exposure
     ToneCurve curve = ToneCurve::none;

@@ -67,6 +67,9 @@ private:
         if (outcome_ == Outcome::not_all_written) {
             return static_cast<int>(ExitCode::file);
         }
+        if (outcome_ == Outcome::target_missed) {
+            return static_cast<int>(ExitCode::target_missed);
+        }
         const bool stopped = outcome_ == Outcome::interrupted || outcome_ == Outcome::superseded;
         return stopped ? exit_code_of_signal(interrupt_signal()) : static_cast<int>(ExitCode::done);
     }
@@ -98,13 +101,14 @@ private:
         refresh_context(file);
         if (is_up_to_date()) {
             print_unless_quiet("the same kernels and the same scene: nothing to render");
-            outcome_ = Outcome::written;
+            outcome_ = rendered_outcome_;
             return;
         }
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
         rendered_scene_.reset();
         outcome_ = render_picture(*context_, options_, file, settings, times, superseded);
-        if (outcome_ == Outcome::written) {
+        if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
+            rendered_outcome_ = *outcome_;
             rendered_scene_ = sources_.scene_text();
         }
     }
@@ -151,7 +155,8 @@ private:
     SourceWatch sources_;
     std::unique_ptr<Context> context_;
     std::optional<std::string> rendered_scene_; // text of the scene that the files show; nothing if they show none
-    std::optional<Outcome> outcome_;            // of the last rendering; nothing if it failed
+    Outcome rendered_outcome_ = Outcome::written;
+    std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
     bool is_first_ = true;
     bool is_told_ = false;
 };

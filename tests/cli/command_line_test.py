@@ -42,7 +42,7 @@ class Usage(CommandLineTest):
                               ("--max-path-length", "0"), ("--submit-ms", "0"), ("--sampler", "sobl"),
                               ("--estimator", "mss"),
                               ("--tonemap", "filmic"), ("--gamma", "0"), ("--exposure", "nan"),
-                              ("--exposure", "1e9"), ("--progress", "loud")):
+                              ("--exposure", "1e9"), ("--exposure", "Auto"), ("--progress", "loud")):
             with self.subTest(option=option, value=value):
                 self.expect(2, "render", COURSEWORK, "-o", "a.png", option, value, error=option)
         self.assertEqual(self.files(), [])
@@ -61,6 +61,11 @@ class Usage(CommandLineTest):
             with self.subTest(arguments=arguments):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
+
+    def test_the_last_sample_has_an_index(self):
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--first-sample", "4294967290", "--spp"]
+        self.expect(0, *arguments, "6")
+        self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass the last")
 
     def test_unknown_extensions(self):
         for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):
@@ -180,6 +185,7 @@ class Outputs(CommandLineTest):
         self.assertEqual(self.files(), ["a.exr", "b.png", "c.jpg", "s.json"])
         self.assertEqual(self.errors, "")
         self.assertRegex(self.output, r"^wrote a.exr, b.png, c.jpg: 4x3, 5 spp in [\d.]+ s on fake device\n"
+                                     r"exposure -?[\d.]+ EV \(auto\)\n"
                                      r"error unknown with fewer than 16 samples\n$")
 
         attributes = read_exr_attributes(self.path("a.exr"))
@@ -202,7 +208,8 @@ class Outputs(CommandLineTest):
     def test_tone_mapping_reaches_the_pixels(self):
         # The stand-in's picture: red 0, 0.5, 1 from left to right, green 0 to 1 downwards, blue 2.
         def pixels(*options):
-            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", *options)
+            exposure = [] if "--exposure" in options else ["--exposure", "0"]
+            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", *exposure, *options)
             return read_png(self.path("a.png"))
 
         self.assertEqual(pixels(), (3, 2, [[0, 0, 255, 188, 0, 255, 255, 0, 255],
@@ -211,6 +218,34 @@ class Outputs(CommandLineTest):
         self.assertEqual(pixels("--gamma", "1", "--exposure", "-2")[2][0], [0, 0, 128, 32, 0, 128, 64, 0, 128])
         # Luminance of (0, 0, 2) is 0.1444: blue becomes 2 / 1.1444, clipped; of (0.5, 0, 2) 0.2507: 0.5 / 1.2507.
         self.assertEqual(pixels("--gamma", "1", "--tonemap", "reinhard")[2][0][:6], [0, 0, 255, 102, 0, 255])
+
+    def test_the_exposure_that_is_shown_gives_the_same_picture(self):
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "3x2", "--spp", "1", "--stats", "s.json"]
+        self.expect(0, *arguments)
+        automatic, picture = json.loads(self.read("s.json"))["tone_map"], read_png(self.path("a.png"))
+        self.assertEqual((automatic["curve"], automatic["automatic_exposure"]), ("none", True))
+        shown = f"{automatic['exposure']:.2f}"
+        self.assertIn(f"\nexposure {shown} EV (auto)\n", self.output)
+        self.expect(0, *arguments, "--exposure", shown)
+        self.assertNotIn("exposure", self.output)
+        self.assertEqual(json.loads(self.read("s.json"))["tone_map"], {**automatic, "automatic_exposure": False})
+        self.assertEqual(read_png(self.path("a.png")), picture)
+        self.expect(0, *arguments, "--exposure", "0")
+        self.assertNotEqual(read_png(self.path("a.png")), picture)
+        self.expect(0, "render", COURSEWORK, "-o", "a.exr", "--spp", "1", "--stats", "s.json")
+        self.assertIsNone(json.loads(self.read("s.json"))["tone_map"])
+
+    def test_the_scene_says_how_its_picture_is_tone_mapped(self):
+        def pixels(film, *options):
+            self.write("s.json", json.dumps({"film": {"width": 3, "height": 2, **film}}))
+            self.expect(0, "render", "s.json", "-o", "a.png", "--spp", "1", *options)
+            return read_png(self.path("a.png"))[2][0]
+
+        self.assertEqual(pixels({"exposure": -2, "gamma": 1}), [0, 0, 128, 32, 0, 128, 64, 0, 128])
+        self.assertEqual(pixels({"exposure": -2, "gamma": 1}, "--exposure", "-3"), [0, 0, 64, 16, 0, 64, 32, 0, 64])
+        self.assertEqual(pixels({"exposure": 0, "gamma": 1, "tonemap": "reinhard"})[:6], [0, 0, 255, 102, 0, 255])
+        self.assertEqual(pixels({"exposure": 0, "gamma": 2, "tonemap": "agx"}, "--tonemap", "none", "--gamma", "1")[:6],
+                         [0, 0, 255, 128, 0, 255])
 
     def test_files_that_cannot_be_written_are_found_before_rendering(self):
         os.mkdir(self.path("folder.png"))
@@ -256,10 +291,6 @@ class Outputs(CommandLineTest):
         self.assertEqual(json.loads(self.read("t.json"))["device"]["name"], "d\ufffdvice")
         self.expect(0, "devices", "--json", **bad_device)
         self.assertEqual(json.loads(self.output)[0]["name"], "d\ufffdvice")
-
-    def test_rejected_samples_are_told(self):
-        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "1", FAKE_PT_FAIL="rejected:-1",
-                    error="pt: warning: 3 samples were left out")
 
 
 class Interruption(CommandLineTest):
@@ -339,11 +370,13 @@ class ProgressOutput(CommandLineTest):
         self.expect(0, *arguments, "--progress", "json", "-q")
         self.assertEqual((self.errors, self.output), ("", ""))
 
-    def test_terminal(self):
+    def terminal_output(self, size=None):
         try:
             ours, theirs = pty.openpty()
         except OSError as error:  # a chroot without /dev/pts
             self.skipTest(str(error))
+        if size is not None:
+            fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", *size, 0, 0))
         process = subprocess.Popen([self.program, "render", COURSEWORK, "-o", self.path("a.png"), "--spp", "3"],
                                    stdout=subprocess.DEVNULL, stderr=theirs)
         os.close(theirs)
@@ -355,8 +388,18 @@ class ProgressOutput(CommandLineTest):
             pass  # Linux reports the closed terminal so
         os.close(ours)
         self.assertEqual(process.wait(timeout=PATIENCE), 0)
-        self.assertIn(b"100.0 %  3/3 spp", output)
+        return output
+
+    def test_terminal(self):
+        output = self.terminal_output()  # which does not know its size
+        self.assertRegex(output, rb"100\.0 %  ETA 0:00:00  3/3 spp  \d+\.\d Msamples/s\r")
         self.assertTrue(output.endswith(b"\r\x1b[K"), output)
+
+    def test_narrow_terminals(self):
+        for columns, parts in ((10, b"100.0 %"), (21, b"100.0 %  ETA 0:00:00"), (30, b"100.0 %  ETA 0:00:00  3/3 spp")):
+            output = self.terminal_output((24, columns))
+            self.assertIn(parts + b"\r", output)
+            self.assertTrue(all(len(line) < columns for line in output.replace(b"\x1b[K", b"").split(b"\r")), output)
 
 
 class RealDevice(CommandLineTest):
@@ -411,7 +454,7 @@ class RealDevice(CommandLineTest):
         for shutter, light in (([0, 0], 255), ([1, 1], 0)):
             scene["camera"]["shutter"] = shutter
             self.write("s.json", json.dumps(scene))
-            self.expect(0, "render", "s.json", "-o", "a.png", "--size", "1x1", "--spp", "8")
+            self.expect(0, "render", "s.json", "-o", "a.png", "--size", "1x1", "--spp", "8", "--exposure", "0")
             self.assertEqual(read_png(self.path("a.png"))[2], [[light] * 3], shutter)
 
 

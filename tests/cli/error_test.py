@@ -14,8 +14,9 @@ KEYS = [name + end for name in ("rmse", "relative_rmse") for end in ("", "_low",
 class TargetError(CommandLineTest):
     """The stand-in's image of N samples has the error 0.5 / N with bounds of half and twice that, unknown below 16."""
 
-    def render(self, *options):
-        self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json", *options)
+    def render(self, *options, code=0):
+        self.assertEqual(self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json", *options),
+                         code, self.errors)
         return json.loads(self.read("s.json"))
 
     def test_wrong_values(self):
@@ -34,10 +35,11 @@ class TargetError(CommandLineTest):
             self.assertRegex(self.output, r"\nerror 1.25% \(0.625% to 2.5%\); target reached after 40 samples\n$")
 
     def test_not_reached(self):
-        stats = self.render("--error", "2.5%", "--spp", "32")
+        stats = self.render("--error", "2.5%", "--spp", "32", code=7)
+        self.assertEqual((self.errors, self.files()), ("", ["a.png", "s.json"]))
         self.assertEqual((stats["spp"], stats["target_reached"]), (32, False))
         self.assertIn("; target not reached: 3.12% is above 2.5% after 32 samples, raise --spp\n", self.output)
-        stats = self.render("--error", "2.5%", "--spp", "15")
+        stats = self.render("--error", "2.5%", "--spp", "15", code=7)
         self.assertEqual((stats["spp"], stats["target_reached"]), (15, False))
         self.assertIn("target not reached: unknown error for 2.5% after 15 samples, raise --spp\n", self.output)
 
@@ -54,8 +56,9 @@ class TargetError(CommandLineTest):
 
     def test_progress_never_falls_and_ends_at_1(self):
         for target, samples in (("2.5%", 40), ("1%", 100), ("0.00001%", 120)):
-            self.expect(0, "render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--error", target, "--spp", "120",
-                        "--progress", "json", FAKE_PT_SAMPLE_MS=4)
+            code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--error", target, "--spp", "120",
+                               "--progress", "json", FAKE_PT_SAMPLE_MS=4)
+            self.assertEqual(code, 7 if target == "0.00001%" else 0)
             lines = [json.loads(line) for line in self.errors.splitlines()]
             fractions = [line["fraction"] for line in lines]
             self.assertEqual(fractions, sorted(fractions))
@@ -124,7 +127,7 @@ class RealDevice(CommandLineTest):
         self.assertEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])
         step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 8
-        self.expect(0, *arguments, "-o", "b.exr", "--error", "10%", "--spp", str(stats["spp"] - step))
+        self.assertEqual(self.run_pt(*arguments, "-o", "b.exr", "--error", "10%", "--spp", str(stats["spp"] - step)), 7)
         self.assertFalse(json.loads(self.read("s.json"))["target_reached"])
 
 

@@ -18,10 +18,10 @@ using std::chrono::milliseconds;
 const Progress::Clock::time_point start{};
 
 // What is printed when the callback comes every 10 ms for 2 s.
-std::string output_of(ProgressStyle style) {
+std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     std::ostringstream output;
     {
-        Progress progress(output, style, 1'000'000, 100, start);
+        Progress progress(output, style, 1'000'000, 100, start, [columns] { return columns; });
         for (int i = 1; i <= 200; ++i) {
             progress.update(i / 200.0, start + milliseconds(10 * i));
         }
@@ -42,15 +42,40 @@ TEST(Progress, JsonLines) {
     EXPECT_EQ(last.at("samples_per_pixel"), 100);
     EXPECT_EQ(last.at("samples_per_pixel_total"), 100);
     EXPECT_EQ(last.at("eta_seconds"), 0.0);
-    EXPECT_NEAR(last.at("paths_per_second").get<double>(), 50e6, 1.0); // 1e8 paths in 2 s
+    EXPECT_NEAR(last.at("samples_per_second").get<double>(), 50e6, 1.0); // 1e8 samples in 2 s
 }
 
 TEST(Progress, TerminalLine) {
     const std::string output = output_of(ProgressStyle::line);
     EXPECT_LE(std::count(output.begin(), output.end(), '\r'), 22); // ten a second and the last erasure
     EXPECT_EQ(output.find('\n'), std::string::npos);               // one line, written over
-    EXPECT_NE(output.find(" 50.5 %  50/100 spp  50.0 Mpaths/s  ETA 0:00:01"), std::string::npos) << output;
+    EXPECT_NE(output.find(" 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s\r"), std::string::npos) << output;
     EXPECT_TRUE(output.ends_with("\r\x1b[K")); // and left empty
+}
+
+// The last column stays free.
+TEST(Progress, TerminalLineFitsAnyWidth) {
+    const auto line_of = [](std::size_t columns) {
+        const std::string output = output_of(ProgressStyle::line, columns);
+        const std::size_t begin = output.find(" 50.5 %");
+        return begin == std::string::npos ? "" : output.substr(begin, output.find('\r', begin) - begin);
+    };
+    EXPECT_EQ(line_of(50), " 50.5 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
+    EXPECT_EQ(line_of(49), " 50.5 %  ETA 0:00:01  50/100 spp");
+    EXPECT_EQ(line_of(21), " 50.5 %  ETA 0:00:01");
+    EXPECT_EQ(line_of(20), " 50.5 %");
+    EXPECT_EQ(line_of(8), " 50.5 %");
+    EXPECT_EQ(line_of(7), "");
+}
+
+TEST(Progress, TheWidthIsAskedForEachTime) {
+    std::ostringstream output;
+    std::size_t columns = 80;
+    Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [&columns] { return columns; });
+    progress.update(0.25, start + milliseconds(1000));
+    columns = 10;
+    progress.update(0.5, start + milliseconds(2000));
+    EXPECT_TRUE(output.str().ends_with("Msamples/s\r\x1b[K 50.0 %")) << output.str();
 }
 
 TEST(Progress, NeverFallsWhateverIsExpected) {

@@ -50,8 +50,23 @@ TEST(RenderReport, StatsJson) {
     EXPECT_EQ(json.at("estimator"), "mis");
     EXPECT_EQ(json.at("device").at("name"), "a device");
     EXPECT_EQ(json.at("features"), (std::vector<std::string>{"lamps", "large"}));
-    EXPECT_EQ(json.at("paths_per_second"), 256.0 * 128.0 * 32.0 / 2.0);
+    EXPECT_EQ(json.at("samples_per_second"), 256.0 * 128.0 * 32.0 / 2.0);
     EXPECT_GT(json.at("peak_host_bytes"), 1'000'000); // no C++ program is smaller
+}
+
+TEST(RenderReport, ToneMapAndWarningsInJson) {
+    cli::RenderReport report = example();
+    EXPECT_TRUE(cli::stats_json(report).at("tone_map").is_null()); // EXR alone
+    EXPECT_EQ(cli::stats_json(report).at("warnings"), nlohmann::json::array());
+    report.tone_map = cli::ToneMap{-3.13, cli::ToneCurve::agx, std::nullopt};
+    report.automatic_exposure = true;
+    report.warnings = {"one", "two"};
+    const auto json = cli::stats_json(report);
+    EXPECT_EQ(json.at("tone_map").dump(), R"({"curve":"agx","exposure":-3.13,"automatic_exposure":true,"gamma":null})");
+    EXPECT_EQ(json.at("warnings"), (std::vector<std::string>{"one", "two"}));
+    EXPECT_EQ(cli::exposure_text(report), "exposure -3.13 EV (auto)");
+    report.tone_map->gamma = 2.2;
+    EXPECT_EQ(cli::stats_json(report).at("tone_map").at("gamma"), 2.2);
 }
 
 TEST(RenderReport, ErrorInJson) {

@@ -68,6 +68,38 @@ TEST(RenderSettings, ATargetErrorRaisesTheDefaultNumberOfSamplesAlone) {
     EXPECT_EQ(merge_settings(options, full_scene()).sample_count, 6U);
 }
 
+TEST(RenderSettings, ToneMapping) {
+    const RenderSettings none = merge_settings({}, {});
+    EXPECT_FALSE(none.exposure.stops); // automatic
+    EXPECT_EQ(none.tone_curve, cli::ToneCurve::none);
+    EXPECT_FALSE(none.gamma);
+    SceneFile scene{};
+    scene.exposure = cli::Exposure{-3.0};
+    scene.tone_curve = cli::ToneCurve::agx;
+    scene.gamma = 2.2;
+    RenderOptions options;
+    EXPECT_EQ(merge_settings(options, scene).exposure.stops, -3.0);
+    EXPECT_EQ(merge_settings(options, scene).tone_curve, cli::ToneCurve::agx);
+    EXPECT_EQ(merge_settings(options, scene).gamma, 2.2);
+    options.exposure = cli::Exposure{}; // "auto" on the command line counts
+    options.tone_curve = cli::ToneCurve::none;
+    options.gamma = 1.0;
+    EXPECT_FALSE(merge_settings(options, scene).exposure.stops);
+    EXPECT_EQ(merge_settings(options, scene).tone_curve, cli::ToneCurve::none);
+    EXPECT_EQ(merge_settings(options, scene).gamma, 1.0);
+}
+
+TEST(RenderSettings, SamplesEndWithTheLastIndex) {
+    RenderOptions options;
+    options.first_sample = 4294967286U; // ten are left
+    options.sample_count = 10;
+    EXPECT_EQ(merge_settings(options, {}).sample_count, 10U);
+    options.sample_count = 11;
+    EXPECT_THROW(merge_settings(options, {}), cli::Failure);
+    options.target_error = 0.01;
+    EXPECT_EQ(merge_settings(options, {}).sample_count, 10U);
+}
+
 TEST(RenderSettings, AZeroSeedOnTheCommandLineCounts) {
     RenderOptions options;
     options.seed = 0;

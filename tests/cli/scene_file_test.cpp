@@ -42,7 +42,7 @@ constexpr const char *small = R"({
   "materials": { "unused": {}, "b": { "diffuse": 0.25, "glossiness": 40 },
                  "a": { "specular": [0.1, 0.2, 0.3], "emission": 7 } },
   "camera": { "position": [0, 0, 1], "look_at": [0, 0, -1], "up": [1, 0, 0], "vertical_fov": 90, "shutter": [0.25, 0.5] },
-  "film": { "width": 320, "height": 2e2 },
+  "film": { "width": 320, "height": 2e2, "exposure": -1.5, "tonemap": "agx", "gamma": 2.2 },
   "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "sampler": "halton-cp",
               "estimator": "uniform" }
 })";
@@ -80,6 +80,9 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_EQ(scene.camera.shutter_close, 0.5);
     EXPECT_EQ(scene.width, 320U);
     EXPECT_EQ(scene.height, 200U); // 2e2 is a whole number
+    EXPECT_EQ(scene.exposure.value().stops, -1.5);
+    EXPECT_EQ(scene.tone_curve, cli::ToneCurve::agx);
+    EXPECT_EQ(scene.gamma, 2.2);
     EXPECT_EQ(scene.max_path_length, 3U);
     EXPECT_EQ(scene.sample_count, 16U);
     EXPECT_EQ(scene.seed, 18446744073709551615U);
@@ -117,6 +120,19 @@ TEST(SceneFile, ShutterAtTheInstantZero) {
     EXPECT_EQ(camera("[0, 0]").shutter_close, std::numeric_limits<double>::denorm_min());
     EXPECT_EQ(camera("[-0.0, 0.0]").shutter_close, std::numeric_limits<double>::denorm_min());
     EXPECT_EQ(camera("[1, 1]").shutter_close, 1.0);
+}
+
+TEST(SceneFile, ToneMapping) {
+    EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").exposure.value().stops);
+    EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").exposure.value().stops, 3.0);
+    EXPECT_FALSE(parse_scene("{}", "").exposure);
+    for (const char *exposure : {"65", "\"1\"", "\"bright\"", "null", "[1]"}) {
+        EXPECT_EQ(refusal(std::string(R"({"film":{"exposure":)") + exposure + "}}"),
+                  std::string("1: film.exposure: must be a number from -64 to 64, or \"auto\", is ") + exposure);
+    }
+    EXPECT_EQ(refusal(R"({"film":{"tonemap":"agxx"}})"),
+              "1: film.tonemap: unknown tone map \"agxx\", did you mean \"agx\"?");
+    EXPECT_EQ(refusal(R"({"film":{"gamma":0}})"), "1: film.gamma: must be a number from 0.1 to 10, is 0");
 }
 
 TEST(SceneFile, UnreadableFilesAreFileErrors) {
@@ -183,7 +199,8 @@ TEST(SceneFile, UnknownNamesGetASuggestion) {
     EXPECT_EQ(refusal(R"({"speres":[]})"), "1: unknown key \"speres\", did you mean \"spheres\"?");
     EXPECT_EQ(refusal(R"({"camera":{"lookat":[0,0,0]}})"),
               "1: camera: unknown key \"lookat\", did you mean \"look_at\"?");
-    EXPECT_EQ(refusal(R"({"film":{"size":1}})"), "1: film: unknown key \"size\", known: width, height");
+    EXPECT_EQ(refusal(R"({"film":{"size":1}})"),
+              "1: film: unknown key \"size\", known: width, height, exposure, tonemap, gamma");
     EXPECT_EQ(refusal(R"({"render":{"samples":1}})").substr(0, 34), "1: render: unknown key \"samples\", ");
     EXPECT_EQ(refusal(R"({"materials":{"a":{"colour":1}}})").substr(0, 35), "1: materials.a: unknown key \"colour");
     EXPECT_EQ(refusal(R"({"spheres":[{"raduis":1}]})"),

@@ -1,0 +1,146 @@
+// Tests of cli/warnings: each rule, on both sides of its bound.
+#include "warnings.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using cli::image_warnings;
+using cli::input_warnings;
+using Texts = std::vector<std::string>;
+
+const std::string camera = R"("camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}, )";
+const std::string materials =
+    R"("materials": {"lamp": {"emission": 1}, "blue lamp": {"emission": [0, 0, 1]}, "grey": {"diffuse": 0.5}})";
+
+Texts warnings_of(const std::string &members, const std::string &camera_members = camera) {
+    const cli::SceneFile scene =
+        cli::parse_scene(std::string("{").append(camera_members).append(members).append("}"), "s.json");
+    return input_warnings(scene, cli::merge_settings({}, scene));
+}
+
+std::string scene_of(const std::string &spheres, const std::string &planes = "") {
+    return R"("spheres": [)" + spheres + R"(], "planes": [)" + planes + "], " + materials;
+}
+
+std::string sphere(double x, double radius, const std::string &material, double motion = 0.0) {
+    return R"({"center": [)" + std::to_string(x) + R"(, 0, 1], "radius": )" + std::to_string(radius) +
+           R"(, "material": ")" + material + R"(", "motion": [)" + std::to_string(motion) + ", 0, 0]}";
+}
+
+std::string lamp_plane(double distance) {
+    return R"({"normal": [2, 0, 0], "offset": )" + std::to_string(-2.0 * distance) + R"(, "material": "lamp"})";
+}
+
+const Texts unlit{"s.json: no surface emits light: the picture is black"};
+const Texts shut_in{"s.json: the camera is inside of spheres[0], which no light gets into: the picture is black"};
+
+TEST(Warnings, NoLight) {
+    EXPECT_EQ(warnings_of("", ""), unlit);
+    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "grey"))), unlit); // the lamps' materials are not used
+    EXPECT_EQ(warnings_of(scene_of(sphere(9, 1, "blue lamp"))), Texts());
+    EXPECT_EQ(warnings_of(scene_of("", lamp_plane(3))), Texts());
+}
+
+TEST(Warnings, TheCameraIsShutIn) {
+    const auto with = [](const std::string &other) {
+        return warnings_of(scene_of(sphere(0, 2, "grey") + ", " + other));
+    };
+    EXPECT_EQ(with(sphere(9, 1, "lamp")), shut_in);
+    EXPECT_EQ(with(sphere(1, 0.5, "lamp")), Texts()); // inside
+    EXPECT_EQ(with(sphere(2.9, 1, "lamp")), Texts()); // reaches in
+    EXPECT_EQ(with(sphere(3.1, 1, "lamp")), shut_in);
+    EXPECT_EQ(with(sphere(0, 3, "lamp")), shut_in); // a sky, all around the ball
+    EXPECT_EQ(with(sphere(1.1, 3, "lamp")), Texts());
+    EXPECT_EQ(warnings_of(scene_of(sphere(1.9, 2, "grey") + ", " + sphere(9, 1, "lamp"))), shut_in);
+    EXPECT_EQ(warnings_of(scene_of(sphere(2.1, 2, "grey") + ", " + sphere(9, 1, "lamp"))), Texts()); // it is outside
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "lamp"))), Texts());                                 // in a lamp
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey"), lamp_plane(1.9))), Texts());
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey"), lamp_plane(2.1))), shut_in);
+}
+
+TEST(Warnings, MotionMayLetLightIn) {
+    const std::string lamp = std::string(", ").append(sphere(9, 1, "lamp"));
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey", 1.9) + lamp)), shut_in);
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey", 2.1) + lamp)), Texts()); // the camera comes out
+    const std::string early = R"("camera": {"position": [0, 0, 1], "look_at": [0, 0, 0], "shutter": [0, 0.5]}, )";
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey", 2.1) + lamp), early), shut_in); // later
+    // A lamp flies through the ball, from outside to outside.
+    EXPECT_EQ(warnings_of(scene_of(sphere(0, 2, "grey") + ", " + sphere(-9, 1, "lamp", 18))), Texts());
+}
+
+TEST(Warnings, MaterialsThatGiveOffMoreThanTheyReceive) {
+    const auto with = [](const std::string &more) {
+        return warnings_of(
+            R"("materials": {"lamp": {"emission": 1}, "a b": {"diffuse": [0.1, 0.9, 0.3], "specular": )" + more +
+            R"(}, "c": {"diffuse": 2}}, "planes": [{"normal": [0, 1, 0], "offset": 1,
+                           "material": "a b"}], "spheres": [{"center": [0, 5, 0], "radius": 1, "material": "lamp"}])");
+    };
+    EXPECT_EQ(with("0.1"), Texts()); // 0.1 + 0.9 in float32; nothing is made of c
+    EXPECT_EQ(with("[0.9, 0, 0.7]"), Texts());
+    EXPECT_EQ(with("0.101"),
+              Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1: more light is reflected than received"});
+    EXPECT_EQ(with("[0, 0, 0.9]"),
+              Texts{"s.json: materials[\"a b\"]: diffuse + specular = 1.2: more light is reflected than received"});
+}
+
+TEST(Warnings, ManyMaterialsAreOneWarning) {
+    std::string materials_text = R"("lamp": {"emission": 1})";
+    std::string spheres = sphere(9, 1, "lamp");
+    for (const char *name : {"a", "b", "c", "d", "e"}) {
+        materials_text.append(", \"").append(name).append(R"(": {"specular": 1.5})");
+        spheres.append(", ").append(sphere(20, 1, name));
+    }
+    EXPECT_EQ(warnings_of(R"("materials": {)" + materials_text + R"(}, "spheres": [)" + spheres + "]"),
+              Texts{"s.json: materials.a, materials.b, materials.c and 2 more: diffuse + specular = 1.5 at the most: "
+                    "more light is reflected than received"});
+}
+
+TEST(Warnings, TargetsThatSayNothing) {
+    const cli::SceneFile scene =
+        cli::parse_scene(std::string("{").append(scene_of(sphere(9, 1, "lamp"))).append("}"), "s.json");
+    cli::RenderOptions options;
+    options.target_error = 0.999;
+    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)), Texts());
+    options.target_error = 2.0;
+    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)),
+              Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
+}
+
+TEST(Warnings, SamplesLeftOut) {
+    cli::RenderReport report{};
+    report.stats.sample_count = 8;
+    const std::vector<float> two_pixels(6, 0.18F);
+    EXPECT_EQ(image_warnings(report, two_pixels), Texts());
+    report.stats.rejected_samples = 4;
+    EXPECT_EQ(image_warnings(report, two_pixels),
+              Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
+}
+
+TEST(Warnings, BurntOutPictures) {
+    cli::RenderReport report{};
+    report.tone_map.emplace();
+    std::vector<float> radiance(std::size_t{3} * 400'000, 0.18F); // more than are looked at
+    for (std::size_t pixel = 0; pixel < 400'000; pixel += 5) {
+        radiance[3 * pixel + 2] = 1.0F; // one channel is enough
+    }
+    EXPECT_EQ(image_warnings(report, radiance), Texts()); // a fifth
+    for (std::size_t pixel = 0; pixel < 400'000; pixel += 2) {
+        radiance[3 * pixel] = 1.0F; // every second
+    }
+    EXPECT_EQ(
+        image_warnings(report, radiance),
+        Texts{"60% of the pixels are burnt out, with a channel at its maximum: try --exposure auto, here -0.87, or "
+              "--tonemap agx"});
+    report.automatic_exposure = true;
+    report.tone_map->curve = cli::ToneCurve::neutral;
+    report.tone_map->exposure = 9.0;
+    EXPECT_TRUE(image_warnings(report, radiance).at(0).ends_with(": try a lower --exposure than 9.00"));
+    report.tone_map.reset(); // EXR alone
+    EXPECT_EQ(image_warnings(report, radiance), Texts());
+}
+
+} // namespace
