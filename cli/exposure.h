@@ -17,11 +17,11 @@ inline constexpr double largest_exposure = 64.0; // and minus that the least
 std::optional<Exposure> parse_exposure(std::string_view text);
 
 // The stops that bring the average of an image to middle grey, 0.18: Reinhard, Stark, Shirley, Ferwerda 2002,
-// "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, whose average is the exponential of the mean of the
-// logarithms. It hardly depends on how bright the lamps in view are. Unlike there, a pixel counts by the mean of its
-// channels, not by their luminance, of which blue light has so little that it would be burnt out; and black pixels, which
-// have no logarithm, do not count. Rounded to hundredths, so that the number that is shown gives the same picture. 0 if
-// all is black.
+// "Photographic Tone Reproduction for Digital Images", eqs. 1 and 2, whose average is the exponential of the mean of
+// the logarithms. It hardly depends on how bright the lamps in view are. Unlike there, a pixel counts by the mean of
+// its channels and not by luminance, of which blue light has so little that it would be burnt out; and black pixels,
+// which have no logarithm, do not count. Rounded to hundredths, so that the number that is shown gives the same
+// picture. 0 if all is black.
 double automatic_exposure(std::span<const float> radiance);
 
 } // namespace cli

@@ -1,5 +1,5 @@
-// Owns paths to values in JSON text: how they are written in messages, and which line of the text they lead to. Lines are
-// looked up when there is something to say, by parsing the text once more: a scene may have millions of values.
+// Owns paths to values in JSON text: how they are written in messages, and which line of the text they lead to. Lines
+// are looked up when there is something to say, by parsing the text once more: a scene may have millions of values.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ std::string path_text(const JsonPath &path);
 // Takes a path of identifiers and indices, as path_text writes it, from the beginning of the text.
 JsonPath take_path(std::string_view &text);
 
-// The line, from 1, of the member's key or of the element, or of the innermost value around it that the text has; nothing
-// if it has not even the first step. Where a key is given several times, occurrence says which one counts.
+// The line, from 1, of the member's key or of the element, or of the innermost value around it that the text has;
+// nothing if it has not even the first step. Where a key is given several times, occurrence says which one counts.
 std::optional<std::size_t> find_line(std::string_view text, const JsonPath &path, std::size_t occurrence = 1);
 
 } // namespace cli

@@ -22,8 +22,9 @@ public:
     virtual void item(const JsonPlace &place, const nlohmann::json &value) = 0;
 };
 
-// Throws Failure(ExitCode::scene) for syntax errors, as "file:line:column: ...", and JsonRefusal for what is legal syntax
-// but has no single meaning here: duplicate keys, numbers beyond double, a root that is no object. Comments are allowed.
+// Throws Failure(ExitCode::scene) for syntax errors, as "file:line:column: ...", and JsonRefusal for what is legal
+// syntax but has no single meaning here: duplicate keys, numbers beyond double, a root that is no object. Comments are
+// allowed.
 void parse_json_sections(std::string_view text, const std::string &file_name, JsonSectionHandler &handler);
 
 } // namespace cli

@@ -18,8 +18,8 @@
 
 namespace cli {
 
-// Where a value stands, as a chain towards the root, so that a path is made only for messages: a scene may have millions
-// of values.
+// Where a value stands, as a chain towards the root, so that a path is made only for messages: a scene may have
+// millions of values.
 struct JsonPlace {
     const JsonPlace *parent = nullptr;
     std::string_view key; // empty at the root and in arrays

@@ -92,8 +92,8 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     }
 }
 
-// What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that wraps
-// could not be written over.
+// What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that
+// wraps could not be written over.
 void Progress::print_line(double samples, double seconds) {
     const std::array<std::string, 4> parts{
         formatted("%5.1f %%", 100.0 * fraction_),

@@ -39,8 +39,8 @@ struct SceneFile {
     pt_scene scene() const; // points into this object
     std::size_t surface_count() const { return spheres.size() + planes.size(); }
 
-    // The library's lines "materials[1].glossiness = -1: must be >= 0" in the file's words, with the line of the file where
-    // that can be read again: scene.json:7: materials.gold.glossiness = -1: must be >= 0.
+    // The library's lines "materials[1].glossiness = -1: must be >= 0" in the file's words, with the line of the file
+    // where that can be read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
     std::string explain(const std::string &message) const;
 };
 

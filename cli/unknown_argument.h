@@ -10,8 +10,8 @@ class App;
 
 namespace cli {
 
-// `unknown option "--expsure", did you mean "--exposure"?` of the first argument that was left over when the command line
-// was parsed; nothing if none was.
+// `unknown option "--expsure", did you mean "--exposure"?` of the first argument that was left over when the command
+// line was parsed; nothing if none was.
 std::optional<std::string> unknown_argument(const CLI::App &command);
 
 } // namespace cli

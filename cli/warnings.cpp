@@ -67,8 +67,8 @@ double distance(const Vector &a, const Vector &b) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Bounds of the distance of the centres while the shutter is open. Seen from b, a moves on a straight way: it is farthest
-// at one of its ends, and never farther from the nearest end than half of its length.
+// Bounds of the distance of the centres while the shutter is open. Seen from b, a moves on a straight way: it is
+// farthest from b at an end of the way, and never farther from the nearest end than half of its length.
 std::pair<double, double> distances(const pt_sphere &a, const pt_sphere &b, double open, double close) {
     const auto at = [&](double time) { return distance(center_at(a, time), center_at(b, time)); };
     const auto [near, far] = std::minmax({at(open), at(close)});
@@ -79,8 +79,8 @@ std::pair<double, double> distances(const pt_sphere &a, const pt_sphere &b, doub
     return {near - 0.5 * std::hypot(way[0], way[1], way[2]), far};
 }
 
-// Looks for a ball that shuts the camera in. Surfaces let no light through, so that inside it is dark unless the surface of
-// a lamp has a part there; one that is all around the ball, or all outside, has not.
+// Looks for a ball that shuts the camera in. Surfaces let no light through, so that inside it is dark unless the
+// surface of a lamp has a part there; one that is all around the ball, or all outside, has not.
 class ShutInCamera {
 public:
     explicit ShutInCamera(const SceneFile &scene) : scene_(scene) {

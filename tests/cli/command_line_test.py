@@ -48,16 +48,17 @@ class Usage(CommandLineTest):
         self.assertEqual(self.files(), [])
 
     def test_misspelt_names_get_a_suggestion(self):
-        for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt --h'),
+        render = ["render", COURSEWORK, "-o", "a.png"]
+        for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt'),
                                  (["scene.json"], 'subcommand "scene.json", known: render, bench, selftest, devices'),
-                                 (["render", COURSEWORK, "--outptu", "a.png"], 'unknown option "--outptu", did you mean '
-                                                                               '"--output"? (see pt render --help)'),
-                                 (["render", COURSEWORK, "-o", "a.png", "--expsure", "-3"], 'mean "--exposure"?'),
-                                 (["render", COURSEWORK, "-o", "a.png", "--expsure=-3"], 'unknown option "--expsure",'),
-                                 (["bench", COURSEWORK, "--sampler", "sobol"], 'mean "--samplers"? (see pt bench --help)'),
+                                 (["render", COURSEWORK, "--outptu", "a.png"],
+                                  'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
+                                 ([*render, "--expsure", "-3"], 'mean "--exposure"?'),
+                                 ([*render, "--expsure=-3"], 'unknown option "--expsure",'),
+                                 (["bench", COURSEWORK, "--sampler", "x"], 'mean "--samplers"? (see pt bench --help)'),
                                  (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
-                                 (["render", COURSEWORK, "-o", "a.png", "-Z"], 'unknown option "-Z" (see'),
-                                 (["render", COURSEWORK, "b.json", "-o", "a.png"], 'unexpected argument "b.json"')):
+                                 ([*render, "-Z"], 'unknown option "-Z" (see'),
+                                 (["render", "b.json", *render[1:]], 'unexpected argument "')):
             with self.subTest(arguments=arguments):
                 self.expect(2, *arguments, error=error)
         self.assertEqual(self.files(), [])
@@ -65,7 +66,7 @@ class Usage(CommandLineTest):
     def test_the_last_sample_has_an_index(self):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--first-sample", "4294967290", "--spp"]
         self.expect(0, *arguments, "6")
-        self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass the last")
+        self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass")
 
     def test_unknown_extensions(self):
         for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):

@@ -15,8 +15,8 @@ class TargetError(CommandLineTest):
     """The stand-in's image of N samples has the error 0.5 / N with bounds of half and twice that, unknown below 16."""
 
     def render(self, *options, code=0):
-        self.assertEqual(self.run_pt("render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json", *options),
-                         code, self.errors)
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "4x3", "--stats", "s.json"]
+        self.assertEqual(self.run_pt(*arguments, *options), code, self.errors)
         return json.loads(self.read("s.json"))
 
     def test_wrong_values(self):

@@ -105,6 +105,8 @@ TEST(Warnings, TargetsThatSayNothing) {
     cli::RenderOptions options;
     options.target_error = 0.999;
     EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)), Texts());
+    options.target_error = 1.0;
+    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)).size(), 1U);
     options.target_error = 2.0;
     EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)),
               Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
