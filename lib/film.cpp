@@ -117,10 +117,16 @@ Film::Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, st
     }
 }
 
-void Film::clear() {
-    for (Strip &strip : strips_) {
-        strip.words.clear();
-        strip.pass.clear();
+void Film::clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count) {
+    for (const Strip &strip : strips_) {
+        const std::uint64_t first = std::max(first_pixel, strip.first_pixel);
+        const std::uint64_t end = std::min(first_pixel + pixel_count, strip.first_pixel + strip.pixel_count);
+        if (first >= end)
+            continue;
+        for (const vulkan::Buffer *buffer : {&strip.words, &strip.pass}) {
+            const std::uint64_t share = buffer->size() / strip.pixel_count; // bytes
+            buffer->clear(commands, (first - strip.first_pixel) * share, (end - first) * share);
+        }
     }
     older_end_ = min_older_samples;
 }

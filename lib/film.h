@@ -42,14 +42,16 @@ public:
     static constexpr std::uint64_t words_per_pixel = std::uint64_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
     static constexpr std::uint64_t bytes_per_pixel = words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
 
-    // Holds nothing of meaning before clear(). Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
+    // Holds nothing of meaning before all its pixels are cleared. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
     // sizes beyond the device.
     Film(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
     std::uint32_t pixel_count() const { return width_ * height_; }
     std::vector<Strip> &strips() { return strips_; }
 
-    void clear();
+    // Records that pixels are emptied, all of them together before the first sample comes: of how many of them the
+    // words are those of which pixel does not matter.
+    void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);
 
     // The samples before this one that the film has, it has in part 0. Raised when its parts are folded.
     std::uint32_t older_end() const { return older_end_; }

@@ -139,20 +139,21 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
-// Each batch finds the film's older part complete: where it is not, the newer one is folded into it first.
+// Each batch of whole samples finds the film's older part complete: where it is not, the newer one is folded into it
+// first.
 vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample) {
-    const Slice all_pixels{0, film_.pixel_count(), 1, false};
-    const bool pass_complete = !slice.whole && slice.first_pixel + slice.pixel_count == film_.pixel_count();
-    const bool adds_to_film = slice.whole || pass_complete;
+    const Slice all_pixels{0, film_.pixel_count(), 1, true};
     std::uint32_t older_end = film_.older_end();
     const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count);
     upload_points(batches);
+    if (!slice.whole)
+        build_commit(first_sample);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         for (const Batch &batch : batches) {
             const bool is_first = &batch == &batches.front();
             const std::uint32_t needed = part_counts(batch.first_sample + 1)[0];
-            const bool folds = adds_to_film && needed > older_end;
+            const bool folds = slice.whole && needed > older_end;
             if (!is_first && (folds || !overlap_))
                 vulkan::barrier_between_dispatches(commands);
             if (folds) {
@@ -162,13 +163,32 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             }
             dispatch(commands, trace, slice, batch, sharers_);
         }
-        if (pass_complete) {
-            vulkan::barrier_between_dispatches(commands);
-            dispatch(commands, pipelines_.commit(), all_pixels, batches[0], 1); // a pass is one sample
-        }
     });
     film_.set_older_end(older_end);
     return ticket;
+}
+
+// Folds range by range too: only where the pass has been added to all pixels is the film read.
+vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample) {
+    const Batch batch{sample, 1, 0};
+    const std::uint32_t needed = part_counts(sample + 1)[0];
+    const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
+        if (needed > film_.older_end()) {
+            dispatch(commands, pipelines_.fold(), range, batch, 1);
+            vulkan::barrier_between_dispatches(commands);
+        }
+        dispatch(commands, pipelines_.commit(), range, batch, 1);
+    });
+    if (range.first_pixel + range.pixel_count == film_.pixel_count())
+        film_.set_older_end(std::max(needed, film_.older_end()));
+    return ticket;
+}
+
+// Before the pass, so that adding it cannot fail for want of them.
+void Kernel::build_commit(std::uint32_t sample) {
+    pipelines_.commit();
+    if (part_counts(sample + 1)[0] > film_.older_end())
+        pipelines_.fold();
 }
 
 double Kernel::finish(vulkan::Device::Ticket ticket) {

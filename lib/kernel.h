@@ -37,12 +37,15 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in sample_parts.h; with
-    // the last slice of a split pass adds the pass to the film. At most the device's queue_depth of slices may be
-    // under way.
+    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in sample_parts.h; those
+    // of a split pass are kept aside. At most the device's queue_depth of slices may be under way.
     vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
 
-    // Waits for a slice and returns the seconds it took.
+    // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
+    // holds whole samples again with the range that ends it.
+    vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample);
+
+    // Waits for a slice of start() and returns the seconds it took.
     double finish(vulkan::Device::Ticket ticket);
 
 private:
@@ -55,6 +58,7 @@ private:
 
     std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count);
     void upload_points(const std::vector<Batch> &batches);
+    void build_commit(std::uint32_t sample);
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
                   const Batch &batch, std::uint32_t invocations_per_pixel) const;
 

@@ -19,6 +19,9 @@ namespace {
 // it; measured slices size the rest.
 constexpr double assumed_tests_per_second = 2.5e8;
 
+// Likewise pixels of the film that it empties, or adds a sample to.
+constexpr double assumed_film_pixels_per_second = 4e6;
+
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
@@ -51,12 +54,20 @@ Film RenderDevice::make_film(const RenderSettings &settings) {
 void RenderDevice::set_film(Film film) {
     kernel_.reset(); // its descriptor sets name the old film
     film_ = std::move(film);
+    ScheduleLimits limits{};
+    limits.target_seconds = target_seconds_;
+    limits.first_slice_paths = target_seconds_ * assumed_film_pixels_per_second;
+    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+    film_schedule_.emplace(film_->pixel_count(), limits);
+    discard_samples();
 }
 
 void RenderDevice::discard_samples() noexcept {
     if (!device_.hangs()) // else it is up to the destructor, by when the work may have ended
         kernel_.reset();
     pass_pixels_ = 0;
+    uncommitted_pixels_ = 0;
+    uncleared_pixels_ = film_ ? film_->pixel_count() : 0;
 }
 
 std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &code) {
@@ -76,7 +87,6 @@ void RenderDevice::prepare(const Scene &scene, const Camera &camera, const Rende
         return;
     require_held_motions(scene, camera);
     const Camera start = starting_ahead(scene, camera, settings);
-    film_->clear();
     kernel_.emplace(device_, *pipelines_, *film_, without_twins(scene, start), start, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
@@ -87,14 +97,43 @@ void RenderDevice::prepare(const Scene &scene, const Camera &camera, const Rende
     schedule_.emplace(film_->pixel_count(), limits);
 }
 
+Film &RenderDevice::film() {
+    while (film_is_behind()) {
+        start_film_work();
+        finish();
+    }
+    return *film_;
+}
+
 std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remaining) {
+    if (!film_is_behind())
+        return start_samples(next_sample, remaining);
+    start_film_work();
+    return 0;
+}
+
+void RenderDevice::start_film_work() {
+    std::uint32_t &pixels_left = uncleared_pixels_ > 0 ? uncleared_pixels_ : uncommitted_pixels_;
+    const Slice slice = film_schedule_->next(1, film_->pixel_count() - pixels_left);
+    const vulkan::Device::Ticket ticket = uncleared_pixels_ > 0
+                                              ? device_.start([&](const vk::raii::CommandBuffer &commands) {
+                                                    film_->clear(commands, slice.first_pixel, slice.pixel_count);
+                                                })
+                                              : kernel_->commit(slice, pass_sample_);
+    under_way_.push_back({slice, ticket, true});
+    pixels_left -= slice.pixel_count;
+}
+
+std::uint32_t RenderDevice::start_samples(std::uint32_t next_sample, std::uint32_t remaining) {
     const bool in_pass = pass_pixels_ > 0;
     const Slice slice = schedule_->next(std::max(remaining, 1U), pass_pixels_);
     const std::uint32_t first_sample = in_pass ? pass_sample_ : next_sample;
-    under_way_.push_back({slice, kernel_->start(slice, first_sample)});
+    under_way_.push_back({slice, kernel_->start(slice, first_sample), false});
     if (!slice.whole) {
         const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-        pass_pixels_ = slice_end == film_->pixel_count() ? 0 : slice_end;
+        const bool is_complete = slice_end == film_->pixel_count();
+        pass_pixels_ = is_complete ? 0 : slice_end;
+        uncommitted_pixels_ = is_complete ? slice_end : 0;
         pass_sample_ = first_sample;
     }
     return in_pass ? 0 : slice.sample_count;
@@ -102,10 +141,10 @@ std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remai
 
 RenderDevice::Finished RenderDevice::finish() {
     const Work work = under_way_.front();
-    const double seconds = kernel_->finish(work.ticket);
+    const double seconds = work.on_film ? device_.finish(work.ticket) : kernel_->finish(work.ticket);
     under_way_.erase(under_way_.begin());
-    schedule_->measured(work.slice, seconds);
-    return {work.slice, seconds};
+    (work.on_film ? film_schedule_ : schedule_)->measured(work.slice, seconds);
+    return {work.on_film ? 0 : std::uint64_t{work.slice.pixel_count} * work.slice.sample_count, seconds};
 }
 
 void RenderDevice::drain() noexcept {

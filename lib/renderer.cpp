@@ -172,7 +172,7 @@ pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, 
         device->prepare(*scene_, *camera_, *settings_);
 
     const std::uint32_t samples_wanted = samples_done_ + sample_count;
-    const std::uint64_t pixel_count = devices_.front()->film().pixel_count();
+    const std::uint64_t pixel_count = devices_.front()->pixel_count();
     Job job{progress, sample_count * pixel_count - devices_.front()->pass_pixels()};
     while (samples_done_ < samples_wanted) {
         if (!is_in_pass() && is_on_target(target_error))
@@ -191,8 +191,8 @@ void Renderer::take_samples(std::uint32_t end, Job &job) {
     std::uint32_t dealt = samples_done_ + (is_in_pass() ? 1 : 0);
     const auto deal = [&](RenderDevice &device) {
         const bool finishes_pass = device.pass_pixels() > 0 && !(job.stopped && devices_.size() == 1);
-        const bool begins = device.pass_pixels() == 0 && !job.stopped && dealt < end;
-        if (!device.has_room() || !(finishes_pass || begins))
+        const bool goes_on = !job.stopped && (device.film_is_behind() || (device.pass_pixels() == 0 && dealt < end));
+        if (!device.has_room() || !(finishes_pass || goes_on))
             return false;
         dealt += device.start(dealt, end - dealt);
         return true;
@@ -227,10 +227,10 @@ bool Renderer::finish_slice(Job &job) {
     RenderDevice *const device = next_to_finish();
     if (!device)
         return false;
-    const auto [slice, seconds] = device->finish();
+    const auto [paths, seconds] = device->finish();
     ++submit_count_;
     device_seconds_ += seconds;
-    job.pixels_done += std::uint64_t{slice.pixel_count} * slice.sample_count;
+    job.pixels_done += paths;
     const double share = static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_wanted);
     if (job.progress.function && !job.stopped)
         job.stopped = job.progress.function(job.progress.user, std::min(share, 1.0)) != 0;

@@ -28,7 +28,7 @@ protected:
         const CourseworkScene coursework;
         pt::TracePipelines pipelines(device);
         pt::Film film(device, width, height, pt::max_strip_pixels(device.limits()));
-        film.clear();
+        device.submit([&](const vk::raii::CommandBuffer &commands) { film.clear(commands, 0, film.pixel_count()); });
         pt::Kernel kernel(device, pipelines, film, pt::validated_scene(coursework.scene()),
                           pt::validated_camera(CourseworkScene::camera()),
                           pt::validated_render(render_of(width, height, 3)));

@@ -41,6 +41,8 @@ protected:
         return devices[pt::vulkan::choose_device(infos, wanted ? wanted : "")];
     }
 
+    pt::vulkan::Instance &instance() { return *instance_; }
+
     pt::vulkan::Device &device() {
         if (!device_)
             device_.emplace(*instance_, physical_device(), pt::vulkan::LogicalDevice::create(physical_device()));

@@ -185,9 +185,8 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
     });
 }
 
-void Buffer::clear() {
-    state_->device.submit(
-        [&](const vk::raii::CommandBuffer &commands) { commands.fillBuffer(handle(), 0, VK_WHOLE_SIZE, 0); });
+void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const {
+    commands.fillBuffer(handle(), offset, bytes, 0);
 }
 
 } // namespace pt::vulkan

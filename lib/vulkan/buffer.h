@@ -39,7 +39,9 @@ public:
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
-    void clear();
+
+    // Records that bytes become 0. Offset and size likewise.
+    void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
 private:
     struct State;

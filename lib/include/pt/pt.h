@@ -200,6 +200,11 @@ typedef struct pt_render {
  * pt_accumulate_info.progress_user. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
+ *
+ * It stays as it is after submissions that take no sample: those that empty the image's memory before the first one,
+ * and those that add a sample to the image which took several submissions. What a driver does besides is not cut: it
+ * builds a kernel before the first call of this function. Mesa's lavapipe takes a third of a second for that, and as
+ * long again in the first submission that takes samples unless its cache has the kernel.
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size;    /**< sizeof(pt_accumulate_info) */
