@@ -27,6 +27,19 @@ struct Log {
             return;
         }
     }
+
+    // Passes on what the caller may want to know, and makes it only if there is somebody to hear of it. What becomes of
+    // it decides nothing: a message that cannot be made is dropped.
+    template <typename Message>
+    void info(Message &&message) const noexcept {
+        if (!function)
+            return;
+        try {
+            write(PT_LOG_INFO, message());
+        } catch (...) {
+            return;
+        }
+    }
 };
 
 } // namespace pt

@@ -32,9 +32,8 @@ std::vector<pt_device_info> list_devices() {
 Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),
-    log_(settings.log),
-    instance_(settings.vulkan ? vulkan::Instance(settings.vulkan->instance)
-                              : vulkan::Instance(log_, settings.validation)) {
+    instance_(settings.vulkan ? vulkan::Instance(settings.log, settings.vulkan->instance)
+                              : vulkan::Instance(settings.log, settings.validation)) {
     if (settings.vulkan)
         use_device_of(*settings.vulkan, settings);
     else
@@ -57,6 +56,10 @@ void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulka
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
                                                       settings.submit_milliseconds * 1e-3));
 }
+    log().info([&] {
+        const pt_device_info &info = devices_.back()->device().info();
+        return std::string("renders on ") + info.name + " (" + info.driver + ")";
+    });
 
 void Renderer::require_alive() const {
     for (const auto &device : devices_)

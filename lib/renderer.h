@@ -47,6 +47,7 @@ public:
     explicit Renderer(const CreateSettings &settings);
 
     const pt_device_info &device() const { return devices_.front()->device().info(); }
+    const Log &log() const { return instance_.log(); }
 
     // Of what is rendered and read back: the image's columns, and those of its rows that the settings ask for.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
@@ -101,7 +102,6 @@ private:
 
     ShaderSource source_;
     KernelCode code_;
-    Log log_;
     vulkan::Instance instance_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
     std::optional<Scene> scene_;

@@ -5,6 +5,8 @@
 
 #include <array>
 #include <bit>
+#include <chrono>
+#include <string>
 #include <utility>
 
 namespace pt {
@@ -42,8 +44,16 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
 
 const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> &place,
                                                      std::vector<std::uint32_t> constants) {
+    using Clock = std::chrono::steady_clock;
     place.reset(); // so that it holds nothing if this one cannot be built
+    const Clock::time_point start = Clock::now();
     vulkan::ComputePipeline pipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants);
+    device_.log().info([&] {
+        const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
+        const bool own = constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_CONSTANTS;
+        return std::string("built a kernel for ") + (own ? "this scene alone" : "all scenes of this kind") + " in " +
+               std::to_string(milliseconds) + " ms";
+    });
     return place.emplace(Specialised{std::move(constants), std::move(pipeline)}).pipeline;
 }
 

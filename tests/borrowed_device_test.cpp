@@ -84,7 +84,7 @@ protected:
     // Renders, reads back and destroys.
     void render(bool with_lock) const {
         const CallerVulkan handles = this->handles(with_lock);
-        Instance instance(handles.instance);
+        Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
         pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(),
                                 0.05);
@@ -128,7 +128,7 @@ TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
 
 TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
     const CallerVulkan handles = this->handles(true);
-    Instance instance(handles.instance);
+    Instance instance(pt::Log{}, handles.instance);
     const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
     Device device(instance, physical, LogicalDevice::borrow(physical, handles));
     const QueueSpy spy(device.handle());
@@ -148,7 +148,7 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
     const CallerVulkan handles = this->handles(false);
     std::optional<Gate> gate(caller_->device());
     {
-        Instance instance(handles.instance);
+        Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
         Device device(instance, physical, LogicalDevice::borrow(physical, handles),
                       {.patience = std::chrono::nanoseconds{0},

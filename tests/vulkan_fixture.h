@@ -58,8 +58,9 @@ protected:
     std::vector<std::string> messages_;
 
 private:
-    static void collect(void *user, int32_t /*level*/, const char *line) {
-        static_cast<std::vector<std::string> *>(user)->push_back(line);
+    static void collect(void *user, int32_t level, const char *line) {
+        if (level <= PT_LOG_WARNING)
+            static_cast<std::vector<std::string> *>(user)->push_back(line);
     }
 
     pt::Log log_;

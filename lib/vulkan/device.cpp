@@ -129,8 +129,10 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-void Device::lose(const std::string &message) {
-    lost_message_ = std::string("the device was lost: ") + message;
+// It is lost, whether or not there is memory left for the reason.
+void Device::lose(const std::function<std::string()> &reason) {
+    lost_ = true;
+    lost_message_ += ": " + reason();
     throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
@@ -146,7 +148,7 @@ Device::Ticket Device::start(const Record &record) {
             free->start = logical_device_.submit({.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
         } catch (const vk::DeviceLostError &error) {
             comes_to_rest(); // the submissions before it; what they use may be destroyed from here on
-            lose(error.what());
+            lose([&] { return error.what(); });
         }
     });
     free->pending = true;
@@ -213,15 +215,16 @@ void Device::wait(const Submission &submission) {
              was_overdue = is_overdue(submission))
             if (was_overdue) {
                 gave_up_ = true;
-                lose("it did not end a submission within " +
-                     std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience).count()) +
-                     " ms");
+                lose([&] {
+                    const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience);
+                    return "it did not end a submission within " + std::to_string(patience.count()) + " ms";
+                });
             }
         handle().resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
         // Whatever the error is, nobody knows what became of the work; but what it uses may be destroyed from here on.
         comes_to_rest();
-        lose(error.what());
+        lose([&] { return error.what(); });
     }
 }
 

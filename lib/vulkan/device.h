@@ -45,11 +45,12 @@ public:
     Device(const Device &) = delete;
     Device &operator=(const Device &) = delete;
 
+    const Log &log() const { return instance_.log(); }
     const pt_device_info &info() const { return info_; }
     const Limits &limits() const { return limits_; }
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
-    bool lost() const { return !lost_message_.empty(); }
+    bool lost() const { return lost_; }
 
     // Whether submissions that were given up are still under way, or were when the device was abandoned. What they use
     // must not be destroyed then.
@@ -104,7 +105,7 @@ private:
     void wait(const Submission &submission);
     bool ended(const Submission &submission) const;
     bool is_overdue(const Submission &submission) const;
-    [[noreturn]] void lose(const std::string &message);
+    [[noreturn]] void lose(const std::function<std::string()> &reason);
 
     Instance &instance_;
     pt_device_info info_;
@@ -117,7 +118,8 @@ private:
     Clock::time_point last_end_;
     vk::raii::PipelineCache pipeline_cache_ = nullptr;
     std::uint64_t allocated_bytes_ = 0;
-    std::string lost_message_;
+    std::string lost_message_ = "the device was lost";
+    bool lost_ = false;
     bool gave_up_ = false; // on a submission whose end was not seen
     bool abandoned_ = false;
 };

@@ -111,14 +111,16 @@ Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, 
 } // namespace
 
 Instance::Instance(const Log &log, bool validation) :
+    log_(std::make_unique<Log>(log)),
     context_(&::vkGetInstanceProcAddr),
-    instance_(owned_instance(context_, log, validation)) {
+    instance_(owned_instance(context_, *log_, validation)) {
     if (validation)
         messenger_.emplace(translated("creating the validation messenger",
-                                      [&] { return instance_->createDebugUtilsMessengerEXT(messenger_info(log)); }));
+                                      [&] { return instance_->createDebugUtilsMessengerEXT(messenger_info(*log_)); }));
 }
 
-Instance::Instance(VkInstance instance) :
+Instance::Instance(const Log &log, VkInstance instance) :
+    log_(std::make_unique<Log>(log)),
     context_(&::vkGetInstanceProcAddr),
     instance_(Borrowable<vk::raii::Instance>::borrowed({context_, instance})) {}
 

@@ -6,6 +6,7 @@
 #include "log.h"
 #include "vulkan/borrowable.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,12 +14,14 @@ namespace pt::vulkan {
 
 class Instance {
 public:
-    // The log must outlive the instance. Throws PT_ERROR_NO_DEVICE if Vulkan or its drivers are not there, and
+    // Throws PT_ERROR_NO_DEVICE if Vulkan or its drivers are not there, and
     // PT_ERROR_UNSUPPORTED if validation is asked for and the layer is not installed.
     Instance(const Log &log, bool validation);
 
     // The caller's, which is left alone.
-    explicit Instance(VkInstance instance);
+    Instance(const Log &log, VkInstance instance);
+
+    const Log &log() const { return *log_; }
 
     const vk::raii::Instance &handle() const { return *instance_; }
 
@@ -30,6 +33,7 @@ public:
     void abandon();
 
 private:
+    std::unique_ptr<const Log> log_; // the layer has its address, also while the Vulkan instance is destroyed
     vk::raii::Context context_;
     Borrowable<vk::raii::Instance> instance_;
     std::optional<vk::raii::DebugUtilsMessengerEXT> messenger_;

@@ -287,7 +287,8 @@ typedef struct pt_function_accuracy {
 enum {
     PT_LOG_ERROR = 1,   /**< something is wrong */
     PT_LOG_WARNING = 2, /**< something may be wrong */
-    PT_LOG_INFO = 3     /**< something to know */
+    PT_LOG_INFO = 3     /**< something to know: what a context renders on, which kernels its driver builds, how long
+                             that takes until the driver says that it is done (it may build more at their first use) */
 };
 
 /** Receives one UTF-8 line without its line break; line is valid during the call. level is a PT_LOG_*, user is
@@ -351,7 +352,7 @@ typedef struct pt_create_info {
      * Several devices share the samples of a context, with the same bits if they are of one kind and driver: "all" are
      * those of the best kind that there is; or indices or UUIDs separated by commas. UTF-8, zero-terminated. */
     const char *device;
-    pt_log_fn log;                /**< may be NULL; called by any call on the context until pt_destroy returns */
+    pt_log_fn log;                /**< may be NULL; called by pt_create and any call on the context */
     void *log_user;               /**< handed to log; the library does not look at it */
     uint32_t submit_milliseconds; /**< aim for the length of one submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */

@@ -1,0 +1,53 @@
+// What a context says to its log without being asked for validation.
+#include "api_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace api {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+class LogTest : public ApiTest {
+protected:
+    static void collect(void *user, int32_t level, const char *line) {
+        static_cast<Lines *>(user)->push_back(std::to_string(level) + " " + line);
+    }
+};
+
+TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
+    Lines lines;
+    const Context logged = create_context([&](pt_create_info &info) {
+        info.flags = 0;
+        info.log = &LogTest::collect;
+        info.log_user = &lines;
+    });
+    pt_device_info device{};
+    ASSERT_EQ(pt_get_context_device(logged.get(), &device), PT_OK);
+    EXPECT_EQ(lines, (Lines{std::string("3 renders on ") + device.name + " (" + device.driver + ")"}));
+    lines.clear();
+    const pt_scene scene = valid_scene();
+    const pt_camera camera = valid_camera();
+    const pt_render render = valid_render();
+    ASSERT_EQ(pt_set_scene(logged.get(), &scene), PT_OK);
+    ASSERT_EQ(pt_set_camera(logged.get(), &camera), PT_OK);
+    ASSERT_EQ(pt_set_render(logged.get(), &render), PT_OK);
+    EXPECT_EQ(lines, Lines{});
+    const pt_accumulate_info one = samples(1);
+    ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
+    ASSERT_EQ(lines.size(), 1U);
+    const std::regex built("3 built a kernel for (this scene alone|all scenes of this kind) in [0-9]+ ms");
+    EXPECT_TRUE(std::regex_match(lines[0], built)) << lines[0];
+    lines.clear();
+    ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
+    EXPECT_EQ(lines, Lines{}) << "the kernel is there";
+}
+
+} // namespace
+
+} // namespace api
