@@ -1,6 +1,7 @@
 // The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in
 // Renderer and in the validated_* functions. Called by programs through pt.h.
 #include "accuracy.h"
+#include "context.h"
 #include "guard.h"
 #include "image.h"
 #include "renderer.h"
@@ -14,60 +15,53 @@
 #include <string>
 #include <vector>
 
-struct pt_context {
-    explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
-
-    pt::Renderer renderer;
-    pt::LastError last_error;
-};
-
 namespace pt {
 
 namespace {
-
-// Of the calls without a context that this thread made.
-thread_local LastError thread_last_error;
 
 void require_not_null(const void *pointer, const char *name) {
     if (!pointer)
         throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
 }
 
-// Runs a call on a context, or fails without one.
+// The last call on a context that this thread made, if it was refused because the context was in use. It has a message
+// of its own, since the context's belongs to the call that is under way.
+struct Refusal {
+    const pt_context *context = nullptr;
+    const char *message = nullptr;
+
+    void forget(const pt_context *of) {
+        if (context == of)
+            *this = {};
+    }
+};
+thread_local Refusal refusal;
+
+// Runs a call on a context, or fails without one. A call that is refused touches nothing of the context.
 template <typename Call>
 pt_result guard_context(pt_context *context, Call &&call) noexcept {
-    return guard(context ? context->last_error : thread_last_error, [&] {
-        require_not_null(context, "context");
-        return call(context->renderer);
-    });
+    if (!context)
+        return guard(thread_last_error, [] { require_not_null(nullptr, "context"); });
+    if (const char *reason = context->in_use.take()) {
+        refusal = {context, reason};
+        return PT_ERROR_INVALID_STATE;
+    }
+    refusal.forget(context);
+    const pt_result result = guard(context->last_error, [&] { return call(context->renderer); });
+    if (result < PT_OK)
+        refusal.forget(context); // of a call from a callback of this one, which has failed since
+    context->in_use.release();
+    return result;
 }
 
-CreateSettings validated_create(const pt_create_info &info) {
-    constexpr std::uint32_t known_flags = PT_CREATE_VALIDATION;
-    constexpr std::uint32_t default_submit_milliseconds = 50;
-    Violations violations;
-    const Subject create(violations, "create");
-    create.require((info.flags & ~known_flags) == 0, "flags", info.flags,
-                   "must be a combination of PT_CREATE_* of pt.h");
-    create.require(info.submit_milliseconds <= 1000, "submit_milliseconds", info.submit_milliseconds,
-                   "must be <= 1000");
-    create.require(info.reserved == 0, "reserved", info.reserved, "must be 0");
-    create.require(!info.vulkan || info.flags == 0, "flags", info.flags,
-                   "must be 0 with vulkan, whose instance has its own layers");
-    if (info.vulkan && info.device)
-        violations.add("create.device", std::string("\"") + info.device + '"',
-                       "must be NULL with vulkan, which has one");
-    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-    CreateSettings settings;
-    settings.validation = (info.flags & PT_CREATE_VALIDATION) != 0;
-    settings.device = info.device ? info.device : "";
-    settings.shader_directory = info.shader_dir ? info.shader_dir : "";
-    settings.log = {info.log, info.log_user};
-    settings.submit_milliseconds =
-        info.submit_milliseconds == 0 ? default_submit_milliseconds : info.submit_milliseconds;
-    if (info.vulkan)
-        settings.vulkan = vulkan::validated_vulkan(copy_in(info.vulkan, "vulkan"));
-    return settings;
+// Nothing else can be done: what is in use cannot be freed. A log function that destroys its context is told once.
+void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
+    const bool told = refusal.context == &context;
+    refusal = {&context, reason};
+    if (!told)
+        guard(thread_last_error, [&] {
+            context.renderer.log().write(PT_LOG_ERROR, std::string("pt_destroy: ") + reason + ", which stays");
+        });
 }
 
 } // namespace
@@ -103,11 +97,28 @@ pt_result pt_create(const pt_create_info *info, pt_context **context) {
 }
 
 const char *pt_last_error(const pt_context *context) {
-    return (context ? context->last_error : pt::thread_last_error).c_str();
+    if (!context)
+        return pt::thread_last_error.c_str();
+    if (pt::refusal.context == context)
+        return pt::refusal.message;
+    if (context->in_use.by_this_thread())
+        return context->last_error.c_str();
+    if (const char *reason = context->in_use.take())
+        return reason;
+    const char *message = context->last_error.c_str();
+    context->in_use.release();
+    return message;
 }
 
 void pt_destroy(pt_context *context) {
-    delete context;
+    if (!context)
+        return;
+    if (const char *reason = context->in_use.take()) {
+        pt::refuse_to_destroy(*context, reason);
+        return;
+    }
+    pt::refusal.forget(context);
+    delete context; // still taken: what its callbacks call is refused
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {

@@ -1,6 +1,7 @@
 // Where exceptions end: turns them into a pt_result and a message that pt_last_error can return. Used by api.cpp alone.
 #pragma once
 
+#include "default_rounding.h"
 #include "error.h"
 
 #include <exception>
@@ -40,6 +41,7 @@ pt_result guard(LastError &last_error, Call &&call) noexcept {
         last_error.store(message);
         return code;
     };
+    const DefaultRounding rounding;
     try {
         if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
             call();

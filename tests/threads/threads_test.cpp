@@ -84,6 +84,42 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     EXPECT_EQ(result, PT_CANCELLED);
 }
 
+// Against the contract, and still without a race: what comes second is refused.
+TEST(ThreadsTest, ASecondThreadIsRefused) {
+    pt_create_info create{};
+    create.struct_size = sizeof create;
+    create.submit_milliseconds = 1;
+    pt_context *context = nullptr;
+    ASSERT_EQ(pt_create(&create, &context), PT_OK) << pt_last_error(nullptr);
+    CourseworkScene coursework;
+    const pt_scene scene = coursework.scene();
+    const pt_camera camera = CourseworkScene::camera();
+    const pt_render render = render_of(width, height, 3);
+    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    Progress progress;
+    pt_result result = PT_OK;
+    std::thread renders([&] {
+        const pt_accumulate_info info{sizeof info, UINT32_MAX, &Progress::report, &progress, 0};
+        result = pt_accumulate(context, &info);
+    });
+    while (progress.calls == 0)
+        std::this_thread::yield();
+    for (int i = 0; i < 1000; ++i) {
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(context, &stats), PT_ERROR_INVALID_STATE);
+        EXPECT_STREQ(pt_last_error(context), "this context is in use by another thread");
+        EXPECT_EQ(pt_set_camera(context, &camera), PT_ERROR_INVALID_STATE);
+        pt_destroy(context);
+    }
+    progress.stop = true;
+    renders.join();
+    EXPECT_EQ(result, PT_CANCELLED);
+    pt_destroy(context);
+}
+
 // The negative control: the program's callback races, and the sanitizer has to say so.
 TEST(ThreadsTest, DISABLED_ARaceInACallback) {
     int unguarded = 0;

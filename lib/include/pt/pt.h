@@ -24,10 +24,16 @@
  *   function names, it can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL; and with
  *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
  * - Threads: different contexts are independent and may be used at the same time; one context is used by one thread
- *   at a time. The library starts no threads, prints nothing, reads no files but those of
- *   pt_create_info.shader_dir and has no globals.
- * - Callbacks: run inside the call, on the calling thread, must not call back into the same context and must not
- *   throw.
+ *   at a time. A call on a context that another thread is in a call on is refused (PT_ERROR_INVALID_STATE), and
+ *   changes nothing. The library starts no threads (drivers do), prints nothing, reads no files but those of
+ *   pt_create_info.shader_dir and has no globals. Calls need less than 256 KiB of stack on Mesa's lavapipe.
+ * - Processes: after fork a child may make contexts of its own, but must not use those of its parent, nor destroy them:
+ *   the threads of their driver are not in the child, and a call may wait for them for ever.
+ * - Callbacks: run inside the call, on the calling thread, must not call back into the same context, which is refused
+ *   (PT_ERROR_INVALID_STATE), and must not throw.
+ * - Floating point: calls, and callbacks in them, round to nearest, and the caller's mode is back when they return.
+ *   Exceptions must not be trapped. A driver's threads that compute inherit the mode of who starts them: with pt_vulkan
+ *   that is the caller, who has to make the device with rounding to nearest.
  */
 #ifndef PT_H
 #define PT_H
@@ -55,7 +61,7 @@ enum {
     PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
-    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set first; the message says what */
+    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set first, or the context is in a call already */
     PT_ERROR_UNSUPPORTED = -4,          /**< valid, but beyond this device, driver or library */
     PT_ERROR_NO_DEVICE = -5,            /**< no Vulkan driver, or no device fits; the message has the reasons */
     PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little memory left */
@@ -399,6 +405,9 @@ PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
 /** Message of the last call on this context that failed ("" if none did), valid until the next call on it.
  *
+ *
+ * If this thread's last call on the context was refused because the context was in a call already, it is the message of
+ * that; and from a thread that may not use the context now, it says so.
  * With NULL: of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such
  * call. UTF-8, never NULL, owned by the library. Of a context: the thread that uses the context; never fails. */
 PT_API const char *pt_last_error(const pt_context *context);
@@ -406,7 +415,10 @@ PT_API const char *pt_last_error(const pt_context *context);
 /* -- one thread at a time per context -- */
 
 /** Waits for the device and frees everything. NULL is allowed. One thread, after all other calls on the context; never
- * fails. */
+ * fails.
+ *
+ * In a callback of the context, or while another thread is in a call on it, nothing is freed: the context stays as it
+ * is, to be destroyed later, and the log and pt_last_error say so. */
 PT_API void pt_destroy(pt_context *context);
 
 /** What this context runs on; the first of several devices. One thread at a time per context. */
