@@ -43,7 +43,8 @@ Renderer::Renderer(const CreateSettings &settings) :
 void Renderer::use_own_devices(const CreateSettings &settings) {
     const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
     for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
-        add_device(devices[index], vulkan::LogicalDevice::create(devices[index]), settings);
+        for (std::uint32_t i = 0; i < settings.devices_of_each; ++i)
+            add_device(devices[index], vulkan::LogicalDevice::create(devices[index]), settings);
 }
 
 void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
@@ -55,11 +56,11 @@ void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulka
                           const CreateSettings &settings) {
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
                                                       settings.submit_milliseconds * 1e-3));
-}
     log().info([&] {
         const pt_device_info &info = devices_.back()->device().info();
         return std::string("renders on ") + info.name + " (" + info.driver + ")";
     });
+}
 
 void Renderer::require_alive() const {
     for (const auto &device : devices_)

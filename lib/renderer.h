@@ -29,6 +29,7 @@ struct CreateSettings {
     Log log;
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
+    std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
 };
 
 // The caller's pt_progress_fn.
@@ -46,8 +47,8 @@ class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
 
-    const pt_device_info &device() const { return devices_.front()->device().info(); }
     const Log &log() const { return instance_.log(); }
+    const pt_device_info &device() const { return devices_.front()->device().info(); }
 
     // Of what is rendered and read back: the image's columns, and those of its rows that the settings ask for.
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }

@@ -35,8 +35,12 @@ protected:
 
     pt_context *context() const { return context_.get(); }
 
+    using Create = std::function<pt_result(const pt_create_info *, pt_context **)>;
+
     // Another context, with what adjust makes of the fixture's settings. To be destroyed before the test ends.
-    Context create_context(const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {}) {
+    Context create_context(
+        const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
+        const Create &create = &pt_create) {
         pt_create_info info{};
         info.struct_size = sizeof info;
         info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;
@@ -45,7 +49,7 @@ protected:
         info.log_user = &complaints_;
         adjust(info);
         pt_context *created = nullptr;
-        EXPECT_EQ(pt_create(&info, &created), PT_OK) << pt_last_error(nullptr);
+        EXPECT_EQ(create(&info, &created), PT_OK) << pt_last_error(nullptr);
         return Context(created);
     }
 

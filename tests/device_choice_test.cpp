@@ -110,4 +110,20 @@ TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
             << wrong;
 }
 
+// By its index, its UUID, or as a driver lists it again.
+TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
+    std::vector<pt_device_info> devices = workstation;
+    devices.push_back(devices[5]);
+    for (const std::string twice : {"5,5", "3,5,3", "5,abababab-abab-abab-abab-abababababab", "7,5"}) {
+        const pt::Error error = error_of([&] { pt::vulkan::choose_devices(devices, twice); });
+        EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT) << twice;
+        EXPECT_TRUE(names(error, "create.device = \"" + twice + "\": must not name a device twice")) << error.what();
+    }
+    EXPECT_EQ(pt::vulkan::choose_devices(devices, "all"), (std::vector<std::size_t>{5, 6}));
+    // Drivers that know no UUIDs.
+    const std::vector<pt_device_info> nameless = {invented(PT_DEVICE_CPU, "a"), invented(PT_DEVICE_CPU, "b")};
+    EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(pt::vulkan::choose_devices(nameless, "all"), (std::vector<std::size_t>{0, 1}));
+}
+
 } // namespace

@@ -1,12 +1,11 @@
 // The work of a context shared by several devices, and an image rendered in pieces: neither changes a bit.
 #include "context_fixture.h"
 #include "coursework_scene.h"
+#include "shared_context.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <string>
 #include <vector>
 
 namespace {
@@ -18,23 +17,12 @@ using Image = std::vector<float>;
 
 class SharingTest : public ContextFixture {
 protected:
-    // A context on the fixture's device, named as often as devices are wanted.
+    // A context on the fixture's device, taken as often as devices are wanted.
     Context context_on(uint32_t device_count, uint32_t submit_milliseconds) {
-        pt_device_info device{};
-        EXPECT_EQ(pt_get_context_device(context(), &device), PT_OK);
-        std::string uuid;
-        for (const uint8_t byte : device.uuid) {
-            char digits[3];
-            std::snprintf(digits, sizeof digits, "%02x", byte);
-            uuid += digits;
-        }
-        std::string list = uuid;
-        for (uint32_t i = 1; i < device_count; ++i)
-            list += "," + uuid;
-        return create_context([&](pt_create_info &info) {
-            info.device = list.c_str();
-            info.submit_milliseconds = submit_milliseconds;
-        });
+        return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
+                              [&](const pt_create_info *info, pt_context **context) {
+                                  return create_shared(device_count, *info, context);
+                              });
     }
 
     static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0) {

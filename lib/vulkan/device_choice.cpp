@@ -8,6 +8,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <optional>
 
 namespace pt::vulkan {
 
@@ -173,12 +174,23 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
+// The one of the chosen devices that is the same as another: listed at the same place, or by a second driver of the same
+// name for the same hardware, which shows in the UUID.
+std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
+                                             std::span<const std::size_t> chosen, std::size_t other) {
+    const std::string uuid = uuid_digits(devices[other]);
+    const bool known = uuid.find_first_not_of('0') != std::string::npos;
+    const auto found = std::ranges::find_if(
+        chosen, [&](std::size_t index) { return index == other || (known && uuid_digits(devices[index]) == uuid); });
+    return found == chosen.end() ? std::nullopt : std::optional(*found);
+}
+
 // The best one that fits, and those that are of its kind.
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
     std::vector<std::size_t> chosen;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        if (devices[i].suitable && devices[i].kind == kind)
+        if (devices[i].suitable && devices[i].kind == kind && !same_device_among(devices, chosen, i))
             chosen.push_back(i);
     return chosen;
 }
@@ -189,8 +201,14 @@ std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices,
     if (lower_case(wanted) == "all")
         return all_of_the_best_kind(devices);
     std::vector<std::size_t> chosen;
-    for (const std::string &item : listed(wanted))
-        chosen.push_back(choose_device(devices, item));
+    for (const std::string &item : listed(wanted)) {
+        const std::size_t index = choose_device(devices, item);
+        if (const std::optional<std::size_t> same = same_device_among(devices, chosen, index))
+            throw Error(PT_ERROR_INVALID_ARGUMENT,
+                        "create.device = \"" + wanted + "\": must not name a device twice: " + item + " is device " +
+                            std::to_string(*same) + " (" + devices[*same].name + "), which is in the list already");
+        chosen.push_back(index);
+    }
     return chosen.empty() ? std::vector{choose_device(devices, wanted)} : chosen;
 }
 

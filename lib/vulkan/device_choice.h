@@ -18,7 +18,8 @@ pt_device_info describe(const vk::raii::PhysicalDevice &device);
 // against each device if none fits.
 std::size_t choose_device(std::span<const pt_device_info> devices, const std::string &wanted);
 
-// Indices of the devices that pt_create_info.device asks for, one or several, at least one. Throws likewise.
+// Indices of the devices that pt_create_info.device asks for, one or several, at least one and each once. Throws
+// likewise, and PT_ERROR_INVALID_ARGUMENT if a list names a device twice.
 std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices, const std::string &wanted);
 
 } // namespace pt::vulkan

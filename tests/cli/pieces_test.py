@@ -99,7 +99,7 @@ class RealDevice(CommandLineTest):
 
     def test_neither_pieces_nor_devices_change_a_bit(self):
         whole = self.pixels()
-        for option, value in (("--piece-rows", "10"), ("--piece-rows", "33"), ("--device", "0,0"), ("--device", "all")):
+        for option, value in (("--piece-rows", "10"), ("--piece-rows", "33"), ("--device", "all")):
             with self.subTest(option=option, value=value):
                 self.assertEqual(self.pixels(option, value), whole)
         self.assertNotEqual(self.pixels(samples=16), whole)

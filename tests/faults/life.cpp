@@ -3,6 +3,7 @@
 
 #include "allocations.h"
 #include "scene_of.h"
+#include "shared_context.h"
 #include "vulkan_calls.h"
 
 #include <gtest/gtest.h>
@@ -40,14 +41,6 @@ pt_render render() {
     pt_render render = render_of(width, height, 24);
     render.seed = 7;
     return render;
-}
-
-// The device that pt_create takes by default, as often as wanted.
-std::string device_list(uint32_t count) {
-    std::string list = "0";
-    for (uint32_t i = 1; i < count; ++i)
-        list += ",0";
-    return list;
 }
 
 int32_t go_on(void * /*user*/, double /*fraction*/) {
@@ -105,12 +98,13 @@ void Life::tell() {
     look("pt_get_devices, count", [&] { return pt_get_devices(nullptr, &count); });
     look("pt_get_devices", [&] { return pt_get_devices(devices.data(), &count); });
 
-    const std::string device = device_list(setting_.device_count);
     pt_create_info create{};
     create.struct_size = sizeof create;
-    create.device = device.c_str();
     create.submit_milliseconds = setting_.submit_milliseconds;
-    call("pt_create", [&] { return pt_create(&create, &context_); });
+    call("pt_create", [&] {
+        return setting_.device_count == 1 ? pt_create(&create, &context_)
+                                          : create_shared(setting_.device_count, create, &context_);
+    });
     look("pt_get_context_device", [&] { return pt_get_context_device(context_, devices.data()); });
 
     const Scene scene;

@@ -356,7 +356,8 @@ typedef struct pt_create_info {
     /** NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
      * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case.
      * Several devices share the samples of a context, with the same bits if they are of one kind and driver: "all" are
-     * those of the best kind that there is; or indices or UUIDs separated by commas. UTF-8, zero-terminated. */
+     * those of the best kind that there is; or indices or UUIDs separated by commas, each device once. UTF-8,
+     * zero-terminated. */
     const char *device;
     pt_log_fn log;                /**< may be NULL; called by pt_create and any call on the context */
     void *log_user;               /**< handed to log; the library does not look at it */
