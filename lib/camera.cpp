@@ -31,9 +31,7 @@ glm::dvec3 vector(const double (&components)[3]) {
 const char *fov_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
-    if (value <= 0.0 || value >= std::numbers::pi)
-        return "must lie in (0, pi)";
-    return value >= min_vertical_fov ? nullptr : "must be >= 1e-8";
+    return value >= min_vertical_fov && value < std::numbers::pi ? nullptr : "must lie in [1e-8, pi)";
 }
 
 const char *shutter_rule(double value) {

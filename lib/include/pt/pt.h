@@ -185,7 +185,7 @@ enum {
 /** What image is to be made, and how. */
 typedef struct pt_render {
     uint32_t struct_size;     /**< sizeof(pt_render) */
-    uint32_t width;           /**< pixels, >= 1 */
+    uint32_t width;           /**< pixels, >= 1; width * height <= 2^32 - 1 */
     uint32_t height;          /**< pixels, >= 1 */
     uint32_t max_path_length; /**< surface vertices after the camera, 1 = emission only; [1, 1024]; default 6 */
     uint64_t seed;            /**< equal inputs, device and driver and equal seed: equal bits */
@@ -201,16 +201,16 @@ typedef struct pt_render {
 
 /** Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
  *
+ * It stays as it is after submissions that take no sample: those that empty the image's memory before the first one,
+ * and those that add a sample to the image which took several submissions. What a driver does besides is not cut: it
+ * builds a kernel before the first call of this function. Mesa's lavapipe takes a third of a second for that, and as
+ * long again in the first submission that takes samples unless its cache has the kernel.
+ *
  * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
  * at the most, and with several devices those that complete the samples begun. user is
  * pt_accumulate_info.progress_user. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
- *
- * It stays as it is after submissions that take no sample: those that empty the image's memory before the first one,
- * and those that add a sample to the image which took several submissions. What a driver does besides is not cut: it
- * builds a kernel before the first call of this function. Mesa's lavapipe takes a third of a second for that, and as
- * long again in the first submission that takes samples unless its cache has the kernel.
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size;    /**< sizeof(pt_accumulate_info) */
@@ -406,9 +406,9 @@ PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
 /** Message of the last call on this context that failed ("" if none did), valid until the next call on it.
  *
- *
  * If this thread's last call on the context was refused because the context was in a call already, it is the message of
  * that; and from a thread that may not use the context now, it says so.
+ *
  * With NULL: of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such
  * call. UTF-8, never NULL, owned by the library. Of a context: the thread that uses the context; never fails. */
 PT_API const char *pt_last_error(const pt_context *context);
