@@ -4,11 +4,15 @@ Python and libpt.so.0 is needed.
     python3 smallest.py          PT_LIBRARY names the library where the system does not find it
 
 The classes are the structs of pt.h, field by field; a field that is not set is 0, which means its default.
+
+A child of fork must not use a Renderer of its parent, and its calls would never return. With multiprocessing, make
+renderers in the workers, and start those by multiprocessing.get_context("spawn").
 """
 
 import array
 import ctypes
 import os
+import sys
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int32, c_uint8, c_uint32, c_uint64, c_void_p
 
 WIDTH, HEIGHT = 128, 96
@@ -128,8 +132,30 @@ class Renderer:
         self._check(self.library.pt_set_render(self.context, pt_render(width=width, height=height, **fields)))
         self.value_count = width * (fields.get("row_count") or height - fields.get("first_row", 0)) * 3
 
-    def accumulate(self, sample_count):
-        self._check(self.library.pt_accumulate(self.context, pt_accumulate_info(sample_count=sample_count)))
+    def accumulate(self, sample_count, progress=None):
+        """Adds samples, and calls progress with the share that is done after every submission: a twentieth of a second.
+        What is raised meanwhile, by progress or by a signal such as Ctrl-C, stops the call and is raised here. True
+        returned by progress stops it too; then fewer samples were added."""
+        raised = []
+
+        def report(_, fraction):
+            return int(bool(raised or (progress and progress(fraction))))
+
+        def keep(unraisable):  # ctypes lets no exception pass through the library, but hands it to this hook
+            if unraisable.object is report:
+                raised.append(unraisable.exc_value)
+            else:
+                hook(unraisable)
+
+        hook, sys.unraisablehook = sys.unraisablehook, keep
+        try:
+            result = self.library.pt_accumulate(self.context, pt_accumulate_info(
+                sample_count=sample_count, progress=pt_progress_fn(report)))
+        finally:
+            sys.unraisablehook = hook
+        if raised:
+            raise raised[0]
+        self._check(result)
 
     def image(self):
         """R, G, B of each pixel, row by row from the top; numpy.frombuffer(image, "f4") views it without a copy."""
@@ -137,6 +163,10 @@ class Renderer:
         data = (c_float * self.value_count).from_buffer(pixels)
         self._check(self.library.pt_readback(self.context, pt_image(data=data, size_bytes=ctypes.sizeof(data))))
         return pixels
+
+
+def show_progress(fraction):
+    print(f"\r{fraction:4.0%}", end="", file=sys.stderr, flush=True)
 
 
 def main():
@@ -150,9 +180,9 @@ def main():
                            [pt_plane(normal=(0, 1, 0), material=0)])
         renderer.set_camera(position=(0, 1.5, 5), target=(0, 1, 0))
         renderer.set_render(WIDTH, HEIGHT)
-        renderer.accumulate(64)
+        renderer.accumulate(64, show_progress)
         pixels = renderer.image()
-        print("rendered on", renderer.device_name())
+        print("\rrendered on", renderer.device_name())
     with open("smallest.pfm", "wb") as file:
         file.write(b"PF\n%d %d\n-1.0\n" % (WIDTH, HEIGHT))
         for row in reversed(range(HEIGHT)):  # PFM wants the bottom row first

@@ -1,10 +1,23 @@
 """A program of somebody else, in Python, with the definitions of the example smallest.py: inside a ball that shines, every
 pixel has the ball's radiance, exactly. Arguments: the examples' folder and the red that is expected."""
 
+import signal
 import sys
 
 sys.path.insert(0, sys.argv[1])
 import smallest  # noqa: E402
+
+
+def raised_by(renderer, progress):
+    try:
+        renderer.accumulate(1_000_000, progress)
+    except (LookupError, KeyboardInterrupt) as error:
+        return type(error)
+    return None
+
+
+def fail(_):
+    raise LookupError
 
 
 def main():
@@ -13,6 +26,10 @@ def main():
         renderer.set_scene([smallest.pt_material(emission=(2, 1, 0.5))], [smallest.pt_sphere(radius=3)])
         renderer.set_camera(target=(0, 0, -1))
         renderer.set_render(8, 4)
+        if raised_by(renderer, fail) != LookupError:
+            sys.exit("what a callback raised was lost")
+        if raised_by(renderer, lambda _: signal.raise_signal(signal.SIGINT)) != KeyboardInterrupt:
+            sys.exit("an interrupt was lost")
         renderer.accumulate(3)
         pixels = renderer.image()
         try:
