@@ -122,6 +122,7 @@ TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
     EXPECT_EQ(pt::vulkan::choose_devices(devices, "all"), (std::vector<std::size_t>{5, 6}));
     // Drivers that know no UUIDs.
     const std::vector<pt_device_info> nameless = {invented(PT_DEVICE_CPU, "a"), invented(PT_DEVICE_CPU, "b")};
+    EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(nameless, "1,1"); }).code(), PT_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));
     EXPECT_EQ(pt::vulkan::choose_devices(nameless, "all"), (std::vector<std::size_t>{0, 1}));
 }
