@@ -49,8 +49,9 @@ void require_host_memory(const RenderSettings &settings, const std::string &scen
         return;
     }
     const std::string size = std::to_string(settings.render.width) + "x" + std::to_string(settings.render.height);
-    throw Failure(settings.size_from_scene ? ExitCode::scene : ExitCode::usage,
-                  (settings.size_from_scene ? scene + ": film of " : "--size ") + size + ": " +
+    const bool from_scene = settings.is_size_from_scene();
+    throw Failure(from_scene ? ExitCode::scene : ExitCode::usage,
+                  (from_scene ? scene + ": film of " : "--size ") + size + ": " +
                       (image_count == 1 ? "the image takes " : std::to_string(image_count) + " images take ") +
                       memory_text(needed) + " of memory, more than the " + memory_text(most) +
                       " that this process can have");

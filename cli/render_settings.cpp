@@ -41,6 +41,11 @@ bool RenderSettings::is_from_scene(const FieldName *name) const {
            std::find(scene_keys.begin(), scene_keys.end(), name->key) != scene_keys.end();
 }
 
+bool RenderSettings::is_size_from_scene() const {
+    return std::any_of(scene_keys.begin(), scene_keys.end(),
+                       [](std::string_view key) { return key == "film.width" || key == "film.height"; });
+}
+
 Failure RenderSettings::explain(const std::string &message, const SceneFile &scene) const {
     ExitCode code = ExitCode::scene;
     std::string explained;

@@ -30,6 +30,9 @@ struct RenderSettings {
     // file (ExitCode::scene).
     Failure explain(const std::string &message, const SceneFile &scene) const;
 
+    // Whether the scene file says how large the image is, or a side of it.
+    bool is_size_from_scene() const;
+
 private:
     bool is_from_scene(const FieldName *name) const;
 };

@@ -33,7 +33,8 @@ glm::dvec3 from_center(const Sphere &sphere, const Camera &camera) {
 } // namespace
 
 CurvedPlane curved_plane(const Plane &plane, const Camera &camera) {
-    return {plane.normal, plane.offset + glm::dot(plane.normal, camera.position), 0.0, glm::dvec3(0.0)};
+    const double offset = plane.offset + glm::dot(plane.normal, camera.position);
+    return {offset < 0.0 ? -plane.normal : plane.normal, std::abs(offset), 0.0, glm::dvec3(0.0)};
 }
 
 // One that moves is seen from the camera as if the camera moved the other way, so what it moves counts like a distance.

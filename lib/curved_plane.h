@@ -18,6 +18,7 @@ struct CurvedPlane {
     glm::dvec3 way;    // of the surface while the shutter is open
 };
 
+// With its normal towards the camera.
 CurvedPlane curved_plane(const Plane &plane, const Camera &camera);
 
 // For a sphere that is held better like this than by its centre and radius: in float32, those put its surface off by

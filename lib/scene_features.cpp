@@ -45,9 +45,8 @@ std::vector<CurvedPlane> planes_about(const Scene &scene, const Camera &camera) 
 // no plane comes between two points of it.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double radius) {
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
-        const double side = plane.offset < 0.0 ? -1.0 : 1.0;
-        return plane.offset != 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
-                   return side * (glm::dot(plane.normal, centre) + plane.offset) > radius;
+        return plane.offset > 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
+                   return glm::dot(plane.normal, centre) + plane.offset > radius;
                });
     });
 }

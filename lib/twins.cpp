@@ -99,16 +99,13 @@ std::vector<Sphere> distinct_spheres(const Scene &scene, const Camera &camera) {
     return distinct;
 }
 
-// A plane is the same with its normal turned round.
 std::vector<Plane> distinct_planes(const Scene &scene, const Camera &camera) {
     std::vector<Plane> distinct;
     Line<CurvedPlane> line;
     for (const Plane &plane : scene.planes) {
         const CurvedPlane seen = curved_plane(plane, camera);
-        const CurvedPlane turned{-seen.normal, -seen.offset, 0.0, glm::dvec3(0.0)};
-        const double place = std::abs(glm::dot(seen.normal, generic_direction));
-        if (line.any(place, same_size,
-                     [&](const CurvedPlane &other) { return are_twins(seen, other) || are_twins(turned, other); }))
+        const double place = glm::dot(seen.normal, generic_direction);
+        if (line.any(place, same_size, [&](const CurvedPlane &other) { return are_twins(seen, other); }))
             continue;
         line.add(place, seen);
         distinct.push_back(plane);

@@ -63,18 +63,16 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
 // wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0.
 // Far above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the
-// ray: the squared length of the gradient is 1 + 2 k h. side: the height of the camera. Where it tells the side, a ray
-// that leads towards the surface meets it, at a negative distance if rounding has put the ray's origin behind it.
+// ray: the squared length of the gradient is 1 + 2 k h. side: the height of the camera, above a plane that is flat. Where it
+// tells the side, a ray that leads towards the surface meets it, at a negative distance if rounding has put the ray's
+// origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
 {
     float slope = dot(level.gradient, direction);
     if (CURVATURE == 0) {
         float distance = -level.height / slope;
-        if (KNOWN_SIDES == 1) {
-            bool towards = side > 0.0 ? slope < 0.0 : slope > 0.0;
-            return !leaving && towards ? distance : NO_HIT;
-        }
-        return !leaving && distance > 0.0 ? distance : NO_HIT;
+        bool towards = KNOWN_SIDES == 1 ? slope < 0.0 : distance > 0.0;
+        return !leaving && towards ? distance : NO_HIT;
     }
     float height = leaving ? 0.0 : level.height;
     bool below = leaving ? inside : height < 0.0 || (height == 0.0 && slope < 0.0);
@@ -133,24 +131,26 @@ bool blocks(ShadowRay shadow, float distance, uint surface)
     return before && surface != shadow.lamp;
 }
 
-void see_sphere(inout Hit hit, Start start, vec3 direction, uint sphere, float time)
+void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float time)
 {
-    keep_closer(hit, distance_to_sphere(start, direction, sphere, sphere_at(sphere, time)), sphere);
+    vec4 centre_radius = sphere_at(sphere, time);
+    vec3 to_centre = STARTS_AHEAD == 1 ? centre_radius.xyz - origin : centre_radius.xyz;
+    bool outside = dot(centre_radius.xyz, centre_radius.xyz) > centre_radius.w * centre_radius.w;
+    keep_closer(hit, sphere_distance(to_centre, centre_radius.w, direction, false, false, outside), sphere);
 }
 
-void see_plane(inout Hit hit, Start start, vec3 direction, uint plane, float time)
+void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float time)
 {
-    Level level = level_at(plane, start.origin, time);
-    keep_closer(hit, distance_to_plane(start, direction, plane, level, time), plane);
+    float height = camera_height(plane, time);
+    keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
 // First surface that a ray from the camera meets.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
-    Start start = Start(origin, NO_SURFACE, false);
-    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, start, direction, sphere, time));
-    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, start, direction, plane, time));
+    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, origin, direction, sphere, time));
+    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, origin, direction, plane, time));
     return hit;
 }
 

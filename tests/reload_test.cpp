@@ -3,6 +3,7 @@
 #include "renderer.h"
 #include "scene.h"
 #include "shader_folder.h"
+#include "shared_context.h"
 
 #include "expected_error.h"
 
@@ -209,21 +210,13 @@ TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
 }
 
 TEST_F(ReloadTest, AllDevicesGetTheKernels) {
-    pt_device_info device{};
-    ASSERT_EQ(pt_get_context_device(own(), &device), PT_OK);
-    std::string devices;
-    for (const uint8_t byte : device.uuid) {
-        char digits[3];
-        std::snprintf(digits, sizeof digits, "%02x", byte);
-        devices += digits;
-    }
-    devices += "," + devices;
     const std::string folder = shaders_.path();
-    const Context shared = create_context([&](pt_create_info &info) {
-        info.shader_dir = folder.c_str();
-        info.device = devices.c_str();
-        info.submit_milliseconds = 1;
-    });
+    const Context shared = create_context(
+        [&](pt_create_info &info) {
+            info.shader_dir = folder.c_str();
+            info.submit_milliseconds = 1;
+        },
+        [](const pt_create_info *info, pt_context **context) { return create_shared(2, *info, context); });
     set_all_on(shared.get());
     accumulate_on(shared.get(), 64);
     expect_samples(shared.get(), 64, 1);
