@@ -27,7 +27,7 @@ struct Features {
     bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
     bool planes_emit;  // some plane, or sphere held as one, emits
     bool planes_move;  // some sphere held as a plane moves while the shutter is open
-    bool known_sides;  // the camera is on no plane, so that paths are on its side of every surface
+    bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
     bool scene_in_uniform; // the scene fits into a uniform buffer

@@ -20,6 +20,8 @@ constexpr double same_size = 0x1p-18;
 constexpr double same_place = 0x1p-21;
 // Spheres that differ by more than this share of their radii are two, however far away.
 constexpr double two_spheres = 0.25;
+// Planes that differ by more than this are told apart by any vertex in sight.
+constexpr double two_planes = 0x1p-8;
 
 // Spheres on a lattice have different places along a line in this direction, whose components are incommensurable.
 const glm::dvec3 generic_direction = glm::normalize(glm::dvec3(1.0, std::sqrt(2.0), std::sqrt(3.0)));
@@ -54,17 +56,17 @@ double difference(const SeenSphere &a, const SeenSphere &b) {
     return std::max(glm::length(a.open - b.open), glm::length(a.close - b.close)) + std::abs(a.radius - b.radius);
 }
 
-bool are_twins(const CurvedPlane &a, const CurvedPlane &b) {
+bool are_alike(const CurvedPlane &a, const CurvedPlane &b, double tolerance) {
     const double offset = std::max(std::abs(a.offset), std::abs(b.offset));
     const double curvature = std::max(a.curvature, b.curvature);
-    return glm::length(a.normal - b.normal) <= same_size && std::abs(a.offset - b.offset) <= same_size * offset &&
-           std::abs(a.curvature - b.curvature) <= same_size * curvature &&
-           glm::length(a.way - b.way) <= same_size * offset;
+    return glm::length(a.normal - b.normal) <= tolerance && std::abs(a.offset - b.offset) <= tolerance * offset &&
+           std::abs(a.curvature - b.curvature) <= tolerance * curvature &&
+           glm::length(a.way - b.way) <= tolerance * offset;
 }
 
 bool are_twins(const SeenSphere &a, const SeenSphere &b) {
     if (a.plane && b.plane)
-        return are_twins(*a.plane, *b.plane);
+        return are_alike(*a.plane, *b.plane, same_size);
     return difference(a, b) <= std::min(a.tolerance(), b.tolerance());
 }
 
@@ -105,7 +107,7 @@ std::vector<Plane> distinct_planes(const Scene &scene, const Camera &camera) {
     for (const Plane &plane : scene.planes) {
         const CurvedPlane seen = curved_plane(plane, camera);
         const double place = glm::dot(seen.normal, generic_direction);
-        if (line.any(place, same_size, [&](const CurvedPlane &other) { return are_twins(seen, other); }))
+        if (line.any(place, same_size, [&](const CurvedPlane &other) { return are_alike(seen, other, same_size); }))
             continue;
         line.add(place, seen);
         distinct.push_back(plane);
@@ -135,6 +137,18 @@ bool has_close_lamps(const Scene &scene, const Camera &camera) {
     for (std::size_t i = 0; i < spheres.size(); ++i)
         if (scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F) && is_close_lamp(spheres[i]))
             return true;
+    return false;
+}
+
+bool has_close_planes(const Scene &scene, const Camera &camera) {
+    Line<CurvedPlane> line;
+    for (const Plane &plane : scene.planes) {
+        const CurvedPlane seen = curved_plane(plane, camera);
+        const double place = glm::dot(seen.normal, generic_direction);
+        if (line.any(place, two_planes, [&](const CurvedPlane &other) { return are_alike(seen, other, two_planes); }))
+            return true;
+        line.add(place, seen);
+    }
     return false;
 }
 

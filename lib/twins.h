@@ -16,4 +16,7 @@ Scene without_twins(const Scene &scene, const Camera &camera);
 // scenes have none.
 bool has_close_lamps(const Scene &scene, const Camera &camera);
 
+// Whether some planes differ by less than a 2^8th in direction and distance. Again twins are not meant.
+bool has_close_planes(const Scene &scene, const Camera &camera);
+
 } // namespace pt

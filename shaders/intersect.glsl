@@ -7,8 +7,8 @@
 // Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
 const float NO_HIT = 3.0e38;
 
-// Surfaces are opaque, so a path stays on the side of each on which the camera is, at the path's time. Where the camera is
-// on none (KNOWN_SIDES) the sides are told by it. The place of a vertex would tell them wrongly for surfaces that the
+// Surfaces are opaque, so a path stays on the side of each on which the camera is, at the path's time. Where that is of
+// use (KNOWN_SIDES) the camera tells the sides. The place of a vertex would tell them wrongly for surfaces that the
 // vertex all but touches: by rounding it may be behind one that stands a little behind its own, and the path would stop
 // there, or leak out of a room.
 

@@ -228,17 +228,25 @@ TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
 }
 
-TEST(FeatureKnownSides, IsWhetherTheCameraIsOnNoPlane) {
-    const auto known = [](double offset) {
-        const pt::Features features = features_of({}, {{{0, 1, 0}, offset, dark}});
-        EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_KNOWN_SIDES], features.known_sides ? 1U : 0U);
-        return features.known_sides;
-    };
-    EXPECT_TRUE(known(0));
-    EXPECT_TRUE(known(-2 + 1e-15));
-    EXPECT_FALSE(known(-2));
-    EXPECT_TRUE(features_of({ball_at({0, -1e6 - 1, 0}, 1e6)}).known_sides);
-    EXPECT_FALSE(features_of({ball_at({0, -1e6, 0}, 1e6)}).known_sides);
+// With floors at heights below the camera.
+bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<double> &heights) {
+    std::vector<pt::Plane> planes;
+    for (const double height : heights)
+        planes.push_back({{0, 1, 0}, height - eye.y, dark});
+    const pt::Features features = features_of(spheres, planes);
+    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_KNOWN_SIDES], features.known_sides ? 1U : 0U);
+    return features.known_sides;
+}
+
+TEST(FeatureKnownSides, IsWhetherTheCameraTellsThemAndMust) {
+    const pt::Sphere room = ball_at({0, 0, 0}, 9);
+    EXPECT_FALSE(known_sides({}, {1, 2})) << "vertices do as well";
+    EXPECT_TRUE(known_sides({}, {1, 1.001})) << "close planes";
+    EXPECT_TRUE(known_sides({room}, {1})) << "inside";
+    EXPECT_TRUE(known_sides({ball_at({0, -1e6 - 1, 0}, 1e6)}, {1})) << "a huge ball";
+    EXPECT_TRUE(known_sides({room}, {1e-15}));
+    EXPECT_FALSE(known_sides({room}, {0})) << "the camera is on the plane";
+    EXPECT_FALSE(known_sides({ball_at({0, -1e6, 0}, 1e6)}, {1})) << "the camera is on the huge ball";
 }
 
 TEST(FeaturePlanesMove, IsWhetherAHugeBallDoes) {

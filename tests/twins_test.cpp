@@ -125,6 +125,17 @@ TEST(Twins, AreNoneOnALattice) {
     EXPECT_EQ(distinct(twice).size(), lattice.size());
 }
 
+TEST(ClosePlanes, DifferByLessThanA256th) {
+    const auto close = [](const Plane &second) {
+        return pt::has_close_planes(scene_of({}, {plane({0.3, 1, 0.2}, 1.5, 0), second}), camera());
+    };
+    EXPECT_TRUE(close(plane({0.3, 1, 0.2}, 1.5 * 1.003, 0)));
+    EXPECT_TRUE(close(plane({-0.3, -1, -0.2}, -1.5 * 1.003, 0)));
+    EXPECT_FALSE(close(plane({0.3, 1, 0.2}, 1.5 * 1.005, 0)));
+    EXPECT_TRUE(close(plane({0.3, 1.003, 0.2}, 1.5, 0)));
+    EXPECT_FALSE(close(plane({0.3, 1, 0.21}, 1.5, 0)));
+}
+
 bool close_lamps(const glm::dvec3 &shift, double radius, std::uint32_t first, std::uint32_t second) {
     std::vector<Sphere> spheres = {ball({0, 3, -5}, 1), ball(glm::dvec3(0, 3, -5) + shift, radius),
                                    ball({5, 0, -5}, 1)};

@@ -28,7 +28,7 @@ class StandardStreams(CommandLineTest):
         stats = json.loads(self.read("s.json"))
         self.assertEqual((stats["scene"], stats["width"], stats["spp"]), ("standard input", 4, 2))
         self.pipe(3, '{"speres": []}', "render", "-", "-o", "a.png")
-        self.assertIn("pt: standard input: ", self.errors)
+        self.assertIn("pt: standard input:1: ", self.errors)
         self.pipe(3, "", "render", "-", "-o", "a.png")
         self.assertIn("pt: standard input:1:1: syntax error", self.errors)
         self.pipe(0, SCENE, "bench", "-", *BENCH, "--json", "b.json")
@@ -227,7 +227,7 @@ class Metadata(CommandLineTest):
         self.assertRegex(software, r"^pt \d+\.\d+\.\d+$")
         self.assertEqual(texts, {
             "samplesPerPixel": "16", "pt.quantity": "tone-mapped radiance", "pt.toneMap": "agx", "pt.exposure": "-2.5",
-            "pt.encoding": "sRGB", "pt.scene": "coursework.json", "pt.seed": "7", "pt.firstSample": "9",
+            "pt.encoding": "sRGB", "pt.scene": os.path.basename(COURSEWORK), "pt.seed": "7", "pt.firstSample": "9",
             "pt.maxPathLength": "3", "pt.sampler": "random", "pt.estimator": "mis", "pt.rejectedSamples": "0",
             "pt.relativeError": "0.03125", "pt.device": "fake device", "pt.driver": "fake driver 1.0"})
         self.assertIn("sRGB", kinds)
