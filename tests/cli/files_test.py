@@ -10,7 +10,7 @@ import struct
 import subprocess
 import time
 
-from command_line import COURSEWORK, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
+from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
 BENCH = ("--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2")
@@ -19,7 +19,7 @@ BENCH = ("--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2")
 class StandardStreams(CommandLineTest):
     def pipe(self, code, text, *arguments):
         done = subprocess.run([self.program, *arguments], cwd=self.folder, input=text, preexec_fn=default_signals,
-                              capture_output=True, text=True, timeout=120, check=False)
+                              capture_output=True, text=True, timeout=PATIENCE, check=False)
         self.output, self.errors = done.stdout, done.stderr
         self.assertEqual(done.returncode, code, done.stderr)
 
@@ -231,8 +231,8 @@ class Metadata(CommandLineTest):
             "pt.maxPathLength": "3", "pt.sampler": "random", "pt.estimator": "mis", "pt.rejectedSamples": "0",
             "pt.relativeError": "0.03125", "pt.device": "fake device", "pt.driver": "fake driver 1.0"})
         self.assertIn("sRGB", kinds)
-        texts, kinds = self.texts("--gamma", "2.2")
-        self.assertEqual((texts["pt.gamma"], texts["pt.toneMap"], texts["pt.exposure"]), ("2.2", "none", "0"))
+        texts, kinds = self.texts("--exposure", "1.5", "--gamma", "2.2")
+        self.assertEqual((texts["pt.gamma"], texts["pt.toneMap"], texts["pt.exposure"]), ("2.2", "none", "1.5"))
         self.assertIn("gAMA", kinds)
         self.assertNotIn("sRGB", kinds)
 

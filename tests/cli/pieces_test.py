@@ -8,7 +8,7 @@ import resource
 import signal
 import subprocess
 
-from command_line import COURSEWORK, PT, CommandLineTest, default_signals, main, read_png
+from command_line import COURSEWORK, PT, PATIENCE, CommandLineTest, default_signals, main, read_png
 
 SIZE = ("--size", "40x33")
 
@@ -65,7 +65,7 @@ class HostMemory(CommandLineTest):
             resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
 
         return subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=little_memory,
-                              capture_output=True, text=True, timeout=120, check=False)
+                              capture_output=True, text=True, timeout=PATIENCE, check=False)
 
     def refusal(self, code, *arguments):
         done = self.run_in_little_memory(*arguments)
