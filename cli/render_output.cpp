@@ -15,8 +15,8 @@
 namespace cli {
 namespace {
 
-void write_image(ImageWriter &writer, const std::string &path, const RenderReport &report, std::span<const float> values,
-                 std::uint32_t quantity) {
+void write_image(ImageWriter &writer, const std::string &path, const RenderReport &report,
+                 std::span<const float> values, std::uint32_t quantity) {
     const auto [width, height] = std::pair(report.render.width, report.render.height);
     if (image_format(path) == ImageFormat::exr) {
         const ImageMetadata metadata(report, quantity, nullptr);

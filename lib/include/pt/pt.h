@@ -160,7 +160,9 @@ typedef struct pt_camera {
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time. */
+/** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time. Lamps
+ * are emitting spheres that can be sampled; one that holds the camera, like a sky, is found by directions whatever the
+ * estimator, and so are emitting planes. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /**< what this version considers best: mis */
     PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
