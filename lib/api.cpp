@@ -118,6 +118,7 @@ void pt_destroy(pt_context *context) {
         return;
     }
     pt::refusal.forget(context);
+    const pt::DefaultRounding rounding;
     delete context; // still taken: what its callbacks call is refused
 }
 

@@ -11,8 +11,8 @@ struct pt_context {
     explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
 
     mutable pt::InUse in_use;
+    pt::LastError last_error; // of calls that were not refused because of in_use; outlives the renderer, which may log
     pt::Renderer renderer;
-    pt::LastError last_error; // of calls that were not refused because of in_use
 };
 
 namespace pt {

@@ -4,7 +4,6 @@
 #include "error.h"
 #include "rules.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -37,15 +36,15 @@ CurvedPlane curved_plane(const Plane &plane, const Camera &camera) {
     return {offset < 0.0 ? -plane.normal : plane.normal, std::abs(offset), 0.0, glm::dvec3(0.0)};
 }
 
-// One that moves is seen from the camera as if the camera moved the other way, so what it moves counts like a distance.
+// One that moves is seen as if the camera moved the other way, so what it moves counts like a distance.
 std::optional<CurvedPlane> curved_plane(const Sphere &sphere, const Material &material, const Camera &camera) {
     const glm::dvec3 to_camera = from_center(sphere, camera);
     const glm::dvec3 way = way_of(sphere, camera);
     const double distance = glm::length(to_camera);
     const double offset = distance - sphere.radius;
-    const double extent = std::max(std::abs(offset), glm::length(way));
     const bool is_lamp = material.emission != glm::vec3(0.0F);
-    if (!(sphere.radius > (is_lamp ? nearly_flat_lamp : nearly_flat) * extent))
+    const bool is_flat = sphere.radius > (is_lamp ? nearly_flat_lamp : nearly_flat) * std::abs(offset);
+    if (!is_flat || !(sphere.radius > nearly_flat * glm::length(way)))
         return std::nullopt;
     return CurvedPlane{to_camera / distance, offset, 1.0 / sphere.radius, way};
 }
@@ -59,11 +58,12 @@ void require_held_motions(const Scene &scene, const Camera &camera) {
         const double way = glm::length(way_of(sphere, camera));
         const bool huge = sphere.radius > nearly_flat_lamp * std::abs(offset);
         if (huge && sphere.radius <= nearly_flat * way)
-            throw Error(PT_ERROR_UNSUPPORTED,
-                        "spheres[" + std::to_string(i) + "].motion = " + number_text(sphere.motion) +
-                            ": a sphere whose surface is nearer to the camera than a 65536th of its radius (" +
-                            number_text(sphere.radius) +
-                            ") must move less than a 32nd of it while the shutter is open");
+            throw Error(PT_ERROR_UNSUPPORTED, "spheres[" + std::to_string(i) +
+                                                  "].motion = " + number_text(sphere.motion) +
+                                                  ": a sphere whose surface, as the shutter opens, is nearer to the "
+                                                  "camera than a 65536th of its radius (" +
+                                                  number_text(sphere.radius) +
+                                                  ") must move less than a 32nd of it while the shutter is open");
     }
 }
 

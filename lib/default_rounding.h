@@ -1,4 +1,4 @@
-// The rounding mode that the library computes in, whatever the caller's is. Used by guard.h alone.
+// The rounding mode that the library computes in, whatever the caller's is. Used by guard.h and api.cpp.
 #pragma once
 
 #include <cfenv>

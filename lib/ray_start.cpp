@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace pt {
 
@@ -42,8 +43,8 @@ double nearest_depth(const Plane &plane, const Camera &camera, const View &view)
 }
 
 // Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it is
-// inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(b^2 - (d^2 - r^2)). A sphere that
-// moves is taken for the ball about its way.
+// inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)), whose
+// product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about its way.
 double nearest_depth(const Sphere &sphere, const Camera &camera, const View &view) {
     const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
     const glm::dvec3 centre = sphere.center + camera.shutter_open * sphere.motion + 0.5 * way - camera.position;
@@ -55,13 +56,18 @@ double nearest_depth(const Sphere &sphere, const Camera &camera, const View &vie
     if (power <= 0.0) {
         if (way != glm::dvec3(0.0))
             return 0.0;
-        const double b = distance * std::cos(std::min(angle + view.half_angle, std::acos(-1.0)));
-        return (b + std::sqrt(b * b - power)) * std::cos(view.half_angle);
+        const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
+        const double across = distance * std::sin(farthest);
+        const double half_chord = std::sqrt(radius * radius - across * across);
+        return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
     }
-    const double b = distance * std::cos(std::max(angle - view.half_angle, 0.0));
-    if (b <= 0.0 || b * b < power)
+    const double nearest = std::max(angle - view.half_angle, 0.0);
+    const double across = distance * std::sin(nearest);
+    const double squared_half_chord = radius * radius - across * across;
+    const double b = distance * std::cos(nearest);
+    if (b <= 0.0 || squared_half_chord < 0.0)
         return out_of_view;
-    return power / (b + std::sqrt(b * b - power)) * std::cos(view.half_angle);
+    return power / (b + std::sqrt(squared_half_chord)) * std::cos(view.half_angle);
 }
 
 } // namespace

@@ -58,7 +58,7 @@ bool holds_camera(const Way &way, double radius) {
     return std::ranges::all_of(way, [&](const glm::dvec3 &centre) { return glm::length(centre) < radius * margin; });
 }
 
-// Whether the camera is on a side of a plane that float32 can tell, and stays there.
+// Whether the camera is on a side of a plane that float32 can tell, as the shutter opens.
 bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }

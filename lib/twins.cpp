@@ -41,12 +41,12 @@ struct SeenSphere {
 
     double place() const { return glm::dot(open, generic_direction); }
 
-    // By how much the surface of a twin may be elsewhere.
+    // By how much the centre of a twin may be elsewhere.
     double tolerance() const {
         return std::min(same_size * radius + same_place * glm::length(open), two_spheres * radius);
     }
 
-    // By how much the centre of a twin may be elsewhere. Planes that agree to same_size in normal, offset and curvature
+    // The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature
     // have centres and radii that agree to three times that, where the offset is small against the radius.
     double reach() const { return plane ? 4.0 * same_size * radius : tolerance(); }
 };
@@ -67,7 +67,9 @@ bool are_alike(const CurvedPlane &a, const CurvedPlane &b, double tolerance) {
 bool are_twins(const SeenSphere &a, const SeenSphere &b) {
     if (a.plane && b.plane)
         return are_alike(*a.plane, *b.plane, same_size);
-    return difference(a, b) <= std::min(a.tolerance(), b.tolerance());
+    const double tolerance = std::min(a.tolerance(), b.tolerance());
+    return glm::length(a.open - b.open) <= tolerance && glm::length(a.close - b.close) <= tolerance &&
+           std::abs(a.radius - b.radius) <= same_size * std::min(a.radius, b.radius);
 }
 
 // Elements by a number, which those alike have nearly alike.

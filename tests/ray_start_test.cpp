@@ -84,9 +84,9 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
     int near_misses = 0;
     for (int round = 0; round < 200; ++round) {
-        const double fov = std::pow(10.0, uniform(-7, -2.5));
+        const double fov = std::pow(10.0, uniform(-8, -2.5));
         const pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, fov);
-        const double distance = std::pow(10.0, uniform(0, 6));
+        const double distance = std::pow(10.0, uniform(0, 8));
         const double spread = fov * distance;
         const glm::dvec3 place =
             camera.forward * distance + camera.right * uniform(-spread, spread) + camera.up * uniform(-spread, spread);

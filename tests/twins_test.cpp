@@ -81,6 +81,7 @@ TEST(Twins, AreSpheresWhoseCentresFloat32HoldsAlike) {
     EXPECT_EQ(distinct({ball({0, 0, -1e2}, 1), ball({4e-4, 0, -1e2}, 1)}).size(), 2U);
     EXPECT_EQ(distinct({ball({0, 0, -1e12}, 1), ball({2, 0, -1e12}, 1)}).size(), 2U);
     EXPECT_EQ(distinct({ball({0, 0, -1e12}, 1), ball({0.1, 0, -1e12}, 1)}).size(), 1U);
+    EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({0, 0, -1e3}, 1.0004)}).size(), 2U) << "a ball in a thin shell";
 }
 
 TEST(Twins, MoveTogether) {

@@ -116,12 +116,14 @@ typedef struct pt_material {
 /** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
  *
  * Spheres that float32 cannot tell apart as the camera sees them are one: the first of them in the array stands for all,
- * and so for planes. That is where they differ by less than a 2^18th of their size and a 2^21th of their distance. */
+ * and so for planes. That is where their radii differ by less than a 2^18th, and their centres by less than a 2^18th of
+ * the radius plus a 2^21th of the distance, but never by a quarter of the radius. */
 typedef struct pt_sphere {
     double center[3];  /**< at time 0 */
     double radius;     /**< > 0 */
-    /** Way from time 0 to time 1. A sphere whose surface is nearer to the camera than a 65536th of its radius moves by less
-     * than a 32nd of it while the shutter is open; pt_accumulate refuses others with PT_ERROR_UNSUPPORTED. */
+    /** Way from time 0 to time 1. A sphere whose surface, as the shutter opens, is nearer to the camera than a 65536th of its
+     * radius moves by less than a 32nd of it while the shutter is open; pt_accumulate refuses others with
+     * PT_ERROR_UNSUPPORTED. */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
@@ -266,7 +268,7 @@ typedef struct pt_stats {
     uint32_t sample_count;     /**< whole samples in every pixel */
     uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /**< memory allocated on all its devices now */
-    uint64_t submit_count;     /**< submissions of pt_accumulate since pt_create, to all devices */
+    uint64_t submit_count;     /**< submissions that pt_accumulate waited for since pt_create, to all devices */
     double device_seconds;     /**< time spent in them, summed over the devices */
     uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
     uint32_t device_count;     /**< devices that share the samples */
