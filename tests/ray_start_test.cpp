@@ -57,6 +57,16 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
+// At the narrowest view that there is, of balls down to a quarter of its width.
+TEST(RayStart, IsOutsideOfTinyFarBalls) {
+    const pt::Camera camera = looking_along(oblique, 1e-8);
+    for (int i = 0; i < 200; ++i) {
+        const double distance = 1e8 * (1 + 1e-3 * i);
+        const double radius = distance * 2.5e-9 * std::pow(1.01, i);
+        EXPECT_LE(start_of({ball(distance * oblique, radius)}, {}, camera), distance - radius) << i;
+    }
+}
+
 TEST(RayStart, LooksPastWhatIsOutOfView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double alone = start_of({ball(1e6 * oblique, 2)}, {}, camera);
