@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -41,8 +40,12 @@ TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
     const pt_accumulate_info one = samples(1);
     ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
     ASSERT_EQ(lines.size(), 1U);
-    const std::regex built("3 built a kernel for (this scene alone|all scenes of this kind) in [0-9]+ ms");
-    EXPECT_TRUE(std::regex_match(lines[0], built)) << lines[0];
+    // Not by std::regex, which GCC 12 does not compile without warnings where sanitizers are on.
+    const std::string &built = lines[0];
+    EXPECT_TRUE(built.starts_with("3 built a kernel for this scene alone in ") ||
+                built.starts_with("3 built a kernel for all scenes of this kind in "))
+        << built;
+    EXPECT_TRUE(built.ends_with(" ms")) << built;
     lines.clear();
     ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
     EXPECT_EQ(lines, Lines{}) << "the kernel is there";
