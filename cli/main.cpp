@@ -1,14 +1,14 @@
 // Owns the program `pt`: the choice of a subcommand, and the end of every exception in an exit code.
-#include "bench_command.h"
-#include "bench_options.h"
-#include "devices_command.h"
-#include "exit_code.h"
-#include "message.h"
-#include "render_command.h"
-#include "render_options.h"
-#include "render_report.h"
-#include "selftest_command.h"
-#include "unknown_argument.h"
+#include "cli/base/devices_command.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/message.h"
+#include "cli/base/unknown_argument.h"
+#include "cli/bench/bench_command.h"
+#include "cli/bench/bench_options.h"
+#include "cli/render/render_command.h"
+#include "cli/render/render_options.h"
+#include "cli/render/render_report.h"
+#include "cli/selftest/selftest_command.h"
 
 #include <CLI/CLI.hpp>
 

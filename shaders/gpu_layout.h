@@ -115,7 +115,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
 // With S = spheres + planes and each block following the one before:
-//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/curved_plane.h)
+//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/scene/curved_plane.h)
 //   emission[S]       radiance R, G, B; mean of the three
 //   diffuse[S]        albedo / pi; probability of choosing the specular lobe
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
@@ -125,7 +125,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
-// Part 0 has the older samples and part 1 those since (lib/sample_parts.h): the image is the sum of both, and their
+// Part 0 has the older samples and part 1 those since (lib/film/sample_parts.h): the image is the sum of both, and their
 // difference tells its error.
 PT_CONSTANT FILM_PARTS = 2;
 // Of a part, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least

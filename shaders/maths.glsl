@@ -1,4 +1,4 @@
-// Elementary functions with stated errors, which lib/accuracy.cpp derives and pt_get_accuracy measures, where Vulkan
+// Elementary functions with stated errors, which lib/kernel/accuracy.cpp derives and pt_get_accuracy measures, where Vulkan
 // promises too little: sin and cos only 2^-11 absolute, log2 2^-21 absolute near 1, and so pow almost nothing for large
 // exponents. Used by sampling.glsl and phong.glsl.
 #ifndef MATHS_GLSL

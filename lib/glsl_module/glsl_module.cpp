@@ -1,7 +1,7 @@
 // Compiles GLSL to SPIR-V with glslang, as a module of its own; see glsl_module.h for why. Called by shader_source.cpp.
-#include "glsl_module.h"
+#include "lib/glsl_module/glsl_module.h"
 
-#include "includer.h"
+#include "lib/glsl_module/includer.h"
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>

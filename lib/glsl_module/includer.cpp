@@ -1,5 +1,5 @@
 // Finds and reads included files; see includer.h.
-#include "includer.h"
+#include "lib/glsl_module/includer.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,7 +1,7 @@
 // A Vulkan object that is either the library's own or the caller's. Held by Instance and LogicalDevice.
 #pragma once
 
-#include "api.h"
+#include "lib/vulkan/api.h"
 
 #include <utility>
 

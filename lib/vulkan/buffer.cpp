@@ -1,8 +1,8 @@
 // Allocation and transfers; see buffer.h.
-#include "vulkan/buffer.h"
+#include "lib/vulkan/buffer.h"
 
-#include "vulkan/device_object.h"
-#include "vulkan/result.h"
+#include "lib/vulkan/device_object.h"
+#include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // A buffer on the device with memory of its own. Made by Film and Kernel, and to measure accuracy.
 #pragma once
 
-#include "vulkan/device.h"
+#include "lib/vulkan/device.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // Rules for the caller's Vulkan handles; see caller_vulkan.h.
-#include "vulkan/caller_vulkan.h"
+#include "lib/vulkan/caller_vulkan.h"
 
-#include "error.h"
-#include "rules.h"
-#include "vulkan/device_choice.h"
-#include "vulkan/result.h"
+#include "lib/base/error.h"
+#include "lib/base/rules.h"
+#include "lib/vulkan/device_choice.h"
+#include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <array>

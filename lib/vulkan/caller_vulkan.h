@@ -2,7 +2,7 @@
 // LogicalDevice and Renderer, none of which owns what it names.
 #pragma once
 
-#include "api.h"
+#include "lib/vulkan/api.h"
 
 #include <pt/pt.h>
 

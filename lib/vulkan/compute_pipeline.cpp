@@ -1,7 +1,7 @@
 // Pipelines and descriptor sets; see compute_pipeline.h.
-#include "vulkan/compute_pipeline.h"
+#include "lib/vulkan/compute_pipeline.h"
 
-#include "vulkan/result.h"
+#include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <vector>

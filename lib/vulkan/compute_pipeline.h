@@ -1,9 +1,9 @@
 // A compute kernel, specialised, with the buffers that it is bound to. Made by TracePipelines, and to measure accuracy.
 #pragma once
 
-#include "vulkan/buffer.h"
-#include "vulkan/device.h"
-#include "vulkan/device_object.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/device.h"
+#include "lib/vulkan/device_object.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // Creation of the device, submission and waiting; see device.h.
-#include "vulkan/device.h"
+#include "lib/vulkan/device.h"
 
-#include "error.h"
-#include "vulkan/device_choice.h"
-#include "vulkan/result.h"
+#include "lib/base/error.h"
+#include "lib/vulkan/device_choice.h"
+#include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <chrono>

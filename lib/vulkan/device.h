@@ -2,8 +2,8 @@
 // pipelines are made on it.
 #pragma once
 
-#include "vulkan/instance.h"
-#include "vulkan/logical_device.h"
+#include "lib/vulkan/instance.h"
+#include "lib/vulkan/logical_device.h"
 
 #include <pt/pt.h>
 

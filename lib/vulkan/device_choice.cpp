@@ -1,7 +1,7 @@
 // Description and ranking of devices; see device_choice.h.
-#include "vulkan/device_choice.h"
+#include "lib/vulkan/device_choice.h"
 
-#include "error.h"
+#include "lib/base/error.h"
 
 #include <algorithm>
 #include <array>

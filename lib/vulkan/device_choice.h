@@ -1,7 +1,7 @@
 // Describes the Vulkan devices and picks one. Used by Renderer and list_devices.
 #pragma once
 
-#include "api.h"
+#include "lib/vulkan/api.h"
 
 #include <pt/pt.h>
 

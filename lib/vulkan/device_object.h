@@ -1,7 +1,7 @@
 // A Vulkan object made on a Device. Held by buffers, pipelines and descriptor sets.
 #pragma once
 
-#include "vulkan/device.h"
+#include "lib/vulkan/device.h"
 
 #include <utility>
 

@@ -1,8 +1,8 @@
 // Creation of the instance and the explanation of its failures; see instance.h.
-#include "vulkan/instance.h"
+#include "lib/vulkan/instance.h"
 
-#include "error.h"
-#include "vulkan/result.h"
+#include "lib/base/error.h"
+#include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -2,9 +2,9 @@
 // by Renderer and list_devices.
 #pragma once
 
-#include "api.h"
-#include "log.h"
-#include "vulkan/borrowable.h"
+#include "lib/base/log.h"
+#include "lib/vulkan/api.h"
+#include "lib/vulkan/borrowable.h"
 
 #include <memory>
 #include <optional>

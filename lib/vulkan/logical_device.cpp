@@ -1,7 +1,7 @@
 // Creation of devices, and the use of queues; see logical_device.h.
-#include "vulkan/logical_device.h"
+#include "lib/vulkan/logical_device.h"
 
-#include "vulkan/result.h"
+#include "lib/vulkan/result.h"
 
 #include <cstring>
 #include <mutex>

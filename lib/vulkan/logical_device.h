@@ -1,8 +1,8 @@
 // A VkDevice with the one queue of it that is used: made by the library, or the caller's. Held by Device.
 #pragma once
 
-#include "vulkan/borrowable.h"
-#include "vulkan/caller_vulkan.h"
+#include "lib/vulkan/borrowable.h"
+#include "lib/vulkan/caller_vulkan.h"
 
 #include <chrono>
 #include <cstdint>

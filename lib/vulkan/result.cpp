@@ -1,5 +1,5 @@
 // Translation table; see result.h.
-#include "vulkan/result.h"
+#include "lib/vulkan/result.h"
 
 namespace pt::vulkan {
 

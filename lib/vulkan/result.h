@@ -1,8 +1,8 @@
 // Translation of Vulkan's errors into the library's. Used all over lib/vulkan/.
 #pragma once
 
-#include "api.h"
-#include "error.h"
+#include "lib/base/error.h"
+#include "lib/vulkan/api.h"
 
 #include <string>
 #include <utility>

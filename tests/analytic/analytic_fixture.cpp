@@ -1,5 +1,5 @@
 // See analytic_fixture.h.
-#include "analytic_fixture.h"
+#include "tests/analytic/analytic_fixture.h"
 
 #include <bit>
 #include <cstdio>

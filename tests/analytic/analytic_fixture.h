@@ -1,8 +1,8 @@
 // Renders the scenes of the tests against exact values. An image that disagrees is kept as a file.
 #pragma once
 
-#include "batch_fixture.h"
-#include "scene_of.h"
+#include "tests/support/batch_fixture.h"
+#include "tests/support/scene_of.h"
 
 #include <cstddef>
 #include <cstdint>

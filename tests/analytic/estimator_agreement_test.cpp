@@ -1,8 +1,8 @@
 // Every way of finding light has the same mean, in scenes where all have a finite variance. Run alone with
 // --gtest_filter=EstimatorAgreement*.
-#include "analytic_fixture.h"
-#include "batch_fixture.h"
-#include "scenes.h"
+#include "tests/analytic/analytic_fixture.h"
+#include "tests/analytic/scenes.h"
+#include "tests/support/batch_fixture.h"
 
 #include <gtest/gtest.h>
 

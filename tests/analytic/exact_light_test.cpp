@@ -1,7 +1,7 @@
 // Scenes without noise: every sample of every pixel has the same value. And sample numbers at the end of their range.
 // Run alone with --gtest_filter=ExactLight*.
-#include "analytic_fixture.h"
-#include "scenes.h"
+#include "tests/analytic/analytic_fixture.h"
+#include "tests/analytic/scenes.h"
 
 #include <gtest/gtest.h>
 

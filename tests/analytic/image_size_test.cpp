@@ -1,8 +1,8 @@
 // Images of every shape: each pixel covers what it should of an emitting sphere. Run alone with
 // --gtest_filter=ImageSize*.
-#include "analytic_fixture.h"
-#include "judge.h"
-#include "sphere_coverage.h"
+#include "tests/analytic/analytic_fixture.h"
+#include "tests/analytic/judge.h"
+#include "tests/analytic/sphere_coverage.h"
 
 #include <gtest/gtest.h>
 

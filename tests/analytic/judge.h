@@ -1,7 +1,7 @@
 // Whether the mean of samples agrees with an exact value. Used by the tests against exact values.
 #pragma once
 
-#include "batch_fixture.h"
+#include "tests/support/batch_fixture.h"
 
 #include <cmath>
 #include <cstdint>

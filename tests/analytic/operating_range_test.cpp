@@ -1,10 +1,10 @@
 // How far the exact values hold: scales, distances, lamps, lobes and brightness up to where they break. It fails
 // nothing and takes minutes; it prints a table. Run it with
 //     pt_analytic_tests --gtest_also_run_disabled_tests --gtest_filter=*OperatingRange*
-#include "analytic_fixture.h"
-#include "crop.h"
-#include "scenes.h"
-#include "sphere_coverage.h"
+#include "tests/analytic/analytic_fixture.h"
+#include "tests/analytic/crop.h"
+#include "tests/analytic/scenes.h"
+#include "tests/analytic/sphere_coverage.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>

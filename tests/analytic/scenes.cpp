@@ -1,5 +1,5 @@
 // Reads the data of the analytic tests; see scenes.h.
-#include "scenes.h"
+#include "tests/analytic/scenes.h"
 
 #include <fstream>
 #include <sstream>

@@ -1,8 +1,8 @@
 // The scenes of tests/data/analytic and what their pixels are exactly. Used by the tests against exact values.
 #pragma once
 
-#include "judge.h"
-#include "scene_file.h"
+#include "cli/scene/scene_file.h"
+#include "tests/analytic/judge.h"
 
 #include <cstdint>
 #include <ostream>

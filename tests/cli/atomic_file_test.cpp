@@ -1,8 +1,8 @@
 // Tests of cli/atomic_file.
-#include "atomic_file.h"
+#include "cli/base/atomic_file.h"
 
-#include "exit_code.h"
-#include "temporary_folder.h"
+#include "cli/base/exit_code.h"
+#include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

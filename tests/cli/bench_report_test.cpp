@@ -1,5 +1,5 @@
 // Tests of cli/bench_report: what a row is made of, and which rows are told to be doubtful.
-#include "bench_report.h"
+#include "cli/bench/bench_report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

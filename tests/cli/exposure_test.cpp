@@ -1,5 +1,5 @@
 // Tests of cli/exposure.
-#include "exposure.h"
+#include "cli/image/exposure.h"
 
 #include <gtest/gtest.h>
 

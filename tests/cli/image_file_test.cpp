@@ -1,8 +1,8 @@
 // Tests of cli/image_file and the module behind it: what is written is read back by OpenImageIO itself.
-#include "image_file.h"
+#include "cli/image/image_file.h"
 
-#include "exit_code.h"
-#include "temporary_folder.h"
+#include "cli/base/exit_code.h"
+#include "tests/cli/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>

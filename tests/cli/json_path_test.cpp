@@ -1,5 +1,5 @@
 // Tests of cli/json_path.
-#include "json_path.h"
+#include "cli/base/json_path.h"
 
 #include <gtest/gtest.h>
 

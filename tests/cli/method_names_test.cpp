@@ -1,5 +1,5 @@
 // Tests of cli/method_names.
-#include "method_names.h"
+#include "cli/base/method_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/number.
-#include "number.h"
+#include "cli/base/number.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/progress.
-#include "progress.h"
+#include "cli/base/progress.h"
 
 #include <nlohmann/json.hpp>
 

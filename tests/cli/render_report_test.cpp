@@ -1,6 +1,6 @@
 // Tests of cli/render_report.
-#include "device_text.h"
-#include "render_report.h"
+#include "cli/base/device_text.h"
+#include "cli/render/render_report.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

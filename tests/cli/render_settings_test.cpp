@@ -1,5 +1,5 @@
 // Tests of cli/render_settings: the rank of command line, scene file and defaults, and who is to blame.
-#include "render_settings.h"
+#include "cli/scene/render_settings.h"
 
 #include <gtest/gtest.h>
 

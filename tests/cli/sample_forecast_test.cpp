@@ -1,5 +1,5 @@
 // Tests of cli/sample_forecast.
-#include "sample_forecast.h"
+#include "cli/render/sample_forecast.h"
 
 #include <gtest/gtest.h>
 

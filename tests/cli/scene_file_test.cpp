@@ -1,8 +1,8 @@
 // Tests of cli/scene_file, with json_sections and json_value behind it.
-#include "scene_file.h"
+#include "cli/scene/scene_file.h"
 
-#include "exit_code.h"
-#include "temporary_folder.h"
+#include "cli/base/exit_code.h"
+#include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

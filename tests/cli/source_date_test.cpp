@@ -1,7 +1,7 @@
 // Tests of cli/source_date.
-#include "source_date.h"
+#include "cli/base/source_date.h"
 
-#include "exit_code.h"
+#include "cli/base/exit_code.h"
 
 #include <gtest/gtest.h>
 

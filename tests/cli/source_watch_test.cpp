@@ -1,6 +1,6 @@
 // Which files a picture is made of, and when they count as changed: by notifications and by polling alike.
-#include "source_watch.h"
-#include "temporary_folder.h"
+#include "cli/render/source_watch.h"
+#include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/suggestion.
-#include "suggestion.h"
+#include "cli/base/suggestion.h"
 
 #include <gtest/gtest.h>
 

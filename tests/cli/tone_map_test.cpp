@@ -1,5 +1,5 @@
 // Tests of cli/tone_map: anchors worked out from the published formulas with another program, and properties.
-#include "tone_map.h"
+#include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/vector_width: which variables are added to which environment.
-#include "vector_width.h"
+#include "cli/base/vector_width.h"
 
 #include <gtest/gtest.h>
 

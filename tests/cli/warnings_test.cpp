@@ -1,5 +1,5 @@
 // Tests of cli/warnings: each rule, on both sides of its bound.
-#include "warnings.h"
+#include "cli/scene/warnings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The global operator new of the fault tests; see allocations.h.
-#include "allocations.h"
+#include "tests/faults/allocations.h"
 
 #include <atomic>
 #include <cstdlib>

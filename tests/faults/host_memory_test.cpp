@@ -1,8 +1,8 @@
 // Host memory that runs out at every place where the library allocates: the call fails as pt.h says, changes nothing,
 // and leaks nothing.
-#include "allocations.h"
-#include "sweep.h"
-#include "table.h"
+#include "tests/faults/allocations.h"
+#include "tests/faults/sweep.h"
+#include "tests/faults/table.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What is kept and how it is found again; see kept_objects.h.
-#include "kept_objects.h"
+#include "tests/faults/kept_objects.h"
 
 #include <algorithm>
 #include <cstdint>

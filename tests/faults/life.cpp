@@ -1,10 +1,10 @@
 // The calls of a life and what is expected of them; see life.h.
-#include "life.h"
+#include "tests/faults/life.h"
 
-#include "allocations.h"
-#include "scene_of.h"
-#include "shared_context.h"
-#include "vulkan_calls.h"
+#include "tests/faults/allocations.h"
+#include "tests/faults/vulkan_calls.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Rounds of lives; see sweep.h.
-#include "sweep.h"
+#include "tests/faults/sweep.h"
 
-#include "allocations.h"
-#include "vulkan_calls.h"
+#include "tests/faults/allocations.h"
+#include "tests/faults/vulkan_calls.h"
 
 #include <gtest/gtest.h>
 

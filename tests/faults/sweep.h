@@ -1,7 +1,7 @@
 // Lives in which something happens at the first place where it may, at the second, and so on, until there is none.
 #pragma once
 
-#include "life.h"
+#include "tests/faults/life.h"
 
 #include <cstddef>
 #include <functional>

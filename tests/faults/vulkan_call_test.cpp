@@ -1,8 +1,8 @@
 // Vulkan calls that fail, every one of them: the call of pt.h fails as it says, changes nothing but that a lost
 // device stays lost, and leaks nothing.
-#include "sweep.h"
-#include "table.h"
-#include "vulkan_calls.h"
+#include "tests/faults/sweep.h"
+#include "tests/faults/table.h"
+#include "tests/faults/vulkan_calls.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // A hook for each Vulkan function; see vulkan_calls.h.
-#include "vulkan_calls.h"
+#include "tests/faults/vulkan_calls.h"
 
-#include "allocations.h"
-#include "clock.h"
-#include "kept_objects.h"
-#include "vulkan_functions.h"
+#include "tests/faults/allocations.h"
+#include "tests/faults/clock.h"
+#include "tests/faults/kept_objects.h"
+#include "tests/faults/vulkan_functions.h"
 
 #include <chrono>
 #include <cstdio>

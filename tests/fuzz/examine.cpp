@@ -1,5 +1,5 @@
 // What both flavours have in common; see examine.h.
-#include "examine.h"
+#include "tests/fuzz/examine.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,7 +2,7 @@
 // (rendered). A program links one of them. What does not hold ends the process.
 #pragma once
 
-#include "input.h"
+#include "tests/fuzz/input.h"
 
 #include <cstdint>
 #include <span>

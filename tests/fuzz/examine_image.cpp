@@ -1,12 +1,12 @@
 // On a device: what the library accepts renders to finite images of which no sample is left out, the same however the
-// samples are split over calls. See examine.h; the environment is that of tests/context_fixture.h.
-#include "examine.h"
+// samples are split over calls. See examine.h; the environment is that of tests/support/context_fixture.h.
+#include "tests/fuzz/examine.h"
 
-#include "camera.h"
-#include "error.h"
-#include "render_settings.h"
-#include "scene.h"
-#include "scene_features.h"
+#include "lib/base/error.h"
+#include "lib/kernel/scene_features.h"
+#include "lib/render/render_settings.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
 
 #include <pt/pt.h>
 

@@ -1,14 +1,14 @@
 // Without a device: what the library accepts is what pt.h promises and becomes finite numbers for the kernel; what it
 // refuses has a code and a message. See examine.h.
-#include "examine.h"
+#include "tests/fuzz/examine.h"
 
-#include "camera.h"
-#include "error.h"
-#include "gpu_scene.h"
-#include "render_settings.h"
-#include "scene.h"
-#include "scene_features.h"
-#include "struct_size.h"
+#include "lib/api/struct_size.h"
+#include "lib/base/error.h"
+#include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/scene_features.h"
+#include "lib/render/render_settings.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

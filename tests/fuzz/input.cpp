@@ -1,7 +1,7 @@
 // Scenes from bytes; see input.h.
-#include "input.h"
+#include "tests/fuzz/input.h"
 
-#include "numbers.h"
+#include "tests/fuzz/numbers.h"
 
 #include <algorithm>
 #include <cstring>

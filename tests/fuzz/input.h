@@ -2,7 +2,7 @@
 // examine.h.
 #pragma once
 
-#include "byte_reader.h"
+#include "tests/fuzz/byte_reader.h"
 
 #include <pt/pt.h>
 

@@ -1,5 +1,5 @@
 // Numbers for scenes; see numbers.h.
-#include "numbers.h"
+#include "tests/fuzz/numbers.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -2,7 +2,7 @@
 // ranges in pt.h. A wild source also gives numbers that break the rules.
 #pragma once
 
-#include "byte_reader.h"
+#include "tests/fuzz/byte_reader.h"
 
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 //     replay CORPUS_FOLDER COUNT
 // takes every file of the corpus and then COUNT changes of them, the same each time. An input that ends the process is
 // left as ./failed-input.
-#include "mutation.h"
+#include "tests/fuzz/mutation.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,10 +1,10 @@
 // Scene files: JSON text through the command line program's reader to the structs of pt.h.
-#include "examine.h"
-#include "mutation.h"
+#include "tests/fuzz/examine.h"
+#include "tests/fuzz/mutation.h"
 
-#include "exit_code.h"
-#include "render_settings.h"
-#include "scene_file.h"
+#include "cli/base/exit_code.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
 
 #include <algorithm>
 #include <random>

@@ -1,5 +1,5 @@
 // The structs of pt.h, made from bytes.
-#include "examine.h"
+#include "tests/fuzz/examine.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     const std::span bytes(data, size);

@@ -1,6 +1,6 @@
 // Two contexts in two threads at a time, and a call that is stopped from another thread. The preset thread runs this
 // with ThreadSanitizer.
-#include "coursework_scene.h"
+#include "tests/support/coursework_scene.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>

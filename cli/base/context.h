@@ -1,0 +1,83 @@
+// Owns one pt_context and turns its failures into Failure.
+// Called by render_command, bench_command and selftest_command.
+#pragma once
+
+#include "cli/base/exit_code.h"
+#include "cli/base/field_names.h"
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class Context {
+public:
+    explicit Context(const pt_create_info &info) : has_given_shaders_(info.shader_dir != nullptr) {
+        const pt_result result = pt_create(&info, &context_);
+        if (result < 0) {
+            throw Failure(code_of(result), in_words_of_options(pt_last_error(nullptr)));
+        }
+    }
+    Context(const Context &) = delete;
+    Context &operator=(const Context &) = delete;
+    ~Context() { pt_destroy(context_); }
+
+    pt_context *get() const { return context_; }
+    std::string last_error() const { return pt_last_error(context_); }
+
+    // For calls whose arguments the user has no part in, or named on the command line.
+    void require(pt_result result) const {
+        if (result < 0) {
+            throw Failure(code_of(result), last_error());
+        }
+    }
+
+    // Without a read-out of the image.
+    std::uint32_t sample_count() const {
+        pt_stats stats{};
+        stats.struct_size = offsetof(pt_stats, rmse);
+        require(pt_get_stats(context_, &stats));
+        return stats.sample_count;
+    }
+
+    // Includes the estimate of the error, which takes a read-out of the image.
+    pt_stats read_stats() const {
+        pt_stats stats{};
+        stats.struct_size = sizeof(pt_stats);
+        require(pt_get_stats(context_, &stats));
+        return stats;
+    }
+
+    // Three components to a pixel.
+    std::vector<float> read_image(const pt_render &render) const {
+        std::vector<float> values(std::size_t{3} * render.width * render.height);
+        read_image(render, PT_QUANTITY_RADIANCE, values.data());
+        return values;
+    }
+
+    // The rows that the settings ask for. quantity: PT_QUANTITY_*.
+    void read_image(const pt_render &render, std::uint32_t quantity, float *values) const {
+        pt_image image{};
+        image.struct_size = sizeof(pt_image);
+        image.quantity = quantity;
+        image.data = values;
+        const std::uint32_t rows = render.row_count == 0 ? render.height - render.first_row : render.row_count;
+        image.size_bytes = std::uint64_t{3} * render.width * rows * sizeof(float);
+        require(pt_readback(context_, &image));
+    }
+
+private:
+    // Shaders that the user gave are what a scene file is: the user's to mend.
+    ExitCode code_of(pt_result result) const {
+        return result == PT_ERROR_SHADER && has_given_shaders_ ? ExitCode::scene : exit_code_of(result);
+    }
+
+    bool has_given_shaders_;
+    pt_context *context_ = nullptr;
+};
+
+} // namespace cli

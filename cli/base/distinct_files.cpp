@@ -1,0 +1,104 @@
+#include "cli/base/distinct_files.h"
+
+#include "cli/base/atomic_file.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/report_file.h"
+
+#include <compare>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace cli {
+namespace {
+
+// What exists is known by its device and inode. What does not is known by those of its folder and its name there; the
+// name is empty otherwise.
+struct Identity {
+    dev_t device;
+    ino_t inode;
+    std::string name;
+
+    auto operator<=>(const Identity &) const = default;
+};
+
+Identity identity_of(const struct stat &status, const std::string &name = "") {
+    return {status.st_dev, status.st_ino, name};
+}
+
+std::filesystem::path folder_of(const std::filesystem::path &path) {
+    return path.has_parent_path() ? path.parent_path() : ".";
+}
+
+// Nothing for an empty path, or if there is not even a folder.
+std::optional<Identity> identity_of(const std::string &path) {
+    struct stat status {};
+    if (path.empty()) {
+        return std::nullopt;
+    }
+    if (stat(path.c_str(), &status) == 0) {
+        return identity_of(status);
+    }
+    const std::filesystem::path target = AtomicFile::target_of(path);
+    if (stat(folder_of(target).c_str(), &status) == 0) {
+        return identity_of(status, target.filename());
+    }
+    return std::nullopt;
+}
+
+// Two outputs on one stream would be mixed up, whatever it leads to.
+std::optional<Identity> identity_of_output(const std::string &path) {
+    struct stat status {};
+    if (path == standard_stream) {
+        return fstat(STDOUT_FILENO, &status) == 0 ? std::optional(identity_of(status)) : std::nullopt;
+    }
+    return identity_of(path);
+}
+
+// A terminal may be read and written.
+std::optional<Identity> identity_of_input(const std::string &path) {
+    struct stat status {};
+    if (path == standard_stream) {
+        const bool is_file = fstat(STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode);
+        return is_file ? std::optional(identity_of(status)) : std::nullopt;
+    }
+    return identity_of(path);
+}
+
+std::string text_of(const NamedFile &file) {
+    return file.role + " " + file.path;
+}
+
+} // namespace
+
+void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs) {
+    std::map<Identity, const NamedFile *> known;
+    for (const NamedFile &input : inputs) {
+        if (const auto identity = identity_of_input(input.path)) {
+            known.emplace(*identity, &input);
+        }
+    }
+    for (const NamedFile &output : outputs) {
+        const auto identity = identity_of_output(output.path);
+        if (identity && !known.emplace(*identity, &output).second) {
+            throw Failure(ExitCode::usage, text_of(output) + ": is the same file as " + text_of(*known.at(*identity)));
+        }
+    }
+}
+
+void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outputs) {
+    std::error_code ignored;
+    for (const NamedFile &output : outputs) {
+        const bool is_file = !output.path.empty() && output.path != standard_stream;
+        if (is_file &&
+            std::filesystem::equivalent(folder_of(AtomicFile::target_of(output.path)), folder.path, ignored)) {
+            throw Failure(ExitCode::usage,
+                          text_of(output) + ": is in the folder of " + text_of(folder) + ", whose files are read");
+        }
+    }
+}
+
+} // namespace cli

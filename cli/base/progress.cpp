@@ -1,0 +1,125 @@
+// Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
+// Called by render_samples and bench_command from the library's progress callback.
+#include "cli/base/progress.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <sys/ioctl.h>
+#include <unistd.h>
+#include <utility>
+
+namespace cli {
+namespace {
+
+constexpr std::chrono::milliseconds update_interval{100};
+constexpr const char *erase_line = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
+
+std::string formatted(const char *format, double number) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), format, number);
+    return text.data();
+}
+
+std::string duration_text(double seconds) {
+    const auto whole = static_cast<long long>(std::ceil(seconds));
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
+    return text.data();
+}
+
+// What is left, if it goes on as it went so far.
+double remaining_seconds(double samples, std::uint64_t sample_count, double seconds) {
+    return seconds * (static_cast<double>(sample_count) - samples) / samples;
+}
+
+} // namespace
+
+ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal) {
+    if (quiet || name == "none") {
+        return ProgressStyle::none;
+    }
+    if (name == "json") {
+        return ProgressStyle::json;
+    }
+    return is_terminal ? ProgressStyle::line : ProgressStyle::none;
+}
+
+std::size_t terminal_columns() {
+    constexpr std::size_t usual = 80;
+    winsize size{};
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual;
+}
+
+Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
+                   Clock::time_point start, std::function<std::size_t()> column_count) :
+    output_(output),
+    column_count_(std::move(column_count)),
+    style_(style),
+    pixel_count_(static_cast<double>(pixel_count)),
+    sample_count_(sample_count),
+    start_(start),
+    next_update_(start) {}
+
+Progress::~Progress() {
+    if (style_ == ProgressStyle::line) {
+        output_ << erase_line << std::flush;
+    }
+}
+
+void Progress::update(double fraction, Clock::time_point now) {
+    update_samples(fraction * static_cast<double>(sample_count_), now);
+}
+
+void Progress::update_samples(double samples_of_part, Clock::time_point now) {
+    const double share = samples_of_part / static_cast<double>(sample_count_);
+    const double whole_share = part_begin_ + (part_end_ - part_begin_) * share;
+    const double sample_count = whole_share * static_cast<double>(sample_count_);
+    fraction_ = std::max(fraction_, whole_share);
+    if (style_ == ProgressStyle::none || sample_count <= 0.0 || (now < next_update_ && fraction_ < 1.0)) {
+        return;
+    }
+    next_update_ = now + update_interval;
+    // Below the clock's resolution there is no speed to tell.
+    const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
+    if (style_ == ProgressStyle::json) {
+        print_json(sample_count, seconds);
+    } else {
+        print_line(sample_count, seconds);
+    }
+}
+
+// What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that
+// wraps could not be written over.
+void Progress::print_line(double samples, double seconds) {
+    const std::array<std::string, 4> parts{
+        formatted("%5.1f %%", 100.0 * fraction_),
+        "  ETA " + duration_text(remaining_seconds(samples, sample_count_, seconds)),
+        formatted("  %.0f/", std::floor(samples)) + formatted("%.0f spp", static_cast<double>(sample_count_)),
+        formatted("  %.1f Msamples/s", samples * pixel_count_ / seconds * 1e-6),
+    };
+    const std::size_t columns = column_count_();
+    std::string line;
+    for (const std::string &part : parts) {
+        if (line.size() + part.size() >= columns) { // the last column stays free: some terminals wrap behind it
+            break;
+        }
+        line += part;
+    }
+    output_ << erase_line << line << std::flush;
+}
+
+void Progress::print_json(double samples, double seconds) {
+    const nlohmann::ordered_json line{{"fraction", fraction_},
+                                      {"samples_per_pixel", static_cast<std::uint64_t>(samples)},
+                                      {"samples_per_pixel_total", sample_count_},
+                                      {"samples_per_second", samples * pixel_count_ / seconds},
+                                      {"seconds", seconds},
+                                      {"eta_seconds", remaining_seconds(samples, sample_count_, seconds)}};
+    output_ << line.dump() << std::endl;
+}
+
+} // namespace cli

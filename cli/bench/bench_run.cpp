@@ -1,0 +1,113 @@
+// Owns the measurements of `pt bench`: the reference that is rendered first, and one timed run after the other.
+// Called by bench_command.
+#include "cli/bench/bench_run.h"
+
+#include "cli/base/interrupt.h"
+
+#include <chrono>
+#include <ctime>
+
+namespace cli {
+namespace {
+
+// Wall clock and processor time since its construction.
+class Stopwatch {
+public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double processor_seconds() const { return static_cast<double>(std::clock() - processor_start_) / CLOCKS_PER_SEC; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+    std::clock_t processor_start_ = std::clock();
+};
+
+// What the library's progress callback needs: the share of the whole bench before and in the present call.
+struct Share {
+    Progress &progress;
+    double before;
+    double within;
+
+    static std::int32_t receive(void *user, double fraction) {
+        const auto *share = static_cast<Share *>(user);
+        share->progress.update(share->before + share->within * fraction, Progress::Clock::now());
+        return interrupt_signal() != 0 ? 1 : 0;
+    }
+
+    static std::int32_t receive_silently(void *, double) { return interrupt_signal() != 0 ? 1 : 0; }
+};
+
+} // namespace
+
+BenchRunner::BenchRunner(const Context &context, const pt_render &render, Progress &progress,
+                         std::uint64_t total_sample_count) :
+    context_(context),
+    render_(render),
+    progress_(progress),
+    total_sample_count_(static_cast<double>(total_sample_count)) {}
+
+void BenchRunner::set_render(const BenchCell &cell, std::uint64_t seed) {
+    pt_render render = render_;
+    render.sampler = cell.sampler;
+    render.estimator = cell.estimator;
+    render.seed = seed;
+    context_.require(pt_set_render(context_.get(), &render));
+}
+
+// Builds the kernel, which is done when it is first needed.
+bool BenchRunner::warm_up() {
+    pt_accumulate_info info{};
+    info.struct_size = sizeof(pt_accumulate_info);
+    info.sample_count = 1;
+    info.progress = &Share::receive_silently;
+    context_.require(pt_accumulate(context_.get(), &info));
+    return interrupt_signal() == 0;
+}
+
+bool BenchRunner::accumulate(std::uint32_t sample_count) {
+    Share share{progress_, done_sample_count_ / total_sample_count_, sample_count / total_sample_count_};
+    pt_accumulate_info info{};
+    info.struct_size = sizeof(pt_accumulate_info);
+    info.sample_count = sample_count;
+    info.progress = &Share::receive;
+    info.progress_user = &share;
+    const pt_result result = pt_accumulate(context_.get(), &info);
+    context_.require(result);
+    done_sample_count_ += sample_count;
+    return result != PT_CANCELLED;
+}
+
+std::optional<std::vector<float>> BenchRunner::render_reference(std::uint32_t sample_count, ImageError &noise) {
+    const std::uint32_t half = sample_count / 2;
+    set_render({PT_SAMPLER_BEST, PT_ESTIMATOR_BEST, sample_count, {}}, render_.seed);
+    if (!accumulate(half)) {
+        return std::nullopt;
+    }
+    const std::vector<float> first = context_.read_image(render_);
+    if (!accumulate(sample_count - half)) {
+        return std::nullopt;
+    }
+    std::vector<float> whole = context_.read_image(render_);
+    noise = noise_of_halves(first, half, whole, sample_count);
+    return whole;
+}
+
+std::optional<BenchRun> BenchRunner::measure(const BenchCell &cell, std::uint64_t seed,
+                                             std::span<const float> reference) {
+    set_render(cell, seed);
+    if (!warm_up()) {
+        return std::nullopt;
+    }
+    set_render(cell, seed); // discards the sample
+    const Stopwatch stopwatch;
+    if (!accumulate(cell.sample_count)) {
+        return std::nullopt;
+    }
+    BenchRun run{};
+    run.seconds = stopwatch.seconds();
+    run.processor_seconds = stopwatch.processor_seconds();
+    run.error = image_error(context_.read_image(render_), reference);
+    return run;
+}
+
+} // namespace cli

@@ -1,0 +1,39 @@
+// Owns the measurements of `pt bench`: the reference that is rendered first, and one timed run after the other.
+// Called by bench_command.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/progress.h"
+#include "cli/bench/bench_report.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cli {
+
+// Scene and camera are set already. Every function returns nothing once a signal has come.
+class BenchRunner {
+public:
+    // total_sample_count: of all that will be asked for, for the progress.
+    BenchRunner(const Context &context, const pt_render &render, Progress &progress, std::uint64_t total_sample_count);
+
+    // With the best sampler and estimator and the seed of the settings. Tells its own noise.
+    std::optional<std::vector<float>> render_reference(std::uint32_t sample_count, ImageError &noise);
+
+    std::optional<BenchRun> measure(const BenchCell &cell, std::uint64_t seed, std::span<const float> reference);
+
+private:
+    void set_render(const BenchCell &cell, std::uint64_t seed);
+    bool warm_up();
+    bool accumulate(std::uint32_t sample_count);
+
+    const Context &context_;
+    pt_render render_;
+    Progress &progress_;
+    double total_sample_count_;
+    double done_sample_count_ = 0.0;
+};
+
+} // namespace cli

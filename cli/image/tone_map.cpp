@@ -1,0 +1,151 @@
+// Owns the way from linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
+// Called by render_command for the formats that cannot hold radiance, and by the options for the names.
+#include "cli/image/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace cli {
+namespace {
+
+using Rows = std::array<Colour, 3>;
+
+Colour multiply(const Rows &rows, const Colour &colour) {
+    Colour product;
+    for (std::size_t i = 0; i < 3; ++i) {
+        product[i] = rows[i][0] * colour[0] + rows[i][1] * colour[1] + rows[i][2] * colour[2];
+    }
+    return product;
+}
+
+Colour clamp(Colour colour) {
+    for (double &component : colour) {
+        component = std::clamp(component, 0.0, 1.0);
+    }
+    return colour;
+}
+
+// Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3:
+// Ld = L / (1 + L). On the luminance, as in the paper, which keeps the ratio of the channels; per channel would wash
+// out every saturated colour. The price: a channel far above the luminance may pass 1 and is clipped.
+Colour reinhard(Colour colour) {
+    const double luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]; // Rec. 709
+    for (double &component : colour) {
+        component /= 1.0 + luminance;
+    }
+    return colour;
+}
+
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES reference and output transforms, per
+// channel. More contrast and saturation than ACES itself has.
+Colour aces(Colour colour) {
+    for (double &x : colour) {
+        x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
+    }
+    return colour;
+}
+
+// Sobotka 2022, AgX (github.com/sobotka/AgX), base look, in the form of Wrensch 2023, "Minimal AgX Implementation":
+// the primaries move inwards, 16.5 stops about middle grey are taken logarithmically, and a polynomial stands for the
+// sigmoid (mean squared error 3.7e-6); then the primaries move back. What comes out is a signal for a display of gamma
+// 2.2, so it is decoded here and every curve gives light.
+Colour agx(const Colour &colour) {
+    static constexpr Rows inset{{{0.842479062253094, 0.0784335999999992, 0.0792237451477643},
+                                 {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
+                                 {0.0423756549057051, 0.0784336, 0.879142973793104}}};
+    static constexpr Rows outset{{{1.19687900512017, -0.0980208811401368, -0.0990297440797205},
+                                  {-0.0528968517574562, 1.15190312990417, -0.0989611768448433},
+                                  {-0.0529716355144438, -0.0980434501171241, 1.15107367264116}}};
+    static constexpr std::array<double, 7> sigmoid{-0.00232, 0.1191, 0.4298, -6.868, 31.96, -40.14, 15.5};
+    constexpr double lowest = -12.47393; // log2(0.18) - 10
+    constexpr double highest = 4.026069; // log2(0.18) + 6.5
+
+    Colour signal = multiply(inset, colour);
+    for (double &component : signal) {
+        const double stops = std::clamp(std::log2(component), lowest, highest); // log2(0) = -inf is clamped too
+        const double x = (stops - lowest) / (highest - lowest);
+        const auto horner = [x](double sum, double coefficient) { return sum * x + coefficient; };
+        component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
+    }
+    Colour light = clamp(multiply(outset, signal));
+    for (double &component : light) {
+        component = std::pow(component, 2.2);
+    }
+    return light;
+}
+
+// Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Takes off the 4 % that a Fresnel
+// reflection adds to a base colour, leaves what then peaks below 0.76 alone, and above it compresses the peak and
+// fades towards white.
+Colour neutral(Colour colour) {
+    constexpr double fresnel = 0.04;
+    constexpr double start = 0.8 - fresnel;
+    constexpr double range = 1.0 - start;
+    constexpr double desaturation = 0.15;
+
+    const double least = *std::min_element(colour.begin(), colour.end());
+    // The parabola meets the constant at 2 * fresnel with equal slope and goes through 0.
+    const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
+    for (double &component : colour) {
+        component -= offset;
+    }
+    const double peak = *std::max_element(colour.begin(), colour.end());
+    if (peak < start) {
+        return colour;
+    }
+    const double new_peak = 1.0 - range * range / (peak + range - start);
+    const double white = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
+    for (double &component : colour) {
+        component = std::lerp(component * new_peak / peak, new_peak, white);
+    }
+    return colour;
+}
+
+} // namespace
+
+std::optional<ToneCurve> find_tone_curve(std::string_view name) {
+    const auto found = std::find(tone_curve_names.begin(), tone_curve_names.end(), name);
+    if (found == tone_curve_names.end()) {
+        return std::nullopt;
+    }
+    return static_cast<ToneCurve>(found - tone_curve_names.begin());
+}
+
+Colour apply_curve(ToneCurve curve, const Colour &radiance) {
+    switch (curve) {
+    case ToneCurve::reinhard:
+        return clamp(reinhard(radiance));
+    case ToneCurve::aces:
+        return clamp(aces(radiance));
+    case ToneCurve::agx:
+        return agx(radiance);
+    case ToneCurve::neutral:
+        return clamp(neutral(radiance));
+    case ToneCurve::none:
+        break;
+    }
+    return clamp(radiance);
+}
+
+double encode_srgb(double light) {
+    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+}
+
+std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map) {
+    const double scale = std::exp2(map.exposure);
+    std::vector<std::uint8_t> bytes(radiance.size());
+    for (std::size_t i = 0; i < radiance.size(); i += 3) {
+        const Colour light =
+            apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double signal = map.gamma ? std::pow(light[channel], 1.0 / *map.gamma) : encode_srgb(light[channel]);
+            // lround rounds halves away from 0; no dither, so that equal pictures are equal files.
+            bytes[i + channel] = static_cast<std::uint8_t>(std::lround(signal * 255.0));
+        }
+    }
+    return bytes;
+}
+
+} // namespace cli

@@ -1,0 +1,98 @@
+// Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole.
+// Called by render_picture.
+#include "cli/render/piecewise_render.h"
+
+#include "cli/scene/scene_setup.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cli {
+namespace {
+
+pt_render piece_of(const pt_render &render, std::uint32_t first_row, std::uint32_t rows) {
+    pt_render piece = render;
+    piece.first_row = first_row;
+    piece.row_count = std::min(rows, render.height - first_row);
+    return piece;
+}
+
+// The root of the mean of squares over the image, from that over its parts: before of first_row rows, and of rows more.
+double joined(double before, std::uint32_t first_row, double part, std::uint32_t rows) {
+    const double sum = before * before * first_row + part * part * rows;
+    return std::sqrt(sum / (static_cast<double>(first_row) + rows));
+}
+
+// Adds what is known of a piece. The bounds of several pieces are joined as if all erred to the same side.
+void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::uint32_t rows) {
+    if (first_row == 0) {
+        whole = piece;
+        return;
+    }
+    whole.sample_count = std::min(whole.sample_count, piece.sample_count);
+    whole.rejected_samples += piece.rejected_samples;
+    whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
+    whole.submit_count = piece.submit_count; // of the context
+    whole.device_seconds = piece.device_seconds;
+    for (double pt_stats::*const error :
+         {&pt_stats::rmse, &pt_stats::rmse_low, &pt_stats::rmse_high, &pt_stats::relative_rmse,
+          &pt_stats::relative_rmse_low, &pt_stats::relative_rmse_high}) {
+        whole.*error = joined(whole.*error, first_row, piece.*error, rows);
+    }
+}
+
+} // namespace
+
+std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                         std::uint32_t wanted_rows) {
+    std::uint32_t rows = wanted_rows == 0 ? settings.render.height : std::min(wanted_rows, settings.render.height);
+    for (;; rows = (rows + 1) / 2) {
+        const pt_render piece = piece_of(settings.render, 0, rows);
+        const pt_result result = pt_set_render(context.get(), &piece);
+        const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
+        if (too_large && rows > 1) {
+            continue;
+        }
+        require_render(context, file, settings, result);
+        return rows;
+    }
+}
+
+PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
+                             bool with_standard_error, const Stop &stop, Progress &progress) {
+    const pt_render &render = settings.render;
+    const std::size_t row_values = std::size_t{3} * render.width;
+    PiecewiseImage image{};
+    image.radiance.resize(row_values * render.height);
+    image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
+    while (image.rows_done < render.height) {
+        const std::uint32_t first_row = image.rows_done;
+        const pt_render piece = piece_of(render, first_row, rows);
+        if (first_row > 0) {
+            context.require(pt_set_render(context.get(), &piece));
+        }
+        const double height = render.height;
+        progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
+        take_samples(context, settings, stop, progress);
+
+        const pt_stats stats = context.read_stats();
+        if (stats.sample_count == 0) {
+            break;
+        }
+        join(image.stats, stats, first_row, piece.row_count);
+        context.read_image(piece, PT_QUANTITY_RADIANCE, &image.radiance[row_values * first_row]);
+        if (with_standard_error) {
+            context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
+        }
+        image.rows_done += piece.row_count;
+        if (stop()) {
+            break;
+        }
+    }
+    if (image.rows_done == 0) {
+        image.stats = context.read_stats();
+    }
+    return image;
+}
+
+} // namespace cli

@@ -1,0 +1,33 @@
+// Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole. A
+// sample does not depend on the piece that it is taken in: the image has the same bits.
+// Called by render_picture.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/progress.h"
+#include "cli/render/render_samples.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cli {
+
+struct PiecewiseImage {
+    std::vector<float> radiance;       // of the whole image; black below rows_done
+    std::vector<float> standard_error; // empty if it was not asked for
+    std::uint32_t rows_done;           // of the image, with samples
+    pt_stats stats;                    // of these rows; sample_count is the least of the pieces
+};
+
+// Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that
+// is 0, all of them; halved until the device has the memory. Throws Failure.
+std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                         std::uint32_t wanted_rows);
+
+// After fit_pieces. Ends early, between or within pieces, once it is to stop.
+PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
+                             bool with_standard_error, const Stop &stop, Progress &progress);
+
+} // namespace cli

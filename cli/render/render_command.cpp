@@ -1,0 +1,51 @@
+// Owns `pt render`: scene file and options in, images out.
+// Called by main.
+#include "cli/render/render_command.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/base/interrupt.h"
+#include "cli/base/vector_width.h"
+#include "cli/render/render_context.h"
+#include "cli/render/render_output.h"
+#include "cli/render/render_picture.h"
+#include "cli/render/watch_command.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <chrono>
+
+namespace cli {
+namespace {
+
+int render_once(const RenderOptions &options, ValidationLog &log) {
+    RenderTimes times{};
+    times.start = std::chrono::steady_clock::now();
+    check_names(options);
+    const SceneFile file = read_scene_file(options.scene);
+    const RenderSettings settings = merge_settings(options, file);
+    check_outputs(options, settings);
+    catch_interrupts();
+    choose_vector_width(file.surface_count());
+
+    times.create_start = std::chrono::steady_clock::now();
+    const Context context(render_create_info(options, log));
+    const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
+    if (outcome == Outcome::not_all_written) {
+        return static_cast<int>(ExitCode::file);
+    }
+    if (outcome == Outcome::target_missed) {
+        return static_cast<int>(ExitCode::target_missed);
+    }
+    return interrupt_signal() == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(interrupt_signal());
+}
+
+} // namespace
+
+int run_render(const RenderOptions &options) {
+    ValidationLog log;
+    const int code = options.watch ? watch(options, log) : render_once(options, log);
+    // Only now, for the layer reports leaks when the context goes.
+    return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
+}
+
+} // namespace cli

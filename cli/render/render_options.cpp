@@ -1,0 +1,149 @@
+// Owns the options of `pt render`: their names, help and syntax.
+// Called by main; read by render_command and render_settings.
+#include "cli/render/render_options.h"
+
+#include "cli/base/common_options.h"
+#include "cli/base/method_names.h"
+
+namespace cli {
+namespace {
+
+CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_error) {
+    const auto read = [&target_error](const std::string &text) {
+        target_error = parse_share(text);
+        if (!target_error || *target_error <= 0.0) {
+            refuse_option("--error", "must be a number above 0 like 0.005 or 0.5%", text);
+        }
+    };
+    return command
+        .add_option_function<std::string>(
+            "--error", read,
+            "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take "
+            "all samples)")
+        ->type_name("E");
+}
+
+void add_output_options(CLI::App &command, RenderOptions &options) {
+    command
+        .add_option("-o,--output", options.outputs,
+                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
+        ->required()
+        ->expected(1)
+        ->take_all()
+        ->type_name("FILE");
+    command
+        .add_option("--standard-error", options.standard_error,
+                    "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
+        ->type_name("FILE");
+    command
+        .add_option("--stats", options.stats,
+                    "Write the facts of the rendering as JSON; - is standard output, the summary then goes to stderr")
+        ->type_name("FILE");
+}
+
+void add_picture_options(CLI::App &command, RenderOptions &options) {
+    add_size(command, options.size)->group("Picture");
+    const auto read_exposure = [&options](const std::string &text) {
+        options.exposure = parse_exposure(text);
+        if (!options.exposure) {
+            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--exposure", read_exposure,
+                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: the "
+                                          "scene's, else auto)")
+        ->type_name("EV")
+        ->group("Picture");
+    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
+             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: the scene's, else none)")
+        ->group("Picture");
+    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
+                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only (default: the scene's)")
+        ->type_name("G")
+        ->group("Picture");
+}
+
+void add_sampling_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Sampling";
+    add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
+                                    "Samples per pixel; with --error the most (default: the scene's, else 64, with "
+                                    "--error 65536)")
+        ->group(group);
+    add_target_error(command, options.target_error)->group(group);
+    add_seed(command, options.seed)->group(group);
+    add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
+                                    "Index of the first sample, to continue a sequence (default: 0)")
+        ->group(group);
+    add_max_path_length(command, options.max_path_length)->group(group);
+    const auto find_sampler = [](std::string_view name) { return samplers.find(name); };
+    add_name(command, "--sampler", options.sampler, find_sampler, "sampler", samplers.names(),
+             samplers.list() + "; they differ in noise alone (default: the scene's, else best)")
+        ->group(group);
+    const auto find_estimator = [](std::string_view name) { return estimators.find(name); };
+    add_name(command, "--estimator", options.estimator, find_estimator, "estimator", estimators.names(),
+             estimators.list() + "; they differ in noise alone (default: the scene's, else best)")
+        ->group(group);
+}
+
+void add_device_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Device";
+    add_device(command, options.device)->group(group);
+    add_whole_number<std::uint32_t>(command, "--submit-ms", options.submit_milliseconds, 1,
+                                    "Aim for the length of one submission to the device (default: 50)")
+        ->group(group);
+    add_whole_number<std::uint32_t>(
+        command, "--piece-rows", options.piece_rows, 1,
+        "Render the image in pieces of so many rows, for less memory on the device (default: "
+        "the whole, or what its memory holds)")
+        ->group(group);
+    command
+        .add_flag("--validation", options.validation,
+                  "Run with the Khronos validation layer; any message of it makes the exit code 1")
+        ->group(group);
+}
+
+void add_editing_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Editing";
+    command
+        .add_flag("--watch", options.watch,
+                  "Render again whenever the scene or a shader of --shader-dir changes, until Ctrl-C")
+        ->group(group);
+    command
+        .add_option("--shader-dir", options.shader_dir,
+                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/")
+        ->type_name("DIR")
+        ->group(group);
+}
+
+} // namespace
+
+const char *const render_help =
+    "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
+    "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
+    "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
+    "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
+    "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
+    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the exponential of "
+    "the\n"
+    "mean of the logarithms of its pixels, each the mean of its three channels; black ones do not count. It is rounded "
+    "to\n"
+    "hundredths and shown, so that it can be given as a number where pictures are to be compared.\n\n"
+    "A file that cannot be written whole is left as it was. The metadata of images say what made them, and no time:\n"
+    "equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a date.\n\n"
+    "With --watch, what is wrong with a scene or a shader is told once, and the picture stays as it was until that is\n"
+    "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
+
+void add_render_options(CLI::App &command, RenderOptions &options) {
+    command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
+        ->required()
+        ->type_name("SCENE");
+    add_output_options(command, options);
+    add_picture_options(command, options);
+    add_sampling_options(command, options);
+    add_device_options(command, options);
+    add_editing_options(command, options);
+    add_reporting(command, options.progress, options.quiet);
+}
+
+} // namespace cli

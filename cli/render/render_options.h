@@ -1,0 +1,58 @@
+// Owns the options of `pt render`: their names, help and syntax.
+// Called by main; read by render_command and render_settings.
+#pragma once
+
+#include "cli/base/number.h"
+#include "cli/image/exposure.h"
+#include "cli/image/tone_map.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace cli {
+
+struct RenderOptions {
+    std::string scene;
+    std::vector<std::string> outputs;
+    std::string standard_error; // path of the image of standard errors; empty: none
+    std::string stats;
+
+    // Nothing where the scene file or a default decides.
+    std::optional<ImageSize> size;
+    std::optional<std::uint32_t> sample_count;
+    std::optional<double> target_error; // relative; nothing: take all samples
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint32_t> max_path_length;
+    std::optional<std::uint32_t> sampler;
+    std::optional<std::uint32_t> estimator;
+    std::uint32_t first_sample = 0;
+
+    // Of .png and .jpg alone.
+    std::optional<Exposure> exposure;
+    std::optional<ToneCurve> tone_curve;
+    std::optional<double> gamma;
+
+    std::string device;
+    std::uint32_t submit_milliseconds = 0; // 0: the library's default
+    std::uint32_t piece_rows = 0;          // 0: as many as the device has memory for
+    bool validation = false;
+
+    std::string shader_dir; // empty: the library's own kernels
+    bool watch = false;
+
+    std::string progress = "auto";
+    bool quiet = false;
+};
+
+extern const char *const render_help;
+
+// The options write into `options` when the command line is parsed, so it has to live as long as the command.
+void add_render_options(CLI::App &command, RenderOptions &options);
+
+} // namespace cli

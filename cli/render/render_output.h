@@ -1,0 +1,33 @@
+// Owns the outputs of a rendering: the checks before it, the images after it.
+// Called by render_command.
+#pragma once
+
+#include "cli/image/image_file.h"
+#include "cli/render/render_options.h"
+#include "cli/render/render_report.h"
+#include "cli/scene/render_settings.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+// Throws Failure(ExitCode::usage) if an output's name tells no known format, or the output is another one or a source.
+void check_names(const RenderOptions &options);
+
+// All else that can go wrong with the outputs and can be known before an hour of rendering.
+void check_outputs(const RenderOptions &options, const RenderSettings &settings);
+
+// Writes every image that can be written even if another cannot, and says on stderr which could not. standard_error may
+// be empty if no file of it is wanted. Returns the paths of those written, output_count() if all were.
+std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
+                                      std::span<const float> radiance, std::span<const float> standard_error);
+
+// Whether any output is in a format that the image module encodes.
+bool needs_module(const RenderOptions &options);
+
+std::size_t output_count(const RenderOptions &options);
+
+} // namespace cli

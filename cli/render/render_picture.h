@@ -1,0 +1,34 @@
+// Owns one rendering on a context: from a scene to the files of its picture.
+// Called by render_command and watch_command.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/render/render_options.h"
+#include "cli/render/render_samples.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <chrono>
+
+namespace cli {
+
+enum class Outcome {
+    written,
+    target_missed,   // all was written, but the target error was not reached
+    not_all_written, // what could not is told on stderr
+    interrupted,     // by a signal; the samples done so far were written, if there were any
+    superseded       // nothing was written
+};
+
+// For the report: when all began, and when the context began to be made ready.
+struct RenderTimes {
+    std::chrono::steady_clock::time_point start;
+    std::chrono::steady_clock::time_point create_start;
+};
+
+// Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far;
+// so does superseded(), but then nothing is written. Throws Failure.
+Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
+                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded);
+
+} // namespace cli

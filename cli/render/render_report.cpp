@@ -1,0 +1,203 @@
+// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
+// Called by render_command.
+#include "cli/render/render_report.h"
+
+#include "cli/base/device_text.h"
+#include "cli/base/json_number.h"
+#include "cli/base/method_names.h"
+#include "cli/render/sample_forecast.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+namespace cli {
+namespace {
+
+std::vector<std::string> feature_names(std::uint32_t features) {
+    struct Feature {
+        std::uint32_t bit;
+        const char *name;
+    };
+    std::vector<std::string> names;
+    for (const auto &[bit, name] : {Feature{PT_FEATURE_LAMPS, "lamps"}, Feature{PT_FEATURE_GLOSS, "gloss"},
+                                    Feature{PT_FEATURE_MOTION, "motion"}, Feature{PT_FEATURE_LARGE, "large"}}) {
+        if ((features & bit) != 0) {
+            names.emplace_back(name);
+        }
+    }
+    return names;
+}
+
+std::uint64_t peak_host_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+}
+
+nlohmann::ordered_json tone_map_json(const RenderReport &report) {
+    if (!report.tone_map) {
+        return nullptr;
+    }
+    const ToneMap &map = *report.tone_map;
+    return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
+            {"exposure", map.exposure},
+            {"automatic_exposure", report.automatic_exposure},
+            {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
+}
+
+double samples_per_second(const RenderReport &report) {
+    const double pixels = static_cast<double>(report.render.width) * report.render.height;
+    return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
+}
+
+// Three significant digits, so that 0.0031% can be told from 0; without exponent for what is seen in pictures.
+std::string percent_text(double share) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g%%", 100.0 * share);
+    return text.data();
+}
+
+std::string estimate_text(const pt_stats &stats) {
+    if (!std::isfinite(stats.relative_rmse)) {
+        const std::string reason = " with fewer than " + std::to_string(first_look) + " samples";
+        return "error unknown" + (stats.sample_count < first_look ? reason : "");
+    }
+    return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
+           percent_text(stats.relative_rmse_high) + ")";
+}
+
+std::string target_text(const RenderReport &report) {
+    const std::string samples = std::to_string(report.stats.sample_count) + " samples";
+    if (report.target_reached()) {
+        return "target reached after " + samples;
+    }
+    const std::string high = std::isfinite(report.stats.relative_rmse_high)
+                                 ? percent_text(report.stats.relative_rmse_high) + " is above "
+                                 : "unknown error for ";
+    const bool interrupted = report.stats.sample_count < report.requested_sample_count;
+    return "target not reached: " + high + percent_text(report.target_error) + " after " + samples +
+           (interrupted ? "" : ", raise --spp");
+}
+
+} // namespace
+
+std::string version_text() {
+    const std::uint32_t version = pt_version();
+    return std::to_string(version / 1'000'000) + "." + std::to_string(version / 1'000 % 1'000) + "." +
+           std::to_string(version % 1'000);
+}
+
+nlohmann::ordered_json stats_json(const RenderReport &report) {
+    const pt_render &render = report.render;
+    return {{"version", version_text()},
+            {"scene", report.scene},
+            {"width", render.width},
+            {"height", render.height},
+            {"spp", report.stats.sample_count},
+            {"spp_requested", report.requested_sample_count},
+            {"first_sample", render.first_sample},
+            {"seed", render.seed},
+            {"max_path_length", render.max_path_length},
+            {"sampler", samplers.name(render.sampler)},
+            {"estimator", estimators.name(render.estimator)},
+            {"device",
+             {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}},
+            {"rmse", number_or_null(report.stats.rmse)},
+            {"rmse_low", number_or_null(report.stats.rmse_low)},
+            {"rmse_high", number_or_null(report.stats.rmse_high)},
+            {"relative_rmse", number_or_null(report.stats.relative_rmse)},
+            {"relative_rmse_low", number_or_null(report.stats.relative_rmse_low)},
+            {"relative_rmse_high", number_or_null(report.stats.relative_rmse_high)},
+            {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
+            {"target_reached", report.target_reached()},
+            {"seconds",
+             {{"create", report.create_seconds},
+              {"accumulate", report.accumulate_seconds},
+              {"device", report.stats.device_seconds},
+              {"total", report.total_seconds}}},
+            {"submissions", report.stats.submit_count},
+            {"rejected_samples", report.stats.rejected_samples},
+            {"device_bytes", report.stats.device_bytes},
+            {"peak_host_bytes", peak_host_bytes()},
+            {"features", feature_names(report.stats.features)},
+            {"samples_per_second", samples_per_second(report)},
+            {"tone_map", tone_map_json(report)},
+            {"warnings", report.warnings}};
+}
+
+std::string summary_text(const RenderReport &report) {
+    std::array<char, 128> text{};
+    std::snprintf(text.data(), text.size(), "%ux%u, %u spp in %.2f s on ", report.render.width, report.render.height,
+                  report.stats.sample_count, report.total_seconds);
+    return text.data() + std::string(report.device.name);
+}
+
+std::string exposure_text(const RenderReport &report) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "exposure %.2f EV%s", report.tone_map.value_or(ToneMap{}).exposure,
+                  report.automatic_exposure ? " (auto)" : "");
+    return text.data();
+}
+
+std::string error_text(const RenderReport &report) {
+    return estimate_text(report.stats) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
+}
+
+// No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
+// pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
+ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map) {
+    add("software", "pt " + version_text());
+    if (!report.date.empty()) {
+        add("DateTime", report.date); // becomes capDate in OpenEXR
+    }
+    add_whole("samplesPerPixel", report.stats.sample_count);
+    add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
+                           (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
+    if (tone_map != nullptr) {
+        add_tone_map(*tone_map);
+    }
+    add("pt.scene", std::filesystem::path(report.scene).filename());
+    add("pt.seed", std::to_string(report.render.seed));
+    add("pt.firstSample", std::to_string(report.render.first_sample));
+    add_whole("pt.maxPathLength", report.render.max_path_length);
+    add("pt.sampler", std::string(samplers.name(report.render.sampler)));
+    add("pt.estimator", std::string(estimators.name(report.render.estimator)));
+    add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
+    if (std::isfinite(report.stats.relative_rmse)) {
+        add_real("pt.relativeError", report.stats.relative_rmse);
+    }
+    add("pt.device", report.device.name);
+    add("pt.driver", report.device.driver);
+}
+
+void ImageMetadata::add_tone_map(const ToneMap &tone_map) {
+    add("pt.toneMap", std::string(tone_curve_names[static_cast<std::size_t>(tone_map.curve)]));
+    add_real("pt.exposure", tone_map.exposure);
+    if (tone_map.gamma) {
+        add_real("pt.gamma", *tone_map.gamma);
+    } else {
+        add("pt.encoding", "sRGB");
+    }
+}
+
+void ImageMetadata::add(const char *name, std::string text) {
+    texts_.push_back(std::make_unique<std::string>(std::move(text)));
+    attributes_.push_back({name, texts_.back()->c_str(), 0.0, 0, 0});
+}
+
+void ImageMetadata::add_whole(const char *name, std::uint32_t number) {
+    constexpr std::uint32_t largest = std::numeric_limits<std::int32_t>::max();
+    attributes_.push_back({name, nullptr, static_cast<double>(std::min(number, largest)), 0, 0});
+}
+
+void ImageMetadata::add_real(const char *name, double number) {
+    attributes_.push_back({name, nullptr, number, 1, 0});
+}
+
+} // namespace cli

@@ -1,0 +1,72 @@
+// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
+// Called by render_command.
+#pragma once
+
+#include "cli/image/image_module.h"
+#include "cli/image/tone_map.h"
+
+#include <pt/pt.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct RenderReport {
+    std::string scene;
+    std::string date; // for the images; empty: none
+    pt_render render;
+    std::uint32_t requested_sample_count; // the most, if there is a target
+    double target_error;                  // relative; 0: none
+    pt_stats stats;
+    pt_device_info device;
+    double create_seconds;
+    double accumulate_seconds;
+    double total_seconds;
+    std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
+    bool automatic_exposure;
+    std::vector<std::string> warnings;
+
+    bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
+};
+
+// "0.1.0", from the library's number.
+std::string version_text();
+
+nlohmann::ordered_json stats_json(const RenderReport &report);
+
+// "256x128, 64 spp in 1.23 s on llvmpipe"
+std::string summary_text(const RenderReport &report);
+
+// "exposure -3.13 EV (auto)"
+std::string exposure_text(const RenderReport &report);
+
+// "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
+std::string error_text(const RenderReport &report);
+
+// Attributes of the image file, which keep the texts that they point to.
+class ImageMetadata {
+public:
+    // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing was.
+    ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
+    ImageMetadata(const ImageMetadata &) = delete;
+    ImageMetadata &operator=(const ImageMetadata &) = delete;
+
+    const std::vector<pt_image_attribute> &attributes() const { return attributes_; }
+
+private:
+    void add(const char *name, std::string text);
+    void add_whole(const char *name, std::uint32_t number);
+    void add_real(const char *name, double number);
+    void add_tone_map(const ToneMap &tone_map);
+
+    std::vector<std::unique_ptr<std::string>> texts_;
+    std::vector<pt_image_attribute> attributes_;
+};
+
+} // namespace cli

@@ -1,0 +1,172 @@
+// Owns `pt render --watch`: the picture is rendered again whenever its sources change, on one context.
+// Called by render_command.
+#include "cli/render/watch_command.h"
+
+#include "cli/base/context.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/interrupt.h"
+#include "cli/base/message.h"
+#include "cli/base/report_file.h"
+#include "cli/base/vector_width.h"
+#include "cli/render/render_output.h"
+#include "cli/render/render_picture.h"
+#include "cli/render/source_watch.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace cli {
+namespace {
+
+// How long a signal that comes just before the wait begins may go unnoticed.
+constexpr std::chrono::milliseconds patience{200};
+
+// A pipe can be read once, and its reader waits for its writer.
+void require_files(const RenderOptions &options) {
+    if (options.scene == standard_stream) {
+        throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
+    }
+    std::error_code ignored;
+    if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored)) {
+        throw Failure(ExitCode::usage, options.scene + ": not a regular file, which --watch needs");
+    }
+}
+
+class Watch {
+public:
+    Watch(const RenderOptions &options, ValidationLog &log) :
+        options_(options),
+        log_(log),
+        sources_(options.scene, options.shader_dir) {}
+
+    // Returns the exit code.
+    int run() {
+        for (;;) {
+            sources_.begin();
+            render_or_tell();
+            tell_once_what_is_watched();
+            do {
+                if (interrupt_signal() != 0) {
+                    return exit_code();
+                }
+            } while (!sources_.changed(patience));
+            tell_changes();
+        }
+    }
+
+private:
+    // A watch that is ended while it waits has done its work.
+    int exit_code() const {
+        if (outcome_ == Outcome::not_all_written) {
+            return static_cast<int>(ExitCode::file);
+        }
+        if (outcome_ == Outcome::target_missed) {
+            return static_cast<int>(ExitCode::target_missed);
+        }
+        const bool stopped = outcome_ == Outcome::interrupted || outcome_ == Outcome::superseded;
+        return stopped ? exit_code_of_signal(interrupt_signal()) : static_cast<int>(ExitCode::done);
+    }
+
+    // Where an edit can help, a failure is told and waited out.
+    void render_or_tell() {
+        outcome_.reset();
+        try {
+            render();
+        } catch (const Failure &failure) {
+            const bool is_source = failure.code() == ExitCode::scene;
+            const bool is_fatal = failure.code() == ExitCode::device_lost || failure.code() == ExitCode::internal;
+            if (is_fatal || (is_first_ && !is_source)) {
+                throw;
+            }
+            print_message(failure.what());
+        }
+        is_first_ = false;
+    }
+
+    void render() {
+        RenderTimes times{};
+        times.start = std::chrono::steady_clock::now();
+        check_names(options_);
+        const SceneFile file = read_scene_file(options_.scene);
+        const RenderSettings settings = merge_settings(options_, file);
+        check_outputs(options_, settings);
+        times.create_start = std::chrono::steady_clock::now();
+        refresh_context(file);
+        if (is_up_to_date()) {
+            print_unless_quiet("the same kernels and the same scene: nothing to render");
+            outcome_ = rendered_outcome_;
+            return;
+        }
+        const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
+        rendered_scene_.reset();
+        outcome_ = render_picture(*context_, options_, file, settings, times, superseded);
+        if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
+            rendered_outcome_ = *outcome_;
+            rendered_scene_ = sources_.scene_text();
+        }
+    }
+
+    // One context for all pictures: another start would take longer than most edits are worth.
+    void refresh_context(const SceneFile &file) {
+        if (!context_) {
+            choose_vector_width(file.surface_count());
+            context_ = std::make_unique<Context>(render_create_info(options_, log_));
+        } else if (!options_.shader_dir.empty()) {
+            context_->require(pt_reload_shaders(context_->get()));
+        }
+    }
+
+    // Kernels that differ have discarded the samples of the picture.
+    bool is_up_to_date() const {
+        return rendered_scene_ && rendered_scene_ == sources_.scene_text() && context_->sample_count() > 0;
+    }
+
+    void print_unless_quiet(const std::string &message) const {
+        if (!options_.quiet) {
+            print_message(message);
+        }
+    }
+
+    void tell_once_what_is_watched() {
+        if (!std::exchange(is_told_, true) && !options_.quiet) {
+            const std::string shaders = options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir;
+            print_for_people("watching " + options_.scene + shaders + "; Ctrl-C ends\n",
+                             options_.stats == standard_stream);
+        }
+    }
+
+    void tell_changes() const {
+        std::string names;
+        for (const std::string &name : sources_.changed_names()) {
+            names += (names.empty() ? "changed: " : ", ") + name;
+        }
+        print_unless_quiet(names);
+    }
+
+    const RenderOptions &options_;
+    ValidationLog &log_;
+    SourceWatch sources_;
+    std::unique_ptr<Context> context_;
+    std::optional<std::string> rendered_scene_; // text of the scene that the files show; nothing if they show none
+    Outcome rendered_outcome_ = Outcome::written;
+    std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
+    bool is_first_ = true;
+    bool is_told_ = false;
+};
+
+} // namespace
+
+int watch(const RenderOptions &options, ValidationLog &log) {
+    require_files(options);
+    catch_interrupts();
+    return Watch(options, log).run();
+}
+
+} // namespace cli

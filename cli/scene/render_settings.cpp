@@ -1,0 +1,89 @@
+// Owns the merge of command line, scene file and defaults, in this order of rank.
+// Called by render_command.
+#include "cli/scene/render_settings.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace cli {
+namespace {
+
+constexpr std::uint32_t default_side = 512;
+constexpr std::uint32_t default_sample_count = 64;
+constexpr std::uint32_t default_most_samples = 65536; // where a target error says when to stop
+// The library's own, which is asked for by 0 there but has to be known for the report.
+constexpr std::uint32_t default_max_path_length = 6;
+
+template <typename Value>
+Value first_given(const std::optional<Value> &option, const std::optional<Value> &scene, Value otherwise) {
+    return option.value_or(scene.value_or(otherwise));
+}
+
+// Indices of samples end at 2^32 - 1.
+void limit_samples(RenderSettings &settings) {
+    const std::uint64_t left = (std::uint64_t{1} << 32) - settings.render.first_sample;
+    if (settings.sample_count <= left) {
+        return;
+    }
+    if (settings.target_error == 0.0) {
+        throw Failure(ExitCode::usage, "--first-sample " + std::to_string(settings.render.first_sample) + ": " +
+                                           std::to_string(settings.sample_count) +
+                                           " samples from there on would pass the last index, 4294967295");
+    }
+    settings.sample_count = static_cast<std::uint32_t>(left); // is the most that may be taken
+}
+
+} // namespace
+
+// A rule about no setting, and a message that names none, is about the scene.
+bool RenderSettings::is_from_scene(const FieldName *name) const {
+    return name == nullptr || name->option.empty() ||
+           std::find(scene_keys.begin(), scene_keys.end(), name->key) != scene_keys.end();
+}
+
+bool RenderSettings::is_size_from_scene() const {
+    return std::any_of(scene_keys.begin(), scene_keys.end(),
+                       [](std::string_view key) { return key == "film.width" || key == "film.height"; });
+}
+
+Failure RenderSettings::explain(const std::string &message, const SceneFile &scene) const {
+    ExitCode code = ExitCode::scene;
+    std::string explained;
+    std::istringstream lines(message); // one for each broken rule
+    for (std::string line; std::getline(lines, line);) {
+        const bool from_scene = is_from_scene(find_field_name(line));
+        code = from_scene ? code : ExitCode::usage;
+        explained.append(explained.empty() ? "" : "\n");
+        explained.append(from_scene ? scene.explain(line) : in_words_of_options(line));
+    }
+    return {code, explained};
+}
+
+RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene) {
+    RenderSettings settings{};
+    pt_render &render = settings.render;
+    render.struct_size = sizeof(pt_render);
+    render.width = options.size ? options.size->width : scene.width.value_or(default_side);
+    render.height = options.size ? options.size->height : scene.height.value_or(default_side);
+    render.max_path_length = first_given(options.max_path_length, scene.max_path_length, default_max_path_length);
+    render.seed = first_given(options.seed, scene.seed, std::uint64_t{0});
+    render.first_sample = options.first_sample;
+    render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});
+    render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
+    settings.target_error = options.target_error.value_or(0.0);
+    settings.sample_count = first_given(options.sample_count, scene.sample_count,
+                                        options.target_error ? default_most_samples : default_sample_count);
+    limit_samples(settings);
+    settings.exposure = first_given(options.exposure, scene.exposure, Exposure{});
+    settings.tone_curve = first_given(options.tone_curve, scene.tone_curve, ToneCurve::none);
+    settings.gamma = options.gamma ? options.gamma : scene.gamma;
+    if (!options.size && (scene.width || scene.height)) {
+        settings.scene_keys.insert(settings.scene_keys.end(), {"film.width", "film.height"});
+    }
+    if (!options.max_path_length && scene.max_path_length) {
+        settings.scene_keys.emplace_back("render.max_path_length");
+    }
+    return settings;
+}
+
+} // namespace cli

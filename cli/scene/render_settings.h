@@ -1,0 +1,42 @@
+// Owns the merge of command line, scene file and defaults, in this order of rank.
+// Called by render_command.
+#pragma once
+
+#include "cli/base/exit_code.h"
+#include "cli/base/field_names.h"
+#include "cli/render/render_options.h"
+#include "cli/scene/scene_file.h"
+
+#include <pt/pt.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+
+struct RenderSettings {
+    pt_render render;
+    std::uint32_t sample_count; // the most, if there is a target
+    double target_error;        // relative; 0: none
+    Exposure exposure;
+    ToneCurve tone_curve;
+    std::optional<double> gamma;
+    std::vector<std::string_view> scene_keys; // whose values these are, as in field_names.h
+
+    // What the library refuses, in the words of whoever gave the value: the command line (ExitCode::usage) or the scene
+    // file (ExitCode::scene).
+    Failure explain(const std::string &message, const SceneFile &scene) const;
+
+    // Whether the scene file says how large the image is, or a side of it.
+    bool is_size_from_scene() const;
+
+private:
+    bool is_from_scene(const FieldName *name) const;
+};
+
+RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene);
+
+} // namespace cli

@@ -1,0 +1,52 @@
+// Owns the scene file: JSON -> the structs of pt.h. Checks names, types and units; whether values make a scene is
+// the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
+#pragma once
+
+#include "cli/image/exposure.h"
+#include "cli/image/tone_map.h"
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+
+struct SceneFile {
+    std::string path;
+    std::size_t text_hash;                   // of what was read
+    std::vector<std::string> material_names; // like all three arrays in the order of the file
+    std::vector<pt_material> materials;
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_plane> planes;
+    pt_camera camera;
+
+    std::optional<std::uint32_t> width;
+    std::optional<std::uint32_t> height;
+    std::optional<Exposure> exposure;
+    std::optional<ToneCurve> tone_curve;
+    std::optional<double> gamma;
+    std::optional<std::uint32_t> max_path_length;
+    std::optional<std::uint32_t> sample_count;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint32_t> sampler;
+    std::optional<std::uint32_t> estimator;
+
+    pt_scene scene() const; // points into this object
+    std::size_t surface_count() const { return spheres.size() + planes.size(); }
+
+    // The library's lines "materials[1].glossiness = -1: must be >= 0" in the file's words, with the line of the file
+    // where that can be read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
+    std::string explain(const std::string &message) const;
+};
+
+// The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not
+// a scene file.
+SceneFile read_scene_file(const std::string &path);
+SceneFile parse_scene(std::string_view text, const std::string &path);
+
+} // namespace cli

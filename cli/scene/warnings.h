@@ -1,0 +1,25 @@
+// Owns the warnings: what can be rendered but is surely not meant. Each is said once on stderr, unless -q is given, and
+// stands in the --stats file.
+#pragma once
+
+#include "cli/render/render_report.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+// Known before rendering: nothing emits, the camera is shut in, materials that give off more light than they receive, a
+// target error of 100% or more.
+std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSettings &settings);
+
+// Known of the image: samples left out, and a channel at its maximum in more than a quarter of the pixels of a
+// tone-mapped picture.
+std::vector<std::string> image_warnings(const RenderReport &report, std::span<const float> radiance);
+
+void print_warnings(std::span<const std::string> warnings);
+
+} // namespace cli

@@ -1,0 +1,193 @@
+// The C boundary: null checks, struct sizes, and the end of exceptions. Everything else happens behind it, in
+// Renderer and in the validated_* functions. Called by programs through pt.h.
+#include "lib/api/context.h"
+#include "lib/api/guard.h"
+#include "lib/api/image.h"
+#include "lib/api/struct_size.h"
+#include "lib/base/rules.h"
+#include "lib/kernel/accuracy.h"
+#include "lib/render/renderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+namespace {
+
+void require_not_null(const void *pointer, const char *name) {
+    if (!pointer)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
+}
+
+// The last call on a context that this thread made, if it was refused because the context was in use. It has a message
+// of its own, since the context's belongs to the call that is under way.
+struct Refusal {
+    const pt_context *context = nullptr;
+    const char *message = nullptr;
+
+    void forget(const pt_context *of) {
+        if (context == of)
+            *this = {};
+    }
+};
+thread_local Refusal refusal;
+
+// Runs a call on a context, or fails without one. A call that is refused touches nothing of the context.
+template <typename Call>
+pt_result guard_context(pt_context *context, Call &&call) noexcept {
+    if (!context)
+        return guard(thread_last_error, [] { require_not_null(nullptr, "context"); });
+    if (const char *reason = context->in_use.take()) {
+        refusal = {context, reason};
+        return PT_ERROR_INVALID_STATE;
+    }
+    refusal.forget(context);
+    const pt_result result = guard(context->last_error, [&] { return call(context->renderer); });
+    if (result < PT_OK)
+        refusal.forget(context); // of a call from a callback of this one, which has failed since
+    context->in_use.release();
+    return result;
+}
+
+// Nothing else can be done: what is in use cannot be freed. A log function that destroys its context is told once.
+void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
+    const bool told = refusal.context == &context;
+    refusal = {&context, reason};
+    if (!told)
+        guard(thread_last_error, [&] {
+            context.renderer.log().write(PT_LOG_ERROR, std::string("pt_destroy: ") + reason + ", which stays");
+        });
+}
+
+} // namespace
+
+} // namespace pt
+
+uint32_t pt_version(void) {
+    return PT_VERSION;
+}
+
+const char *pt_result_name(pt_result result) {
+    return pt::result_name(result);
+}
+
+pt_result pt_get_devices(pt_device_info *devices, uint32_t *count) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(count, "count");
+        const std::vector<pt_device_info> all = pt::list_devices();
+        const auto available = static_cast<std::uint32_t>(all.size());
+        *count = devices ? std::min(*count, available) : available;
+        if (devices)
+            std::copy_n(all.begin(), *count, devices);
+    });
+}
+
+pt_result pt_create(const pt_create_info *info, pt_context **context) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(context, "context");
+        *context = nullptr;
+        const pt_create_info create = info ? pt::copy_in(info, "create") : pt_create_info{};
+        *context = std::make_unique<pt_context>(pt::validated_create(create)).release();
+    });
+}
+
+const char *pt_last_error(const pt_context *context) {
+    if (!context)
+        return pt::thread_last_error.c_str();
+    if (pt::refusal.context == context)
+        return pt::refusal.message;
+    if (context->in_use.by_this_thread())
+        return context->last_error.c_str();
+    if (const char *reason = context->in_use.take())
+        return reason;
+    const char *message = context->last_error.c_str();
+    context->in_use.release();
+    return message;
+}
+
+void pt_destroy(pt_context *context) {
+    if (!context)
+        return;
+    if (const char *reason = context->in_use.take()) {
+        pt::refuse_to_destroy(*context, reason);
+        return;
+    }
+    pt::refusal.forget(context);
+    const pt::DefaultRounding rounding;
+    delete context; // still taken: what its callbacks call is refused
+}
+
+pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
+    return pt::guard_context(context, [&](const pt::Renderer &renderer) {
+        pt::require_not_null(device, "device");
+        *device = renderer.device();
+    });
+}
+
+pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
+    return pt::guard_context(
+        context, [&](pt::Renderer &renderer) { renderer.set_scene(pt::validated_scene(pt::copy_in(scene, "scene"))); });
+}
+
+pt_result pt_set_camera(pt_context *context, const pt_camera *camera) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        renderer.set_camera(pt::validated_camera(pt::copy_in(camera, "camera")));
+    });
+}
+
+pt_result pt_set_render(pt_context *context, const pt_render *render) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        renderer.set_render(pt::validated_render(pt::copy_in(render, "render")));
+    });
+}
+
+pt_result pt_reload_shaders(pt_context *context) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) { renderer.reload_shaders(); });
+}
+
+pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_accumulate_info accumulate = pt::copy_in(info, "accumulate");
+        pt::Violations violations;
+        const pt::Subject subject(violations, "accumulate");
+        subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+        subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
+                        accumulate.target_error, "must be finite and >= 0");
+        violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+        return renderer.accumulate(accumulate.sample_count, accumulate.target_error,
+                                   {accumulate.progress, accumulate.progress_user});
+    });
+}
+
+pt_result pt_readback(pt_context *context, const pt_image *image) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_image target = pt::copy_in(image, "image");
+        // Before pt_set_render there is no size to check against; the renderer refuses then.
+        const bool sized = renderer.width() > 0;
+        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count()) : pt::Image{});
+    });
+}
+
+pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
+        pt::copy_out(renderer.stats(with_error), stats, "stats");
+    });
+}
+
+pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        pt::require_not_null(count, "count");
+        const auto available = static_cast<std::uint32_t>(pt::elementary_functions().size());
+        if (rows) {
+            const std::vector<pt_function_accuracy> all = renderer.accuracy();
+            std::copy_n(all.begin(), std::min(*count, available), rows);
+        }
+        *count = rows ? std::min(*count, available) : available;
+    });
+}

@@ -1,0 +1,63 @@
+// Where exceptions end: turns them into a pt_result and a message that pt_last_error can return. Used by api.cpp alone.
+#pragma once
+
+#include "lib/api/default_rounding.h"
+#include "lib/base/error.h"
+
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace pt {
+
+// Message of the last call that failed.
+class LastError {
+public:
+    // Never throws: where there is no memory for the message, a fixed one stands in for it.
+    void store(std::string_view message) noexcept {
+        try {
+            text_.assign(message);
+            shown_ = nullptr;
+        } catch (...) {
+            shown_ = "the call failed, and there was no memory left for the reason";
+        }
+    }
+
+    const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
+
+private:
+    std::string text_;
+    const char *shown_ = nullptr; // instead of text_
+};
+
+// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. What a caller's callback
+// throws ends here too, as PT_ERROR_INTERNAL with its message: it cannot be let through, since the caller may be C. The
+// samples taken before it was thrown stay, as if the callback had asked to stop.
+template <typename Call>
+pt_result guard(LastError &last_error, Call &&call) noexcept {
+    const auto failed = [&](pt_result code, std::string_view message) {
+        last_error.store(message);
+        return code;
+    };
+    const DefaultRounding rounding;
+    try {
+        if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
+            call();
+            return PT_OK;
+        } else {
+            return call();
+        }
+    } catch (const Error &error) {
+        return failed(error.code(), error.what());
+    } catch (const std::bad_alloc &) {
+        return failed(PT_ERROR_OUT_OF_HOST_MEMORY, "out of host memory");
+    } catch (const std::exception &error) {
+        return failed(PT_ERROR_INTERNAL, error.what());
+    } catch (...) {
+        return failed(PT_ERROR_INTERNAL, "an exception of unknown type");
+    }
+}
+
+} // namespace pt

@@ -1,0 +1,62 @@
+// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default. Used
+// by api.cpp to read the caller's structs and to write the results.
+#pragma once
+
+#include "lib/base/error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace pt {
+
+// A struct of this library has tens of bytes; a larger size than this is an uninitialised field, and believing it would
+// mean to read memory that is not the caller's.
+constexpr std::uint32_t max_struct_size = 65536;
+
+// The struct_size of the caller's struct, which is called name in messages.
+inline std::uint32_t struct_size_of(const void *user, const char *name) {
+    if (!user)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
+    std::uint32_t size = 0;
+    std::memcpy(&size, user, sizeof size);
+    const std::string field = std::string(name) + ".struct_size = " + std::to_string(size);
+    if (size < sizeof size)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, field + ": must be the size of the struct, which holds this field");
+    if (size > max_struct_size)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, field + ": must be the size of the struct (<= 65536)");
+    return size;
+}
+
+// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
+// from an older header, is read as if zeros followed; a longer one, from a newer header, must not ask for what is
+// unknown here.
+template <typename T>
+T copy_in(const T *user, const char *name) {
+    const std::uint32_t size = struct_size_of(user, name);
+    const auto *bytes = reinterpret_cast<const unsigned char *>(user);
+    for (std::size_t i = sizeof(T); i < size; ++i)
+        if (bytes[i] != 0)
+            throw Error(PT_ERROR_UNSUPPORTED, std::string(name) + ".struct_size = " + std::to_string(size) + ": byte " +
+                                                  std::to_string(i) +
+                                                  " is set, but this library knows only the first " +
+                                                  std::to_string(sizeof(T)) + " bytes of the struct");
+    T copy{};
+    std::memcpy(&copy, bytes, std::min<std::size_t>(size, sizeof(T)));
+    copy.struct_size = sizeof(T);
+    return copy;
+}
+
+// Writes a result into as much of the caller's struct as both sides know. The caller's struct_size stays.
+template <typename T>
+void copy_out(const T &result, T *user, const char *name) {
+    const std::uint32_t size = struct_size_of(user, name);
+    constexpr std::size_t first = sizeof result.struct_size;
+    const std::size_t end = std::min<std::size_t>(size, sizeof(T));
+    std::memcpy(reinterpret_cast<unsigned char *>(user) + first,
+                reinterpret_cast<const unsigned char *>(&result) + first, end - first);
+}
+
+} // namespace pt

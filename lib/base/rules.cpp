@@ -1,0 +1,91 @@
+// Rules and the messages about broken ones; see rules.h.
+#include "lib/base/rules.h"
+
+#include "lib/base/error.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace pt {
+
+namespace {
+
+constexpr double min_length = 1e-18;
+constexpr double max_length = 1e18;
+
+template <typename Real>
+std::string real_text(Real value) {
+    if (std::isnan(value))
+        return "nan";
+    std::array<char, 64> text{};
+    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general);
+    return std::string(text.data(), end);
+}
+
+} // namespace
+
+std::string number_text(double value) {
+    return real_text(value);
+}
+
+std::string number_text(float value) {
+    return real_text(value);
+}
+
+std::string number_text(std::uint64_t value) {
+    return std::to_string(value);
+}
+
+std::string number_text(std::uint32_t value) {
+    return std::to_string(value);
+}
+
+std::string number_text(const glm::dvec3 &value) {
+    return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
+}
+
+const char *finite_rule(double value) {
+    return std::isfinite(value) ? nullptr : "must be finite";
+}
+
+const char *length_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    const double magnitude = std::abs(value);
+    return magnitude == 0.0 || (magnitude >= min_length && magnitude <= max_length)
+               ? nullptr
+               : "must be 0 or of a magnitude in [1e-18, 1e18]";
+}
+
+const char *positive_length_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    if (value <= 0.0)
+        return "must be > 0";
+    return value >= min_length && value <= max_length ? nullptr : "must lie in [1e-18, 1e18]";
+}
+
+void Violations::add(const std::string &field, const std::string &value, std::string_view rule) {
+    if (++count_ > max_lines)
+        return;
+    if (!lines_.empty())
+        lines_ += '\n';
+    lines_.append(field).append(" = ").append(value).append(": ").append(rule);
+}
+
+void Violations::throw_if_any(pt_result code) const {
+    if (count_ > max_lines)
+        throw Error(code, lines_ + "\n... and " + std::to_string(count_ - max_lines) + " more");
+    if (count_ > 0)
+        throw Error(code, lines_);
+}
+
+std::string Subject::field(std::string_view member) const {
+    std::string text(name_);
+    if (index_)
+        text += '[' + std::to_string(*index_) + ']';
+    return text.append(".").append(member);
+}
+
+} // namespace pt

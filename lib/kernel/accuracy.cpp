@@ -1,0 +1,179 @@
+// Arguments, exact values and error bounds of the elementary functions; see accuracy.h.
+#include "lib/kernel/accuracy.h"
+
+#include "lib/base/error.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "shaders/gpu_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+namespace pt {
+
+namespace {
+
+constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double float_pi = 3.14159274101257324; // shaders/maths.glsl's PI as a float
+
+// sin and cos of u turns, u in [0, 1]: folded to a quarter of a turn about 0, exactly, so that the zeros are exact.
+double sine_of_turn(double u) {
+    if (u > 0.5)
+        return -sine_of_turn(u - 0.5);
+    return std::sin(full_turn * std::min(u, 0.5 - u));
+}
+
+double cosine_of_turn(double u) {
+    return std::sin(full_turn * (0.25 - std::min(u, 1.0 - u)));
+}
+
+// Quarters and eighths of a turn.
+constexpr float turns[] = {0.125F, 0.25F, 0.375F, 0.5F, 0.625F, 0.75F, 0.875F};
+// 1/4, where the polynomial ends, and where 1 - x passes powers of two.
+constexpr float complements[] = {0.0625F, 0.25F, 0.5F, 0.75F, 0.875F, 0.999F};
+// Odd multiples of 1/2, where the nearest integer changes, and integers.
+constexpr float exponents[] = {-0.5F, -1.0F, -1.5F, -24.5F, -99.5F};
+constexpr float squares[] = {1.0F, 2.0F, 4.0F};
+
+// What the bounds below are made of. Let u = 2^-24. A sum, difference or product is rounded correctly, by half an ulp
+// and so by at most u of its value. Vulkan allows a division 2.5 ulp, inversesqrt 2 ulp, and sqrt what 1 / inversesqrt
+// gives (specification, "Precision and Operation of SPIR-V Instructions"). An ulp is at most 2 u of its value, and u of
+// the value at most an ulp: errors k u before the last operation are k ulp of the result at most.
+constexpr ElementaryFunction functions[] = {
+    // m is exact, w and 1/2 - u below m = 1/8 are rounded by u of themselves at most. sin: u for 1/2 - u, u for the
+    // product with m; q, in [12.5, 16], errs by 0.75 u for w^2, 0.65 u for its last sum, 0.55 u for the rest; half an
+    // ulp: 4.5. cos, worst near 1, where -w p has p = 4: 0.5 u for w^2, u for the last sum of p, 1.2 u for its
+    // cofactor, 0.9 u for its constant, 0.1 u for the remainder (for w, where it is rounded, up to 0.8 u more, but
+    // there p is larger); half an ulp: 4.3.
+    {"sine (sin_cos_turn)", sine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
+    {"cosine (sin_cos_turn)", cosine_of_turn, 4.5, 0x1p-100F, 1.0F, turns},
+    // Below 1/4 the polynomial, in [1.44, 1.67], errs by 0.7 u for its last sum, 0.2 u for its constant, 0.3 u for the
+    // rest, 0.1 u for the remainder; and half an ulp: 1.9. From 1/4 on log2 errs by 2^-21 and 1 - y by u / 2, which is
+    // u of the logarithm: at 1/4, where an ulp is 2^-25, 16 + 2.
+    {"log2(1 - x) (log2_one_minus)", [](double x) { return std::log1p(-x) / std::numbers::ln2; }, 18.0, 0x1p-100F,
+     0x1.fffffep-1F, complements},
+    // What Vulkan promises of exp2: 3 + 2 |x| ulp.
+    {"2^x (exp2_negative)", [](double x) { return std::exp2(x); }, 203.0, -0x1p-100F, -100.0F, exponents},
+    // r is exact. e = r (0.69 + w), |w| <= 0.13: 0.9 u for the sum, 0.1 u for the constant, 0.4 u for w, 0.2 u for the
+    // remainder, u for the product. k = 0: the result is -e, 1.6 u before and half an ulp for its last product. k = -1
+    // is worst at r = 1/2, where the result is 0.29: half of 2.6 u of e, and u / 2 is an ulp there: 1.1, and half for
+    // the last sum. For smaller k the result grows and the share of e falls.
+    {"1 - 2^x (one_minus_exp2)", [](double x) { return -std::expm1(x * std::numbers::ln2); }, 2.5, -0x1p-100F, -100.0F,
+     exponents},
+    // The specification's bounds themselves: for sqrt the 2 ulp of inversesqrt are at most 4 u, and the division's 2.5.
+    {"pi / x (division)", [](double x) { return float_pi / x; }, 2.5, 0x1p-100F, 0x1p100F, squares},
+    {"square root (sqrt)", [](double x) { return std::sqrt(x); }, 6.5, 0x1p-100F, 0x1p100F, squares},
+    {"1 / square root (inversesqrt)", [](double x) { return 1.0 / std::sqrt(x); }, 2.0, 0x1p-100F, 0x1p100F, squares},
+};
+
+// What stands where the kernel has written nothing: NaN.
+constexpr std::uint32_t unwritten = 0xffffffffU;
+constexpr std::size_t guard_words = 64;
+
+std::uint32_t magnitude_bits(float x) {
+    return std::bit_cast<std::uint32_t>(std::abs(x));
+}
+
+} // namespace
+
+std::span<const ElementaryFunction> elementary_functions() {
+    return functions;
+}
+
+std::vector<float> accuracy_arguments(const ElementaryFunction &function) {
+    const auto [small, large] = std::minmax(function.first, function.last);
+    std::vector<float> arguments = {function.first, function.last};
+    for (const float place : function.places) {
+        const float below = std::nextafter(place, small);
+        const float above = std::nextafter(place, large);
+        arguments.insert(arguments.end(),
+                         {std::nextafter(below, small), below, place, above, std::nextafter(above, large)});
+    }
+    // Multiples of the golden ratio modulo 1 (Weyl 1916) are spread evenly, however many are taken.
+    constexpr std::uint32_t golden_ratio = 0x9e3779b9U;
+    const std::uint32_t first_bits = magnitude_bits(function.first);
+    const std::uint64_t bits_range = magnitude_bits(function.last) - first_bits;
+    for (std::uint32_t i = 1; arguments.size() < arguments_per_function; ++i) {
+        const std::uint32_t share = i * golden_ratio;
+        const auto by_exponent = first_bits + static_cast<std::uint32_t>(bits_range * share >> 32);
+        const float even = function.first + (function.last - function.first) * (static_cast<float>(share) * 0x1p-32F);
+        arguments.push_back(i % 2 == 0 ? even : std::copysign(std::bit_cast<float>(by_exponent), function.last));
+    }
+    return arguments;
+}
+
+double error_in_ulp(float value, double exact) {
+    const double error = std::abs(double{value} - exact);
+    if (error == 0.0)
+        return 0.0;
+    const double ulps = std::ldexp(error, 23 - std::ilogb(exact == 0.0 ? std::numeric_limits<float>::min() : exact));
+    return std::isfinite(value) && exact != 0.0 ? ulps : std::numeric_limits<double>::infinity();
+}
+
+std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_t> spirv,
+                            std::span<const float> arguments) {
+    constexpr std::array bindings = {vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+    static_assert(arguments_per_function % gpu::WORKGROUP_SIZE == 0);
+    std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
+
+    const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, {});
+    vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
+    vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),
+                          "values of functions");
+    input.upload(std::as_bytes(arguments), 0);
+    output.upload(std::as_bytes(std::span(words)), 0);
+    const std::array buffers = {&input, &output};
+    const vulkan::DescriptorSet set = pipeline.bind(buffers);
+    device.submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline.dispatch(commands, set, std::as_bytes(std::span(&arguments_per_function, 1)),
+                          static_cast<std::uint32_t>(arguments.size() / gpu::WORKGROUP_SIZE));
+    });
+    output.download(std::as_writable_bytes(std::span(words)), 0);
+
+    const auto guard = words.end() - static_cast<std::ptrdiff_t>(guard_words);
+    if (std::any_of(guard, words.end(), [](std::uint32_t word) { return word != unwritten; }))
+        throw Error(PT_ERROR_INTERNAL, "measuring the accuracy: the kernel wrote past its values");
+    std::vector<float> values(arguments.size());
+    std::memcpy(values.data(), words.data(), values.size() * sizeof(float));
+    return values;
+}
+
+pt_function_accuracy compare(const ElementaryFunction &function, std::span<const float> arguments,
+                             std::span<const float> values) {
+    pt_function_accuracy row{};
+    std::strncpy(row.name, function.name, sizeof row.name - 1);
+    row.bound = function.bound;
+    row.worst_error = -1.0;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        const double error = error_in_ulp(values[i], function.exact(double{arguments[i]}));
+        if (error > row.worst_error) {
+            row.worst_error = error;
+            row.worst_input = double{arguments[i]};
+        }
+    }
+    return row;
+}
+
+std::vector<pt_function_accuracy> measured_accuracy(vulkan::Device &device, std::span<const std::uint32_t> spirv) {
+    std::vector<float> arguments;
+    for (const ElementaryFunction &function : functions) {
+        const std::vector<float> of_function = accuracy_arguments(function);
+        arguments.insert(arguments.end(), of_function.begin(), of_function.end());
+    }
+    const std::vector<float> values = evaluate(device, spirv, arguments);
+
+    std::vector<pt_function_accuracy> rows;
+    for (std::size_t i = 0; i < std::size(functions); ++i) {
+        const std::size_t first = i * arguments_per_function;
+        rows.push_back(compare(functions[i], std::span(arguments).subspan(first, arguments_per_function),
+                               std::span(values).subspan(first, arguments_per_function)));
+    }
+    return rows;
+}
+
+} // namespace pt

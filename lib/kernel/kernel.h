@@ -1,0 +1,88 @@
+// The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads.
+// Owned by RenderDevice, which makes a new one when any of them changes.
+#pragma once
+
+#include "lib/film/film.h"
+#include "lib/kernel/point_sequence.h"
+#include "lib/kernel/scene_features.h"
+#include "lib/kernel/trace_pipelines.h"
+#include "lib/render/render_settings.h"
+#include "lib/render/schedule.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device.h"
+#include "shaders/gpu_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class Kernel {
+public:
+    // device, pipelines and film must outlive the kernel. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, const Scene &scene, const Camera &camera,
+           const RenderSettings &settings);
+
+    const Features &features() const { return features_; }
+    double film_unit() const { return film_unit_; }
+
+    // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the
+    // driver refuses that.
+    void build(TracePipelines &pipelines) const;
+
+    // The samples that one submission may add to a pixel.
+    std::uint32_t max_samples() const;
+
+    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in sample_parts.h; those
+    // of a split pass are kept aside. At most the device's queue_depth of slices may be under way.
+    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
+
+    // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
+    // holds whole samples again with the range that ends it.
+    vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample);
+
+    // Waits for a slice of start() and returns the seconds it took.
+    double finish(vulkan::Device::Ticket ticket);
+
+private:
+    // Samples that a dispatch takes, and where the table of their points is.
+    struct Batch {
+        std::uint32_t first_sample;
+        std::uint32_t sample_count;
+        std::uint32_t table_offset; // bytes
+    };
+
+    std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count);
+    void upload_points(const std::vector<Batch> &batches);
+    void build_commit(std::uint32_t sample);
+    void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
+                  const Batch &batch, std::uint32_t invocations_per_pixel) const;
+
+    vulkan::Device &device_;
+    TracePipelines &pipelines_;
+    Film &film_;
+    Features features_;
+    PointLayout layout_;
+    std::uint32_t sampler_;
+    std::uint64_t seed_;
+    std::uint32_t first_index_; // of the first sample in the sequence
+    std::uint32_t first_pixel_; // of the film, in the image
+    double film_unit_;
+    gpu::FrameConstants frame_;
+    std::uint32_t table_bytes_;          // of the points that a dispatch sees
+    std::uint32_t sharers_;              // invocations to a pixel
+    std::uint32_t max_dispatch_samples_; // per pixel
+    bool overlap_;                       // dispatches may add to the film at the same time
+    std::vector<glm::vec4> words_;       // the scene
+    vulkan::Buffer scene_;
+    vulkan::Buffer points_;                   // tables of the slices under way
+    std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
+    std::uint32_t next_table_ = 0;            // in points_, which is used in turn
+    double seconds_ = 0.0;                    // of all slices so far
+};
+
+} // namespace pt

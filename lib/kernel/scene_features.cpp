@@ -1,0 +1,228 @@
+// Finds the features of a scene; see scene_features.h.
+#include "lib/kernel/scene_features.h"
+
+#include "lib/kernel/point_sequence.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/twins.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pt {
+
+namespace {
+
+bool emits(const Material &material) {
+    return material.emission != glm::vec3(0.0F);
+}
+
+// Where the centre of a sphere is as the shutter opens and as it closes, relative to the camera; in between on a
+// straight line.
+using Way = std::array<glm::dvec3, 2>;
+
+Way way_of(const Sphere &sphere, const Camera &camera) {
+    return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
+            sphere.center + camera.shutter_close * sphere.motion - camera.position};
+}
+
+// Whether the camera is in a sphere at any time, or so near to it that float32 cannot tell.
+bool is_at_or_in(const Way &way, double radius) {
+    constexpr double margin = 1.0 + 0x1p-16;
+    const glm::dvec3 step = way[1] - way[0];
+    const double length = glm::dot(step, step);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(way[0], step) / length, 0.0, 1.0) : 0.0;
+    return !(glm::length(way[0] + nearest * step) > radius * margin);
+}
+
+std::vector<CurvedPlane> planes_about(const Scene &scene, const Camera &camera) {
+    std::vector<CurvedPlane> planes;
+    for (const Plane &plane : scene.planes)
+        planes.push_back(curved_plane(plane, camera));
+    return planes;
+}
+
+// Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
+// no plane comes between two points of it.
+bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double radius) {
+    return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
+        return plane.offset > 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
+                   return glm::dot(plane.normal, centre) + plane.offset > radius;
+               });
+    });
+}
+
+// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
+// line both ends tell.
+bool holds_camera(const Way &way, double radius) {
+    constexpr double margin = 1.0 - 0x1p-16;
+    return std::ranges::all_of(way, [&](const glm::dvec3 &centre) { return glm::length(centre) < radius * margin; });
+}
+
+// Whether the camera is on a side of a plane that float32 can tell, as the shutter opens.
+bool has_known_side(const CurvedPlane &plane) {
+    return static_cast<float>(plane.offset) != 0.0F;
+}
+
+// Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
+std::uint64_t loop_trips_per_branch(const Features &features) {
+    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
+    return (features.max_path_length - 1) * vertex;
+}
+
+} // namespace
+
+SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera) {
+    if (!emits(material))
+        return SphereRole::other;
+    return holds_camera(way_of(sphere, camera), sphere.radius) ? SphereRole::sky : SphereRole::lamp;
+}
+
+Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render) {
+    const auto is_glossy = [&](const auto &surface) {
+        return scene.materials[surface.material].specular != glm::vec3(0.0F);
+    };
+    const auto moves = [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); };
+
+    const auto glows = [&](const Plane &plane) { return emits(scene.materials[plane.material]); };
+
+    const std::vector<CurvedPlane> planes = planes_about(scene, camera);
+
+    Features features{};
+    features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
+    features.planes_emit = std::ranges::any_of(scene.planes, glows);
+    features.known_sides = std::ranges::all_of(planes, has_known_side);
+    for (const Sphere &sphere : scene.spheres) {
+        const Material &material = scene.materials[sphere.material];
+        if (const auto plane = curved_plane(sphere, material, camera)) {
+            ++features.plane_count;
+            features.curvature = true;
+            features.planes_emit = features.planes_emit || emits(material);
+            features.planes_move = features.planes_move || plane->way != glm::dvec3(0.0);
+            features.known_sides = features.known_sides && has_known_side(*plane);
+        } else {
+            const Way way = way_of(sphere, camera);
+            const SphereRole role = sphere_role(sphere, material, camera);
+            const bool is_lamp = role == SphereRole::lamp;
+            ++features.sphere_count;
+            features.lamp_count += is_lamp ? 1 : 0;
+            features.sky_count += role == SphereRole::sky ? 1 : 0;
+            features.inside = features.inside || is_at_or_in(way, sphere.radius);
+            features.planes_block = features.planes_block || (is_lamp && !is_in_region(planes, way, sphere.radius));
+        }
+    }
+    // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
+    features.known_sides =
+        features.known_sides && (features.inside || features.curvature || has_close_planes(scene, camera));
+    features.close_lamps = features.lamp_count > 0 && has_close_lamps(scene, camera);
+    features.starts_ahead = camera.start_distance > 0.0;
+    features.planes_block = features.planes_block || features.curvature; // some may bulge towards the camera
+    features.max_path_length = render.max_path_length;
+    features.estimator = render.estimator;
+    features.sampler = render.sampler;
+    features.gloss = std::ranges::any_of(scene.spheres, is_glossy) || std::ranges::any_of(scene.planes, is_glossy);
+    features.motion = camera.shutter_close > camera.shutter_open && std::ranges::any_of(scene.spheres, moves);
+    features.scene_in_uniform = scene_word_count(features) <= gpu::UNIFORM_SCENE_WORDS;
+    return features;
+}
+
+std::uint64_t scene_word_count(const Features &features) {
+    const std::uint64_t words_per_surface = features.gloss ? 4 : 3;
+    return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0) +
+           (features.curvature ? features.plane_count : 0);
+}
+
+std::uint32_t branch_count(const Features &features) {
+    constexpr std::uint32_t branches = 4;
+    constexpr std::uint64_t max_trips = 1 << 14; // a quarter of what those drivers allow: some samples to a submission
+    const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
+    return features.max_path_length > 2 && affordable ? branches : 1;
+}
+
+namespace {
+
+// Lamps to which the first vertex sends a ray besides those of its branches, where it samples every lamp.
+std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
+    const std::uint32_t lamps = features.lamp_count > gpu::EVERY_LAMP_LIMIT ? 0 : features.lamp_count;
+    return lamps - std::min(lamps, branches);
+}
+
+} // namespace
+
+PointLayout point_layout(const Features &features) {
+    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count);
+    const std::uint32_t branches = branch_count(features);
+    if (features.sampler == PT_SAMPLER_RANDOM)
+        return {{}, 0, branches};
+    std::vector<std::uint32_t> blocks(shared, 2); // the place on each lamp
+    blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
+    std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
+    const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
+    for (std::uint32_t vertex = 1; vertex < features.max_path_length; ++vertex) {
+        const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features.lamp_count);
+        if (lamp + direction > left)
+            break;
+        if (lamp > 0)
+            blocks.push_back(lamp);
+        blocks.push_back(direction);
+        left -= lamp + direction;
+    }
+    return {blocks, shared, branches};
+}
+
+std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
+    const PointLayout layout = point_layout(features);
+    std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
+    constants[gpu::ID_SPHERE_COUNT] = features.sphere_count;
+    constants[gpu::ID_PLANE_COUNT] = features.plane_count;
+    constants[gpu::ID_LAMP_COUNT] = features.lamp_count;
+    constants[gpu::ID_MAX_PATH_LENGTH] = features.max_path_length;
+    constants[gpu::ID_ESTIMATOR] = features.estimator;
+    constants[gpu::ID_GLOSS] = features.gloss ? 1 : 0;
+    constants[gpu::ID_MOTION] = features.motion ? 1 : 0;
+    constants[gpu::ID_SAMPLER] = features.sampler;
+    constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
+    constants[gpu::ID_BRANCH_COUNT] = layout.branches;
+    constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
+    constants[gpu::ID_SHARERS] = 1;
+    constants[gpu::ID_OVERLAP] = 0;
+    constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
+    constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
+    constants[gpu::ID_PLANES_EMIT] = features.planes_emit ? 1 : 0;
+    constants[gpu::ID_SKY_COUNT] = features.sky_count;
+    constants[gpu::ID_KNOWN_SIDES] = features.known_sides ? 1 : 0;
+    constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
+    constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
+    constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
+    constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
+    return constants;
+}
+
+std::uint64_t loop_trips_per_sample(const Features &features) {
+    // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
+    // first vertex, two walks over the lamps to choose among them, and the branches.
+    const std::uint64_t surfaces = features.surface_count();
+    const std::uint32_t branches = branch_count(features);
+    const std::uint64_t first_vertex =
+        further_lamps(features, branches) * (1 + surfaces) + 2 * std::uint64_t{features.lamp_count};
+    return 1 + surfaces + first_vertex + branches * loop_trips_per_branch(features);
+}
+
+std::uint64_t surface_tests_per_path(const Features &features) {
+    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
+    // and one to a lamp; an empty scene still costs something.
+    const std::uint32_t branches = branch_count(features);
+    const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
+    return std::max<std::uint64_t>(1, features.surface_count()) *
+           (1 + further_lamps(features, branches) + 2 * vertices);
+}
+
+std::uint32_t feature_bits(const Features &features) {
+    std::uint32_t bits = 0;
+    bits |= features.lamp_count > 0 ? PT_FEATURE_LAMPS : 0;
+    bits |= features.gloss ? PT_FEATURE_GLOSS : 0;
+    bits |= features.motion ? PT_FEATURE_MOTION : 0;
+    bits |= features.scene_in_uniform ? 0 : PT_FEATURE_LARGE;
+    return bits;
+}
+
+} // namespace pt

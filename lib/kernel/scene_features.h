@@ -1,0 +1,75 @@
+// What a scene needs of the kernel: everything else is left out of it. Renderer specialises pathtrace.comp with this.
+#pragma once
+
+#include "lib/kernel/point_sequence.h"
+#include "lib/render/render_settings.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+#include "shaders/gpu_layout.h"
+
+#include <array>
+#include <cstdint>
+
+namespace pt {
+
+struct Features {
+    std::uint32_t sphere_count; // spheres held by centre and radius
+    std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
+    std::uint32_t lamp_count;   // emitting ones of sphere_count that can be sampled
+    std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
+    std::uint32_t max_path_length;
+    std::uint32_t estimator;
+    std::uint32_t sampler;
+    bool gloss;        // some material in use has a specular lobe
+    bool motion;       // some sphere moves while the shutter is open
+    bool curvature;    // some sphere is held as a plane with a curvature
+    bool inside;       // the camera is inside a sphere held by centre and radius, or too near to its surface to tell
+    bool planes_block; // some plane may stand between a surface that a path reaches and a lamp
+    bool planes_emit;  // some plane, or sphere held as one, emits
+    bool planes_move;  // some sphere held as a plane moves while the shutter is open
+    bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
+    bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
+    bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
+    bool scene_in_uniform; // the scene fits into a uniform buffer
+
+    bool operator==(const Features &) const = default;
+
+    std::uint32_t surface_count() const { return sphere_count + plane_count; }
+};
+
+// What a sphere that is held by centre and radius is to the kernel, which has them in this order. Paths cannot leave a
+// sphere that holds the camera: one that emits surrounds them all like a sky, which cannot be sampled from within.
+enum class SphereRole { lamp, sky, other };
+
+SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera);
+
+Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
+
+// Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30
+// surfaces.
+std::uint64_t scene_word_count(const Features &features);
+
+// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the
+// noise, and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework
+// scene with six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where scene
+// and path are so long that a sample is a long job by itself, they do not branch: some drivers stop a kernel after
+// 65535 loop trips.
+std::uint32_t branch_count(const Features &features);
+
+// What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences
+// have; none without a sequence.
+PointLayout point_layout(const Features &features);
+
+// Values of the specialization constants, by constant_id.
+std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features);
+
+// Upper bound of the loop trips that the kernel needs for one sample, with no loop unrolled.
+std::uint64_t loop_trips_per_sample(const Features &features);
+
+// Ray-surface tests of a path of full length: its cost, to within a small factor.
+std::uint64_t surface_tests_per_path(const Features &features);
+
+// PT_FEATURE_* bits.
+std::uint32_t feature_bits(const Features &features);
+
+} // namespace pt

@@ -1,0 +1,108 @@
+// Embedded words, and the compiler's module; see shader_source.h.
+#include "lib/kernel/shader_source.h"
+
+#include "accuracy.spv.h"
+#include "commit.spv.h"
+#include "fold.spv.h"
+#include "lib/base/error.h"
+#include "lib/glsl_module/glsl_module.h"
+#include "pathtrace.spv.h"
+
+#include <algorithm>
+#include <dlfcn.h>
+#include <exception>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+constexpr const char *module_name = "libpt-glsl.so";
+
+// With a slash at its end, of the file that this function is in: the shared library, or the program that it is linked
+// into. Empty if that was started or found by a relative path, which may mean another file by now.
+std::string own_directory() {
+    Dl_info info{};
+    const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
+    const std::string path = found ? info.dli_fname : "";
+    return path.starts_with('/') ? path.substr(0, path.rfind('/') + 1) : "";
+}
+
+// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries;
+// never in the working directory, as a path without the library's would mean. It stays loaded: what glslang keeps for
+// the next compilation is in there.
+pt_compile_glsl_fn load_compiler() {
+    const std::string directory = own_directory();
+    std::string reasons;
+    for (const std::string &path :
+         {directory.empty() ? directory : directory + "pt/" + module_name, std::string(module_name)}) {
+        if (path.empty())
+            continue;
+        if (void *const module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL))
+            if (void *const symbol = dlsym(module, PT_COMPILE_GLSL_SYMBOL))
+                return reinterpret_cast<pt_compile_glsl_fn>(symbol);
+        reasons += std::string(reasons.empty() ? "" : "; ") + dlerror();
+    }
+    throw Error(PT_ERROR_UNSUPPORTED, "shader_dir: the compiler's module cannot be loaded: " + reasons);
+}
+
+// What the module hands over. It calls back under its own C frame, which no exception may cross.
+struct Compilation {
+    std::vector<std::uint32_t> words;
+    std::string log;
+    std::exception_ptr error;
+
+    static void receive_words(void *user, const std::uint32_t *words, std::size_t count) {
+        auto *const self = static_cast<Compilation *>(user);
+        self->keep([&] { self->words.assign(words, words + count); });
+    }
+
+    static void receive_log(void *user, const char *text, std::size_t size) {
+        auto *const self = static_cast<Compilation *>(user);
+        self->keep([&] { self->log.assign(text, size); });
+    }
+
+private:
+    template <typename Copy>
+    void keep(Copy &&copy) noexcept {
+        try {
+            copy();
+        } catch (...) {
+            error = std::current_exception();
+        }
+    }
+};
+
+std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::string &directory, const char *name) {
+    Compilation compilation;
+    const std::int32_t result =
+        compiler(directory.c_str(), name, &Compilation::receive_words, &Compilation::receive_log, &compilation);
+    if (compilation.error)
+        std::rethrow_exception(compilation.error);
+    if (result != 0)
+        throw Error(PT_ERROR_SHADER, std::string(name) + " does not compile:\n" + compilation.log);
+    return std::move(compilation.words);
+}
+
+} // namespace
+
+bool KernelCode::operator==(const KernelCode &other) const {
+    return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
+           std::ranges::equal(fold, other.fold) && std::ranges::equal(accuracy, other.accuracy);
+}
+
+KernelCode embedded_code() {
+    return {pathtrace_spirv, commit_spirv, fold_spirv, accuracy_spirv, nullptr};
+}
+
+KernelCode ShaderSource::read() const {
+    if (is_embedded())
+        return embedded_code();
+    const pt_compile_glsl_fn compiler = load_compiler();
+    auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
+    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "accuracy.comp"})
+        compiled->push_back(compile(compiler, directory_, name));
+    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], compiled};
+}
+
+} // namespace pt

@@ -1,0 +1,159 @@
+// Film, kernel and slices of a device; see render_device.h.
+#include "lib/render/render_device.h"
+
+#include "lib/base/error.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/ray_start.h"
+#include "lib/scene/twins.h"
+#include "shaders/gpu_layout.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by
+// it; measured slices size the rest.
+constexpr double assumed_tests_per_second = 2.5e8;
+
+// Likewise pixels of the film that it empties, or adds a sample to.
+constexpr double assumed_film_pixels_per_second = 4e6;
+
+} // namespace
+
+RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
+                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds) :
+    device_(instance, physical_device, std::move(logical_device)),
+    pipelines_(std::make_unique<TracePipelines>(device_, code)),
+    target_seconds_(target_seconds) {
+    under_way_.reserve(device_.policy().queue_depth);
+}
+
+// Before what the work under way uses goes. Where it does not end, that is left alone (vulkan/device_object.h).
+RenderDevice::~RenderDevice() {
+    if (!device_.comes_to_rest())
+        device_.abandon();
+}
+
+// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
+Film RenderDevice::make_film(const RenderSettings &settings) {
+    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * Film::bytes_per_pixel;
+    const std::uint64_t memory_bytes = device_.info().memory_bytes;
+    if (bytes > memory_bytes)
+        throw Error(PT_ERROR_UNSUPPORTED, "render.width * rows = " + std::to_string(settings.width) + " * " +
+                                              std::to_string(settings.row_count) + ": the film takes " +
+                                              std::to_string(bytes) + " bytes, and the device has " +
+                                              std::to_string(memory_bytes) +
+                                              ": render fewer rows at a time (render.first_row, render.row_count)");
+    return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits())};
+}
+
+void RenderDevice::set_film(Film film) {
+    kernel_.reset(); // its descriptor sets name the old film
+    film_ = std::move(film);
+    ScheduleLimits limits{};
+    limits.target_seconds = target_seconds_;
+    limits.first_slice_paths = target_seconds_ * assumed_film_pixels_per_second;
+    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+    film_schedule_.emplace(film_->pixel_count(), limits);
+    discard_samples();
+}
+
+void RenderDevice::discard_samples() noexcept {
+    if (!device_.hangs()) // else it is up to the destructor, by when the work may have ended
+        kernel_.reset();
+    pass_pixels_ = 0;
+    uncommitted_pixels_ = 0;
+    uncleared_pixels_ = film_ ? film_->pixel_count() : 0;
+}
+
+std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &code) {
+    auto pipelines = std::make_unique<TracePipelines>(device_, code);
+    if (kernel_)
+        kernel_->build(*pipelines);
+    return pipelines;
+}
+
+void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
+    kernel_.reset(); // it uses the old ones
+    pipelines_ = std::move(pipelines);
+}
+
+void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
+    if (kernel_)
+        return;
+    require_held_motions(scene, camera);
+    const Camera start = starting_ahead(scene, camera, settings);
+    kernel_.emplace(device_, *pipelines_, *film_, without_twins(scene, start), start, settings);
+    ScheduleLimits limits{};
+    limits.target_seconds = target_seconds_;
+    limits.first_slice_paths =
+        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
+    limits.max_samples = kernel_->max_samples();
+    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
+    schedule_.emplace(film_->pixel_count(), limits);
+}
+
+Film &RenderDevice::film() {
+    while (film_is_behind()) {
+        start_film_work();
+        finish();
+    }
+    return *film_;
+}
+
+std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remaining) {
+    if (!film_is_behind())
+        return start_samples(next_sample, remaining);
+    start_film_work();
+    return 0;
+}
+
+void RenderDevice::start_film_work() {
+    std::uint32_t &pixels_left = uncleared_pixels_ > 0 ? uncleared_pixels_ : uncommitted_pixels_;
+    const Slice slice = film_schedule_->next(1, film_->pixel_count() - pixels_left);
+    const vulkan::Device::Ticket ticket = uncleared_pixels_ > 0
+                                              ? device_.start([&](const vk::raii::CommandBuffer &commands) {
+                                                    film_->clear(commands, slice.first_pixel, slice.pixel_count);
+                                                })
+                                              : kernel_->commit(slice, pass_sample_);
+    under_way_.push_back({slice, ticket, true});
+    pixels_left -= slice.pixel_count;
+}
+
+std::uint32_t RenderDevice::start_samples(std::uint32_t next_sample, std::uint32_t remaining) {
+    const bool in_pass = pass_pixels_ > 0;
+    const Slice slice = schedule_->next(std::max(remaining, 1U), pass_pixels_);
+    const std::uint32_t first_sample = in_pass ? pass_sample_ : next_sample;
+    under_way_.push_back({slice, kernel_->start(slice, first_sample), false});
+    if (!slice.whole) {
+        const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
+        const bool is_complete = slice_end == film_->pixel_count();
+        pass_pixels_ = is_complete ? 0 : slice_end;
+        uncommitted_pixels_ = is_complete ? slice_end : 0;
+        pass_sample_ = first_sample;
+    }
+    return in_pass ? 0 : slice.sample_count;
+}
+
+RenderDevice::Finished RenderDevice::finish() {
+    const Work work = under_way_.front();
+    const double seconds = work.on_film ? device_.finish(work.ticket) : kernel_->finish(work.ticket);
+    under_way_.erase(under_way_.begin());
+    (work.on_film ? film_schedule_ : schedule_)->measured(work.slice, seconds);
+    return {work.on_film ? 0 : std::uint64_t{work.slice.pixel_count} * work.slice.sample_count, seconds};
+}
+
+void RenderDevice::drain() noexcept {
+    try {
+        while (!is_idle())
+            finish();
+    } catch (...) {
+        under_way_.clear(); // the device is lost
+    }
+}
+
+} // namespace pt

@@ -1,0 +1,108 @@
+// One device's share of the rendering: its film, its kernel, and the slices that it has under way. Owned by Renderer,
+// which deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
+#pragma once
+
+#include "lib/film/film.h"
+#include "lib/kernel/kernel.h"
+#include "lib/kernel/shader_source.h"
+#include "lib/kernel/trace_pipelines.h"
+#include "lib/render/render_settings.h"
+#include "lib/render/schedule.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+#include "lib/vulkan/device.h"
+#include "lib/vulkan/instance.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pt {
+
+class RenderDevice {
+public:
+    // The instance must outlive it. target_seconds: aim for the time of a slice.
+    RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
+                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds);
+    // Waits for what is under way, as long as the device's patience allows.
+    ~RenderDevice();
+    RenderDevice(const RenderDevice &) = delete;
+    RenderDevice &operator=(const RenderDevice &) = delete;
+
+    vulkan::Device &device() { return device_; }
+    const vulkan::Device &device() const { return device_; }
+
+    // Brought up to date first, so that it holds the whole samples that this device has taken. Idle.
+    Film &film();
+    std::uint32_t pixel_count() const { return film_->pixel_count(); }
+
+    // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
+    Film make_film(const RenderSettings &settings);
+    void set_film(Film film);
+
+    // What the film holds is void. The kernel has to be prepared anew.
+    void discard_samples() noexcept;
+
+    // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
+    // driver refuses the code.
+    std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
+    void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
+
+    // Makes the kernel, unless it is there. After set_film.
+    void prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings);
+    const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
+
+    // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
+    std::uint32_t pass_pixels() const { return pass_pixels_; }
+
+    bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
+    bool is_idle() const { return under_way_.empty(); }
+
+    // Whether the film needs work before it takes the next sample: to be emptied, or to have a pass added whose samples
+    // are complete. Not within a pass.
+    bool film_is_behind() const { return uncleared_pixels_ + uncommitted_pixels_ > 0; }
+
+    // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of at most
+    // remaining samples, of which next_sample is the first, numbered from 0. Returns how many samples it has begun: 0
+    // for the film and within a pass. has_room() must hold.
+    std::uint32_t start(std::uint32_t next_sample, std::uint32_t remaining);
+
+    // Whether finish() would not wait. Not idle.
+    bool is_done() const { return device_.is_done(under_way_.front().ticket); }
+
+    // Waits for the slice that was started first.
+    struct Finished {
+        std::uint64_t paths; // samples in all its pixels; 0 of work on the film
+        double seconds;
+    };
+    Finished finish();
+
+    // Waits for all slices that were started, and knows nothing of them afterwards.
+    void drain() noexcept;
+
+private:
+    struct Work {
+        Slice slice;
+        vulkan::Device::Ticket ticket;
+        bool on_film; // takes no samples
+    };
+
+    void start_film_work();
+    std::uint32_t start_samples(std::uint32_t next_sample, std::uint32_t remaining);
+
+    vulkan::Device device_;
+    std::unique_ptr<TracePipelines> pipelines_; // never NULL
+    double target_seconds_;
+    std::optional<Film> film_;
+    std::optional<Kernel> kernel_;
+    std::optional<Schedule> schedule_;      // of the kernel
+    std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path
+    std::vector<Work> under_way_;           // in the order of their starts; has room for all that there may be
+    std::uint32_t pass_pixels_ = 0;
+    std::uint32_t pass_sample_ = 0;        // number of the pass's sample
+    std::uint32_t uncleared_pixels_ = 0;   // at the film's end, that still hold what is void
+    std::uint32_t uncommitted_pixels_ = 0; // at the film's end, without the pass's sample, which is complete
+};
+
+} // namespace pt

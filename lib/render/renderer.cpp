@@ -1,0 +1,300 @@
+// The renderer's loop; see renderer.h.
+#include "lib/render/renderer.h"
+
+#include "lib/base/error.h"
+#include "lib/film/sample_parts.h"
+#include "lib/kernel/accuracy.h"
+#include "lib/vulkan/device_choice.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
+    std::vector<pt_device_info> devices;
+    for (const vk::raii::PhysicalDevice &device : instance.physical_devices())
+        devices.push_back(vulkan::describe(device));
+    return devices;
+}
+
+} // namespace
+
+std::vector<pt_device_info> list_devices() {
+    return describe_all(vulkan::Instance(Log{}, false));
+}
+
+// The code first: where it does not compile, no device is touched.
+Renderer::Renderer(const CreateSettings &settings) :
+    source_(settings.shader_directory),
+    code_(source_.read()),
+    instance_(settings.vulkan ? vulkan::Instance(settings.log, settings.vulkan->instance)
+                              : vulkan::Instance(settings.log, settings.validation)) {
+    if (settings.vulkan)
+        use_device_of(*settings.vulkan, settings);
+    else
+        use_own_devices(settings);
+}
+
+void Renderer::use_own_devices(const CreateSettings &settings) {
+    const std::vector<vk::raii::PhysicalDevice> devices = instance_.physical_devices();
+    for (const std::size_t index : vulkan::choose_devices(describe_all(instance_), settings.device))
+        for (std::uint32_t i = 0; i < settings.devices_of_each; ++i)
+            add_device(devices[index], vulkan::LogicalDevice::create(devices[index]), settings);
+}
+
+void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings) {
+    const vk::raii::PhysicalDevice physical_device = validated_physical_device(instance_.handle(), caller);
+    add_device(physical_device, vulkan::LogicalDevice::borrow(physical_device, caller), settings);
+}
+
+void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
+                          const CreateSettings &settings) {
+    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
+                                                      settings.submit_milliseconds * 1e-3));
+    log().info([&] {
+        const pt_device_info &info = devices_.back()->device().info();
+        return std::string("renders on ") + info.name + " (" + info.driver + ")";
+    });
+}
+
+void Renderer::require_alive() const {
+    for (const auto &device : devices_)
+        device->device().require_alive();
+}
+
+void Renderer::discard_samples() noexcept {
+    for (const auto &device : devices_)
+        device->discard_samples();
+    samples_done_ = 0;
+    error_.reset();
+}
+
+void Renderer::set_scene(Scene scene) {
+    require_alive();
+    discard_samples();
+    scene_ = std::move(scene);
+}
+
+void Renderer::set_camera(const Camera &camera) {
+    require_alive();
+    discard_samples();
+    camera_ = camera;
+}
+
+void Renderer::set_render(const RenderSettings &settings) {
+    require_alive();
+    const bool same_size =
+        settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
+    if (!same_size) {
+        std::vector<Film> films;
+        for (const auto &device : devices_)
+            films.push_back(device->make_film(settings));
+        for (std::size_t i = 0; i < films.size(); ++i)
+            devices_[i]->set_film(std::move(films[i]));
+    }
+    discard_samples();
+    settings_ = settings;
+}
+
+void Renderer::reload_shaders() {
+    require_alive();
+    if (source_.is_embedded())
+        throw Error(PT_ERROR_INVALID_STATE, "no shader_dir: the kernels are those in the library");
+    set_code(source_.read());
+}
+
+void Renderer::set_code(const KernelCode &code) {
+    if (code == code_)
+        return;
+    std::vector<std::unique_ptr<TracePipelines>> pipelines;
+    for (const auto &device : devices_)
+        pipelines.push_back(device->make_pipelines(code));
+    discard_samples();
+    for (std::size_t i = 0; i < pipelines.size(); ++i)
+        devices_[i]->set_pipelines(std::move(pipelines[i]));
+    code_ = code;
+}
+
+void Renderer::require_settings() const {
+    require_alive();
+    if (!scene_)
+        throw Error(PT_ERROR_INVALID_STATE, "no scene: call pt_set_scene first");
+    if (!camera_)
+        throw Error(PT_ERROR_INVALID_STATE, "no camera: call pt_set_camera first");
+    if (!settings_)
+        throw Error(PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
+}
+
+bool Renderer::is_in_pass() const {
+    return std::ranges::any_of(devices_, [](const auto &device) { return device->pass_pixels() > 0; });
+}
+
+std::vector<Film *> Renderer::films() const {
+    std::vector<Film *> films;
+    for (const auto &device : devices_)
+        films.push_back(&device->film());
+    return films;
+}
+
+const ErrorEstimate &Renderer::error() {
+    if (!error_ && samples_done_ < min_estimate_samples)
+        error_ = unknown_error();
+    if (!error_) {
+        ErrorEstimator estimator(settings_->width);
+        std::uint64_t rejected = 0;
+        read_films(films(), kernel().film_unit(), part_counts(samples_done_), true, [&](const PixelEstimates &pixels) {
+            estimator.add(pixels.radiance, pixels.standard_error);
+            rejected += pixels.rejected;
+        });
+        const std::uint64_t samples = std::uint64_t{samples_done_} * devices_.front()->film().pixel_count();
+        error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result(exaggeration(settings_->sampler));
+    }
+    return *error_;
+}
+
+bool Renderer::is_on_target(double target_error) {
+    return target_error > 0.0 && is_check(samples_done_) && error().relative_rmse.high <= target_error;
+}
+
+pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
+    require_settings();
+    const std::uint64_t first = std::uint64_t{settings_->first_sample} + samples_done_;
+    if (first + sample_count > std::uint64_t{1} << 32)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": sample indices would pass 2^32 (the next is " +
+                                                   std::to_string(first) + ")");
+    if (sample_count > UINT32_MAX - samples_done_)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": a pixel holds at most 2^32 - 1 samples (it has " +
+                                                   std::to_string(samples_done_) + ")");
+    for (const auto &device : devices_)
+        device->prepare(*scene_, *camera_, *settings_);
+
+    const std::uint32_t samples_wanted = samples_done_ + sample_count;
+    const std::uint64_t pixel_count = devices_.front()->pixel_count();
+    Job job{progress, sample_count * pixel_count - devices_.front()->pass_pixels()};
+    while (samples_done_ < samples_wanted) {
+        if (!is_in_pass() && is_on_target(target_error))
+            return PT_TARGET_REACHED;
+        take_samples(target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted, job);
+        if (job.stopped && samples_done_ < samples_wanted)
+            return PT_CANCELLED;
+    }
+    return PT_OK;
+}
+
+// Takes samples up to a number of them. Devices are dealt samples in order, and none is left out once one is begun:
+// what is done in the end is a range without gaps. Only a device that is alone may stop within a pass, and will go on
+// there.
+void Renderer::take_samples(std::uint32_t end, Job &job) {
+    std::uint32_t dealt = samples_done_ + (is_in_pass() ? 1 : 0);
+    const auto deal = [&](RenderDevice &device) {
+        const bool finishes_pass = device.pass_pixels() > 0 && !(job.stopped && devices_.size() == 1);
+        const bool goes_on = !job.stopped && (device.film_is_behind() || (device.pass_pixels() == 0 && dealt < end));
+        if (!device.has_room() || !(finishes_pass || goes_on))
+            return false;
+        dealt += device.start(dealt, end - dealt);
+        return true;
+    };
+    const auto take = [&] {
+        do {
+            for (const auto &device : devices_)
+                while (deal(*device)) {
+                }
+        } while (finish_slice(job));
+        samples_done_ = dealt - (is_in_pass() ? 1 : 0);
+        error_.reset();
+    };
+    try {
+        take();
+    } catch (...) {
+        // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
+        job.stopped = true;
+        try {
+            take();
+        } catch (...) {
+            for (const auto &device : devices_)
+                device->drain();
+            discard_samples();
+        }
+        throw;
+    }
+}
+
+// Waits until a device has ended a slice, and tells the caller. False if none is under way.
+bool Renderer::finish_slice(Job &job) {
+    RenderDevice *const device = next_to_finish();
+    if (!device)
+        return false;
+    const auto [paths, seconds] = device->finish();
+    ++submit_count_;
+    device_seconds_ += seconds;
+    job.pixels_done += paths;
+    const double share = static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_wanted);
+    if (job.progress.function && !job.stopped)
+        job.stopped = job.progress.function(job.progress.user, std::min(share, 1.0)) != 0;
+    return true;
+}
+
+// The device whose slice ends first, waiting for it only if it is alone: of several it is the first that is seen to
+// be done.
+RenderDevice *Renderer::next_to_finish() {
+    constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
+    if (devices_.size() == 1)
+        return devices_.front()->is_idle() ? nullptr : devices_.front().get();
+    while (std::ranges::any_of(devices_, [](const auto &device) { return !device->is_idle(); })) {
+        for (const auto &device : devices_)
+            if (!device->is_idle() && device->is_done())
+                return device.get();
+        std::this_thread::sleep_for(pause);
+    }
+    return nullptr;
+}
+
+void Renderer::readback(const Image &image) {
+    require_settings();
+    if (samples_done_ == 0)
+        throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
+    const std::size_t width = settings_->width;
+    std::size_t pixel = 0;
+    const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
+    read_films(films(), kernel().film_unit(), part_counts(samples_done_), is_error, [&](const PixelEstimates &pixels) {
+        const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;
+        for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
+            std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);
+    });
+}
+
+pt_stats Renderer::stats(bool with_error) {
+    const bool alive = std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
+    const bool readable = settings_ && alive;
+    const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
+    pt_stats stats{};
+    stats.sample_count = samples_done_;
+    stats.submit_count = submit_count_;
+    stats.device_seconds = device_seconds_;
+    for (const auto &device : devices_) {
+        stats.rejected_samples += readable && samples_done_ > 0 ? device->film().rejected_samples() : 0;
+        stats.device_bytes += device->device().allocated_bytes();
+    }
+    stats.features = devices_.front()->kernel() ? feature_bits(kernel().features()) : 0;
+    stats.device_count = static_cast<std::uint32_t>(devices_.size());
+    stats.rmse = error.rmse.estimate;
+    stats.rmse_low = error.rmse.low;
+    stats.rmse_high = error.rmse.high;
+    stats.relative_rmse = error.relative_rmse.estimate;
+    stats.relative_rmse_low = error.relative_rmse.low;
+    stats.relative_rmse_high = error.relative_rmse.high;
+    return stats;
+}
+
+std::vector<pt_function_accuracy> Renderer::accuracy() {
+    return measured_accuracy(devices_.front()->device(), code_.accuracy);
+}
+
+} // namespace pt

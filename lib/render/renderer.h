@@ -1,0 +1,117 @@
+// The loop from settings to exact sums: specialise, dispatch slices, read back. One per pt_context, called by api.cpp.
+#pragma once
+
+#include "lib/api/image.h"
+#include "lib/base/log.h"
+#include "lib/film/error_estimate.h"
+#include "lib/film/film.h"
+#include "lib/kernel/shader_source.h"
+#include "lib/render/render_device.h"
+#include "lib/render/render_settings.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+#include "lib/vulkan/caller_vulkan.h"
+#include "lib/vulkan/instance.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+// pt_create_info, checked, with its defaults applied.
+struct CreateSettings {
+    bool validation = false;
+    std::string device;           // empty: the best
+    std::string shader_directory; // empty: the kernels in the library
+    Log log;
+    std::uint32_t submit_milliseconds = 50;
+    std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
+    std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
+};
+
+// The caller's pt_progress_fn.
+struct Progress {
+    pt_progress_fn function; // may be NULL
+    void *user;
+};
+
+// All Vulkan devices of this machine.
+std::vector<pt_device_info> list_devices();
+
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that
+// accumulate() keeps whole samples.
+class Renderer {
+public:
+    explicit Renderer(const CreateSettings &settings);
+
+    const Log &log() const { return instance_.log(); }
+    const pt_device_info &device() const { return devices_.front()->device().info(); }
+
+    // Of what is rendered and read back: the image's columns, and those of its rows that the settings ask for.
+    std::uint32_t width() const { return settings_ ? settings_->width : 0; }
+    std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
+
+    // Each setter discards the samples so far.
+    void set_scene(Scene scene);
+    void set_camera(const Camera &camera);
+    void set_render(const RenderSettings &settings);
+
+    // Compiles the kernels anew. Those that differ discard the samples so far.
+    void reload_shaders();
+
+    // Replaces the kernels on all devices or, if a driver refuses them, on none.
+    void set_code(const KernelCode &code);
+
+    // PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
+    pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
+
+    void readback(const Image &image);
+
+    // Without the error its fields say that nothing is known.
+    pt_stats stats(bool with_error);
+
+    // Of the kernel's elementary functions on the first device; leaves the samples alone.
+    std::vector<pt_function_accuracy> accuracy();
+
+private:
+    // One call of accumulate().
+    struct Job {
+        Progress progress;
+        std::uint64_t pixels_wanted;   // pixels times samples
+        std::uint64_t pixels_done = 0; // of them
+        bool stopped = false;          // by the caller, or by a failure
+    };
+
+    void use_own_devices(const CreateSettings &settings);
+    void use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings);
+    void add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
+                    const CreateSettings &settings);
+    void require_alive() const;
+    void require_settings() const;
+    void discard_samples() noexcept;
+    bool is_in_pass() const;
+    const Kernel &kernel() const { return *devices_.front()->kernel(); }
+    std::vector<Film *> films() const;
+    const ErrorEstimate &error();
+    bool is_on_target(double target_error);
+    void take_samples(std::uint32_t end, Job &job);
+    bool finish_slice(Job &job);
+    RenderDevice *next_to_finish();
+
+    ShaderSource source_;
+    KernelCode code_;
+    vulkan::Instance instance_;
+    std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
+    std::optional<Scene> scene_;
+    std::optional<Camera> camera_;
+    std::optional<RenderSettings> settings_; // the devices have films if it is there
+    std::uint32_t samples_done_ = 0;         // whole samples in every pixel
+    std::optional<ErrorEstimate> error_;     // of them, once it has been asked for
+    std::uint64_t submit_count_ = 0;
+    double device_seconds_ = 0.0;
+};
+
+} // namespace pt

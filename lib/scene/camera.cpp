@@ -1,0 +1,100 @@
+// The rules of a camera and its defaults; see camera.h.
+#include "lib/scene/camera.h"
+
+#include "lib/base/rules.h"
+#include "lib/base/scaled_vector.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace pt {
+
+namespace {
+
+constexpr double default_vertical_fov = std::numbers::pi / 4.0;
+
+// The angle between up and the viewing direction must have at least this sine. With u = 2^-53, rounding moves forward
+// by at most 2 u (a subtraction, then a division), up by u and each of the two products in a component of their cross
+// product by u, in all less than 5 u; division by the sine s makes that 5 u / s in the camera's unit vectors. It is
+// lost in their rounding to float32, 2^-24, as long as s >= 5 * 2^-53 / 2^-24 = 5 * 2^-29 < 2^-26.
+constexpr double min_sine = 0x1p-26;
+
+// The kernel holds the distance of the image plane, height / (2 tan(fov / 2)) pixels, as a length: at most 1e18. That
+// is kept for any height below 2^32 if tan(fov / 2) >= 2^31 / 1e18 = 2.1e-9. Towards pi no such margin is needed: the
+// largest double below pi leaves a distance above 1e-16.
+constexpr double min_vertical_fov = 1e-8;
+
+glm::dvec3 vector(const double (&components)[3]) {
+    return {components[0], components[1], components[2]};
+}
+
+const char *fov_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    return value >= min_vertical_fov && value < std::numbers::pi ? nullptr : "must lie in [1e-8, pi)";
+}
+
+const char *shutter_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    if (value < 0.0)
+        return "must be >= 0";
+    return value <= 1.0 ? nullptr : "must be <= 1";
+}
+
+pt_camera with_defaults(pt_camera camera) {
+    if (vector(camera.up) == glm::dvec3(0.0))
+        camera.up[1] = 1.0;
+    if (camera.vertical_fov == 0.0)
+        camera.vertical_fov = default_vertical_fov;
+    if (camera.shutter_open == 0.0 && camera.shutter_close == 0.0)
+        camera.shutter_close = 1.0;
+    return camera;
+}
+
+void check_fields(const pt_camera &camera) {
+    Violations violations;
+    const Subject subject(violations, "camera");
+    subject.require(camera.reserved == 0, "reserved", camera.reserved, "must be 0");
+    subject.check_each("position", camera.position, length_rule);
+    subject.check_each("target", camera.target, length_rule);
+    subject.check_each("up", camera.up, finite_rule);
+    subject.check("vertical_fov", camera.vertical_fov, fov_rule);
+    subject.check("shutter_open", camera.shutter_open, shutter_rule);
+    subject.check("shutter_close", camera.shutter_close, shutter_rule);
+    // Written so that NaN, which has its own line already, passes.
+    subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
+                    "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+}
+
+} // namespace
+
+Camera validated_camera(const pt_camera &source) {
+    const pt_camera camera = with_defaults(source);
+    check_fields(camera);
+
+    Violations violations;
+    const Subject subject(violations, "camera");
+    const glm::dvec3 position = vector(camera.position);
+    const glm::dvec3 target = vector(camera.target);
+    subject.require(target != position, "target", target, "must differ from position");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+
+    const glm::dvec3 forward = unit_vector(target - position);
+    const glm::dvec3 across = glm::cross(forward, unit_vector(vector(camera.up)));
+    subject.require(glm::length(across) >= min_sine, "up", vector(camera.up),
+                    "must not be parallel to the viewing direction");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+
+    const glm::dvec3 right = unit_vector(across);
+    return {position,
+            right,
+            glm::cross(right, forward),
+            forward,
+            std::tan(0.5 * camera.vertical_fov),
+            camera.shutter_open,
+            camera.shutter_close};
+}
+
+} // namespace pt

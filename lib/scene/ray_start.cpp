@@ -1,0 +1,93 @@
+// Bounds what is in view from the near side; see ray_start.h.
+#include "lib/scene/ray_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pt {
+
+namespace {
+
+constexpr double out_of_view = std::numeric_limits<double>::infinity();
+
+// Components of a direction are off by 2^-24: from here on, by more than 1/1024 of a pixel.
+constexpr double narrow_pixel = 0x1p-14; // its side at distance 1
+
+// The pyramid of the rays of an image, and the cone about it.
+struct View {
+    std::array<glm::dvec3, 4> corners; // at depth 1
+    glm::dvec3 forward;
+    double half_angle;
+
+    View(const Camera &camera, const RenderSettings &settings) : forward(camera.forward) {
+        const double up = camera.tan_half_fov;
+        const double right = up * settings.width / settings.height;
+        half_angle = std::atan(std::hypot(up, right));
+        corners = {forward - right * camera.right - up * camera.up, forward + right * camera.right - up * camera.up,
+                   forward - right * camera.right + up * camera.up, forward + right * camera.right + up * camera.up};
+    }
+};
+
+// A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner.
+double nearest_depth(const Plane &plane, const Camera &camera, const View &view) {
+    const double offset = plane.offset + glm::dot(plane.normal, camera.position);
+    double nearest = offset == 0.0 ? 0.0 : out_of_view;
+    for (const glm::dvec3 &corner : view.corners) {
+        const double depth = -offset / glm::dot(plane.normal, corner);
+        nearest = depth > 0.0 ? std::min(nearest, depth) : nearest;
+    }
+    return nearest;
+}
+
+// Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it is
+// inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)), whose
+// product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about its way.
+double nearest_depth(const Sphere &sphere, const Camera &camera, const View &view) {
+    const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
+    const glm::dvec3 centre = sphere.center + camera.shutter_open * sphere.motion + 0.5 * way - camera.position;
+    const double radius = sphere.radius + 0.5 * glm::length(way);
+    const double distance = glm::length(centre);
+    const double along = glm::dot(centre, view.forward);
+    const double angle = std::atan2(glm::length(centre - along * view.forward), along);
+    const double power = (distance - radius) * (distance + radius); // of the camera with respect to the sphere
+    if (power <= 0.0) {
+        if (way != glm::dvec3(0.0))
+            return 0.0;
+        const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
+        const double across = distance * std::sin(farthest);
+        const double half_chord = std::sqrt(radius * radius - across * across);
+        return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
+    }
+    const double nearest = std::max(angle - view.half_angle, 0.0);
+    const double across = distance * std::sin(nearest);
+    const double squared_half_chord = radius * radius - across * across;
+    const double b = distance * std::cos(nearest);
+    if (b <= 0.0 || squared_half_chord < 0.0)
+        return out_of_view;
+    return power / (b + std::sqrt(squared_half_chord)) * std::cos(view.half_angle);
+}
+
+} // namespace
+
+Camera starting_ahead(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
+    if (2.0 * camera.tan_half_fov / settings.height > narrow_pixel)
+        return camera;
+    const View view(camera, settings);
+    double depth = out_of_view;
+    for (const Sphere &sphere : scene.spheres)
+        depth = std::min(depth, nearest_depth(sphere, camera, view));
+    for (const Plane &plane : scene.planes)
+        depth = std::min(depth, nearest_depth(plane, camera, view));
+    if (depth == out_of_view)
+        return camera;
+    // As far before the first surface as the view is wide there, so that rounding puts no start behind it.
+    Camera ahead = camera;
+    ahead.start_distance = std::max(1.0 - std::tan(view.half_angle), 0.0) * depth;
+    ahead.position += ahead.start_distance * camera.forward;
+    return ahead;
+}
+
+} // namespace pt

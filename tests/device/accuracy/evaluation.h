@@ -1,0 +1,32 @@
+// Evaluates shader functions on the device over many items: structs of 16-byte vectors in and out, one item per
+// invocation, as tests/device/probe/items.glsl reads and writes them.
+#pragma once
+
+#include "tests/device/probe.h"
+
+#include <span>
+#include <vector>
+
+namespace accuracy {
+
+// Fails the running test if the kernel leaves a word of an output unwritten. That this would be seen is checked too, by
+// a run that skips one item.
+void evaluate_bytes(Probe &probe, std::span<const std::byte> inputs, std::span<std::byte> outputs,
+                    std::uint32_t item_count);
+
+template <typename Output, typename Input>
+std::vector<Output> evaluate(Probe &probe, const std::vector<Input> &inputs) {
+    static_assert(sizeof(Input) % sizeof(glm::vec4) == 0 && sizeof(Output) % sizeof(glm::vec4) == 0);
+    std::vector<Output> outputs(inputs.size());
+    evaluate_bytes(probe, std::as_bytes(std::span(inputs)), std::as_writable_bytes(std::span(outputs)),
+                   static_cast<std::uint32_t>(inputs.size()));
+    return outputs;
+}
+
+// Push constants of tests/device/probe/items.glsl.
+struct ItemRange {
+    std::uint32_t count;
+    std::uint32_t skipped;
+};
+
+} // namespace accuracy

@@ -1,0 +1,200 @@
+// How lights.glsl sees and samples a lamp, against long double: from angles of 1e-7 to touching.
+#include "lamp_items.spv.h"
+#include "shaders/gpu_layout.h"
+#include "tests/device/accuracy/direction.h"
+#include "tests/device/accuracy/evaluation.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <algorithm>
+
+namespace accuracy {
+
+namespace {
+
+constexpr std::uint32_t lamp_count = 512; // whose geometry and emission fill a probe's scene
+
+struct Lamp {
+    glm::vec3 centre;
+    float radius;
+    float radiance;
+};
+
+struct Item {
+    glm::vec3 position; // of the vertex
+    std::uint32_t lamp;
+    glm::vec4 normal;
+    glm::vec4 numbers;
+};
+
+struct Result {
+    glm::vec3 direction;
+    float distance;
+    float height, density, weight, unused;
+};
+
+std::vector<Lamp> lamps() {
+    Inputs inputs(6);
+    std::vector<Lamp> lamps;
+    for (std::uint32_t i = 0; i < lamp_count; ++i) {
+        const auto distance = static_cast<float>(inputs.log_uniform(1e-2, 1e3));
+        lamps.push_back({distance * inputs.direction(), static_cast<float>(inputs.log_uniform(1e-3, 1e3)),
+                         static_cast<float>(inputs.log_uniform(1e-6, 1e6))});
+    }
+    return lamps;
+}
+
+// Vertices at r / sine from a lamp of radius r: sines from 1e-7 to 1, and to within 1e-6 of 1. A quarter of the normals
+// leave the lamp just above the horizon or below it.
+std::vector<Item> items(const std::vector<Lamp> &lamps) {
+    Inputs inputs(7);
+    std::vector<Item> items;
+    for (std::uint32_t i = 0; i < random_count; ++i) {
+        const Lamp &lamp = lamps[i % lamp_count];
+        const double sine = i % 3 == 0 ? 1.0 - inputs.log_uniform(1e-6, 0.5) : inputs.log_uniform(1e-7, 1.0);
+        const glm::dvec3 axis(inputs.direction());
+        glm::dvec3 normal(inputs.direction());
+        if (i % 4 == 0) {
+            const glm::dvec3 across = glm::cross(axis, normal + glm::dvec3(0.0, 0.01, 0.02));
+            const double cosine = -sine * (1.0 + (inputs.number() - 0.5) * inputs.log_uniform(1e-8, 1.0));
+            normal = cosine * axis + std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) * glm::normalize(across);
+        }
+        items.push_back({glm::vec3(glm::dvec3(lamp.centre) - lamp.radius / sine * axis), i % lamp_count,
+                         glm::vec4(glm::vec3(glm::normalize(normal)), 0.0F),
+                         glm::vec4(inputs.number(), inputs.number(), 0.0F, 0.0F)});
+    }
+    return items;
+}
+
+// What an argument that is off by a bound does to its square root: near 0 more than half of its share.
+Real root_bound(Real square, Real bound) {
+    const Real root = std::sqrt(std::max<Real>(square, 0));
+    return std::max(std::sqrt(std::max<Real>(square, 0) + bound) - root,
+                    root - std::sqrt(std::max<Real>(square - bound, 0)));
+}
+
+// A lamp as its vertex sees it, and what float32 may lose of that. u = 2^-24.
+struct View {
+    Direction axis;
+    Real distance;
+    Real squared_sine;
+    Real height;       // 1 - cos of half the angle
+    Real height_share; // of which that may be off
+    Real highest_cosine;
+
+    View(const Lamp &lamp, const Item &item) {
+        const Direction to_centre = Direction(lamp.centre) - Direction(item.position);
+        distance = glm::length(to_centre);
+        axis = to_centre / distance;
+        squared_sine = Real{lamp.radius} * lamp.radius / (distance * distance);
+        const Real cosine = std::sqrt(std::max<Real>(1 - squared_sine, 0));
+        height = squared_sine / (1 + cosine);
+        highest_cosine = glm::dot(glm::normalize(Direction(item.normal)), axis) + Real{lamp.radius} / distance;
+        // sin^2: u for r^2, 5 u for d^2 (2 u for the differences, u for squares, 2 u for sums) and 5 u for the
+        // division. 1 - sin^2 is off by that and u / 2, absolute, so its root by much where the lamp is near; the
+        // root's own error is 9 u, that of the sum u, and the division's 5 u.
+        const Real cosine_bound = root_bound(1 - squared_sine, 11.5L * half_ulp) + 9 * half_ulp * cosine;
+        height_share = 16 * half_ulp + (cosine_bound + 2 * half_ulp) / (1 + cosine - cosine_bound);
+    }
+};
+
+// Absolute, in length. The axis errs by 8.5 u: u for the differences, 6.5 u for inversesqrt of d^2, u for the product;
+// directions with it, and by three times that across, as the basis turns with the axis. Then direction_about, with u
+// for the product u.x h.
+Real direction_bound(const View &view, const glm::vec3 &axis, Real h) {
+    const Real axis_bound = 8.5L * half_ulp;
+    const Real sine = std::sqrt(h * (2 - h));
+    return direction_about_bound(axis, h, view.height_share + half_ulp) + axis_bound +
+           std::sqrt(Real{2}) * sine * (3 + 2.5L) * axis_bound + axis_bound;
+}
+
+// Absolute. d errs by 7.5 u: 5 u for d^2 less half of it in the root, 4 u for inversesqrt, u for the product. The
+// root's argument r^2 - d^2 h (2 - h) by 3 u of r^2, and of its second term by 18 u and the share of h.
+Real distance_bound(const View &view, const Lamp &lamp, Real h) {
+    const Real share = view.height_share + half_ulp;
+    const Real squared_radius = Real{lamp.radius} * lamp.radius;
+    const Real lost = view.distance * view.distance * h * (2 - h);
+    const Real square = squared_radius - lost;
+    const Real half_chord = root_bound(square, 3 * half_ulp * squared_radius + (18 * half_ulp + share) * lost);
+    return half_chord + 9 * half_ulp * std::sqrt(std::max<Real>(square, 0)) +
+           view.distance * (10 * half_ulp + share * h);
+}
+
+struct AccuracyLights : testing::Test {
+    std::vector<Lamp> lamps_ = lamps();
+    std::vector<Item> items_ = items(lamps_);
+    std::vector<Result> results_;
+
+    void SetUp() override {
+        std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+        constants[pt::gpu::ID_SPHERE_COUNT] = lamp_count;
+        constants[pt::gpu::ID_LAMP_COUNT] = lamp_count;
+        constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
+        std::vector<glm::vec4> scene;
+        for (const Lamp &lamp : lamps_)
+            scene.emplace_back(lamp.centre, lamp.radius);
+        for (const Lamp &lamp : lamps_)
+            scene.emplace_back(lamp.radiance);
+        Probe probe(lamp_items_spirv, sizeof(ItemRange), constants);
+        probe.set_scene(scene);
+        results_ = evaluate<Result>(probe, items_);
+    }
+};
+
+// The weight, radiance sin^2 min(1, highest cosine), is never 0 where its bound on the irradiance is not, as far as
+// that can be told: dot product and sum err by 4 u and, with their factor 1 / d, 6.5 u and u more; so does the normal's
+// length.
+TEST_F(AccuracyLights, OfLampSamples) {
+    Comparison height("one_minus_cos", "of itself");
+    Comparison density("cone_density", "of itself");
+    Comparison direction("sample_lamp direction", "length");
+    Comparison distance("sample_lamp distance", "of the lamp's");
+    Comparison weight("lamp weight", "of radiance sin^2");
+    std::size_t lost = 0;
+    std::size_t dark = 0;
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const Item &item = items_[i];
+        const Lamp &lamp = lamps_[item.lamp];
+        const Result &result = results_[i];
+        const View view(lamp, item);
+        if (view.squared_sine > 1 - 12 * half_ulp)
+            continue; // on the lamp, as far as can be told
+        const std::vector<float> input = list(item.position, lamp.centre, lamp.radius, item.normal, item.numbers);
+        height.add(result.height / view.height, 1, view.height_share, input);
+
+        const Real cosine = std::min<Real>(view.highest_cosine, 1);
+        const Real cosine_bound =
+            12 * half_ulp * (1 + std::sqrt(view.squared_sine)) + length_error(glm::vec3(item.normal));
+        const Real brightest = lamp.radiance * view.squared_sine;
+        weight.add(result.weight / brightest, std::max<Real>(cosine, 0), cosine_bound + 13 * half_ulp, input);
+        if (cosine < cosine_bound) {
+            EXPECT_TRUE(cosine > -cosine_bound || result.weight == 0.0F) << "a lamp below the horizon, item " << i;
+            dark += result.weight > 0.0F ? 0 : 1;
+            continue;
+        }
+        lost += result.weight > 0.0F ? 0 : 1;
+        // 1 / (2 pi h): u / 2 for the constant, u for the product and 5 u for the division.
+        density.add(result.density * (2 * pi * view.height), 1, view.height_share * 1.01L + 7 * half_ulp, input);
+        const Real h = item.numbers.x * view.height;
+        direction.add(result.direction,
+                      turned_to(glm::vec3(view.axis), direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),
+                      direction_bound(view, glm::vec3(view.axis), h), input);
+        const Real squared_sine = h * (2 - h);
+        const Real half_chord =
+            std::sqrt(Real{lamp.radius} * lamp.radius - view.distance * view.distance * squared_sine);
+        distance.add(result.distance / view.distance, (1 - h) - half_chord / view.distance,
+                     distance_bound(view, lamp, h) / view.distance, input);
+    }
+    EXPECT_GT(dark, 0U) << "weights of 0 were not tested";
+    EXPECT_EQ(lost, 0U) << "lamps above the horizon that cannot be sampled";
+    height.finish();
+    density.finish();
+    direction.finish();
+    distance.finish();
+    weight.finish();
+}
+
+} // namespace
+
+} // namespace accuracy

@@ -1,0 +1,209 @@
+// The functions of phong.glsl against long double.
+#include "phong_items.spv.h"
+#include "shaders/gpu_layout.h"
+#include "tests/device/accuracy/direction.h"
+#include "tests/device/accuracy/evaluation.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <algorithm>
+
+namespace accuracy {
+
+namespace {
+
+struct Item {
+    glm::vec3 axis; // of the lobe; also the incoming direction
+    float glossiness;
+    glm::vec3 outgoing;
+    float diffuse;
+    glm::vec3 normal;
+    float specular;
+    glm::vec2 numbers;
+    float probability, unused;
+};
+
+struct Result {
+    glm::vec4 direction;
+    float power, value, density, unused;
+};
+
+glm::vec3 mirrored(const glm::vec3 &incoming, const glm::vec3 &normal) {
+    const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
+    return {glm::normalize(glm::reflect(glm::dvec3(incoming), n))};
+}
+
+// A direction at an angle from another.
+glm::vec3 beside(Inputs &inputs, const glm::vec3 &direction, double angle) {
+    const glm::dvec3 axis(direction);
+    const glm::dvec3 across = glm::normalize(glm::cross(axis, glm::dvec3(inputs.direction()) + glm::dvec3(0, 0, 0.01)));
+    return {glm::normalize(std::cos(angle) * axis + std::sin(angle) * across)};
+}
+
+// Exponents 0 to 1e9, and outgoing directions where such lobes are neither 0 nor 1, and elsewhere. about_mirror: near
+// the mirror direction of the axis; else near the axis itself.
+std::vector<Item> items(bool about_mirror) {
+    Inputs inputs(about_mirror ? 2 : 3);
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < random_count; ++i) {
+        Item item{};
+        item.axis = inputs.direction();
+        item.normal = inputs.direction();
+        if (glm::dot(item.normal, item.axis) > 0.0F)
+            item.normal = -item.normal; // on the side that the path came from
+        const float exponents[] = {0.0F, 1.0F, 1e9F, static_cast<float>(inputs.log_uniform(1e-3, 1e9))};
+        item.glossiness = exponents[std::min<std::size_t>(i % 16, 3)];
+        const double width = std::min(1.0, std::sqrt(2.0 / std::max(item.glossiness, 1.0F)));
+        const double angle = i % 3 == 0 ? inputs.number() * 3.14 : width * inputs.log_uniform(1e-4, 12.0);
+        item.outgoing = beside(inputs, about_mirror ? mirrored(item.axis, item.normal) : item.axis, angle);
+        item.diffuse = inputs.number();
+        item.specular = inputs.number();
+        item.numbers = {inputs.number(), inputs.number()};
+        item.probability = inputs.number();
+        items.push_back(item);
+    }
+    return items;
+}
+
+Probe phong_probe() {
+    std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
+    constants[pt::gpu::ID_SPHERE_COUNT] = 1;
+    constants[pt::gpu::ID_MAX_PATH_LENGTH] = 2;
+    constants[pt::gpu::ID_ESTIMATOR] = PT_ESTIMATOR_MIS;
+    constants[pt::gpu::ID_GLOSS] = 1;
+    return {phong_items_spirv, sizeof(ItemRange), constants};
+}
+
+// A number and how far from it float32 may be.
+struct Bounded {
+    Real exact;
+    Real bound;
+};
+
+Real power(Real cosine, Real n) {
+    return cosine > 0 ? std::pow(cosine, n) : 0;
+}
+
+// max(0, wo . r)^n for the unit vectors along r and wo, where the device's r is off by mirror_error. With u = 2^-24:
+// y = |wo - r|^2 / 2 errs by 2 u for the differences, u for the squares, 2 u for the sums; unit vectors that are too
+// long by a and b make it y (1 + a) (1 + b) + (a - b)^2 / 2; and mirror_error by the chord and itself. log2(1 -
+// y) errs by 22 u (18 ulp of at most u / 2 each where the logarithm is 0.42), its product with n by u, and 2^x by 3 + 2
+// |x| ulp of at most 2 u. Below 2^-99 the lobe is 0.
+Bounded lobe(const Direction &r, const Direction &wo, Real r_length, Real wo_length, Real mirror_error, Real n) {
+    const Direction chord = wo - r;
+    const Real y = glm::dot(chord, chord) / 2;
+    const Real length = std::sqrt(2 * y);
+    const Real y_bound = y * (5 * half_ulp + r_length + wo_length) +
+                         (r_length + wo_length) * (r_length + wo_length) / 2 + length * mirror_error +
+                         mirror_error * mirror_error;
+    const Real exact = y < 1 ? std::exp(n * std::log1p(-y)) : 0;
+    const Real spread = std::max(power(1 - y + y_bound, n) - exact, exact - power(1 - y - y_bound, n));
+    const Real exponent = y < 1 ? -n * std::log1p(-y) : 0;
+    return {exact, spread + exact * (29 * exponent + 6) * half_ulp + 0x1p-99L};
+}
+
+Bounded lobe_about_axis(const Item &item) {
+    return lobe(glm::normalize(Direction(item.axis)), glm::normalize(Direction(item.outgoing)), length_error(item.axis),
+                length_error(item.outgoing), 0, item.glossiness);
+}
+
+// reflect(I, N) = I - 2 (N . I) N: the dot product errs by 2 u, so 2 (N . I) N by 4 u and 2 u more, the difference by
+// u; a normal that is not of unit length by four times that.
+Bounded lobe_about_mirror(const Item &item) {
+    const Direction normal = glm::normalize(Direction(item.normal));
+    const Direction r = glm::reflect(glm::normalize(Direction(item.axis)), normal);
+    return lobe(r, glm::normalize(Direction(item.outgoing)), length_error(item.axis), length_error(item.outgoing),
+                7 * half_ulp + 4 * length_error(item.normal), item.glossiness);
+}
+
+// Coefficients of the diffuse and the specular term of the value (over the cosine) or of the density, by the
+// definitions in pt.h and in Lafortune and Willems (1994). Their sum is the most that the whole can be.
+struct Terms {
+    Real diffuse, specular;
+
+    Real peak() const { return std::max<Real>(diffuse + specular, 0x1p-60L); }
+};
+
+Terms value_terms(const Item &item) {
+    return {item.diffuse / pi, item.specular * (Real{item.glossiness} + 2) / (2 * pi)};
+}
+
+Terms density_terms(const Item &item) {
+    const Real p = item.probability;
+    return {(1 - p) / pi, p * (Real{item.glossiness} + 1) / (2 * pi)};
+}
+
+// The cosine of the outgoing direction, not below 0: 2 u for the dot product, and the lengths.
+Bounded cosine_of(const Item &item) {
+    const Direction normal = glm::normalize(Direction(item.normal));
+    return {std::max<Real>(glm::dot(normal, glm::normalize(Direction(item.outgoing))), 0),
+            2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
+}
+
+// The longest chain of roundings is that of the specular term: n + 2, its product with the factor and that with the lobe
+// 3 u, the division by 2 pi 5.5 u, the sum u, and the product with the cosine u.
+constexpr Real rounding = 11 * half_ulp;
+
+Bounded value_of(const Item &item) {
+    const auto [diffuse, specular] = value_terms(item);
+    const Bounded power = lobe_about_mirror(item);
+    const Bounded cosine = cosine_of(item);
+    const Real f = diffuse + specular * power.exact;
+    return {f * cosine.exact, specular * power.bound * (cosine.exact + cosine.bound) +
+                                  f * (cosine.bound + rounding * cosine.exact) + 0x1p-120L};
+}
+
+Bounded density_of(const Item &item) {
+    const auto [diffuse, specular] = density_terms(item);
+    const Bounded power = lobe_about_mirror(item);
+    const Bounded cosine = cosine_of(item);
+    const Real exact = diffuse * cosine.exact + specular * power.exact;
+    return {exact, diffuse * cosine.bound + specular * power.bound + rounding * exact};
+}
+
+TEST(AccuracyPhong, OfLobes) {
+    Comparison power("lobe_power", "absolute");
+    Comparison direction("lobe_cos_sin", "length");
+    const std::vector<Item> all = items(false);
+    Probe probe = phong_probe();
+    const std::vector<Result> results = evaluate<Result>(probe, all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Item &item = all[i];
+        const Bounded lobe = lobe_about_axis(item);
+        power.add(results[i].power, lobe.exact, lobe.bound, list(item.axis, item.glossiness, item.outgoing));
+        // 1 - 2^(log2(1 - u) / (n + 1)): 22 u, u for n + 1 and 5 u for the division count for less than themselves, as
+        // x e^x / (1 - e^x) <= 1; and 2.5 ulp <= 5 u.
+        const Real h = -std::expm1(std::log1p(-Real{item.numbers.x}) / (Real{item.glossiness} + 1));
+        direction.add(glm::vec3(results[i].direction),
+                      turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), item.numbers.y)),
+                      direction_about_bound(item.axis, h, 35 * half_ulp),
+                      list(item.axis, item.glossiness, item.numbers));
+    }
+    power.finish();
+    direction.finish();
+}
+
+TEST(AccuracyPhong, OfReflection) {
+    Comparison value("reflection.value", "of its peak");
+    Comparison density("reflection.density", "of its peak");
+    const std::vector<Item> all = items(true);
+    Probe probe = phong_probe();
+    const std::vector<Result> results = evaluate<Result>(probe, all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const Bounded exact_value = value_of(all[i]);
+        const Real value_peak = value_terms(all[i]).peak();
+        value.add(results[i].value / value_peak, exact_value.exact / value_peak, exact_value.bound / value_peak,
+                  list(all[i]));
+        const Bounded exact_density = density_of(all[i]);
+        const Real density_peak = density_terms(all[i]).peak();
+        density.add(results[i].density / density_peak, exact_density.exact / density_peak,
+                    exact_density.bound / density_peak, list(all[i]));
+    }
+    value.finish();
+    density.finish();
+}
+
+} // namespace
+
+} // namespace accuracy

@@ -1,0 +1,113 @@
+// The directions and weights of sampling.glsl against long double.
+#include "sampling_items.spv.h"
+#include "tests/device/accuracy/direction.h"
+#include "tests/device/accuracy/evaluation.h"
+
+#include <gtest/gtest.h>
+
+namespace accuracy {
+
+namespace {
+
+struct Item {
+    glm::vec3 axis;
+    float height; // of the cone direction: 1 - cos
+    glm::vec2 numbers;
+    float density, other_density;
+};
+
+struct Result {
+    glm::vec4 about, cosine, hemisphere, weight;
+};
+
+std::vector<Item> items() {
+    Inputs inputs(1);
+    std::vector<Item> items;
+    // Heights from 5e-15, an angle of 1e-7, to 2, the opposite direction. Densities that are squares or ratios beyond
+    // what a float holds; but Vulkan states an error of division only for divisors from 2^-126 to 2^126 = 8.5e37.
+    for (std::size_t i = 0; i < random_count; ++i)
+        items.push_back({inputs.direction(), static_cast<float>(inputs.log_uniform(5e-15, 2.0)),
+                         glm::vec2(inputs.number(), inputs.number()),
+                         static_cast<float>(inputs.log_uniform(1e-37, 8e37)),
+                         static_cast<float>(inputs.log_uniform(1e-37, 8e37))});
+    for (const float density : {1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
+        for (const float other : {0.0F, 1e-37F, 1e-20F, 1.0F, 1e20F, 8e37F})
+            items.push_back({{0, 0, 1}, 0.0F, {0, 0}, density, other});
+    return items;
+}
+
+// Given both cosine and sine of the polar angle to rounding, 1 - u and u themselves being exact: sqrt 9 u for each, so
+// 9 u in length, and the two rotations.
+Real cosine_hemisphere_bound(const Item &item) {
+    const Real sine = std::sqrt(Real{item.numbers.x});
+    return rotation_bound(item.axis, sine) + azimuth_bound(sine) + 9 * half_ulp;
+}
+
+// 1 - 2 u is exact; the sine 2 sqrt(u (1 - u)) errs by half of u and by 9 u.
+Real uniform_bound(Real sine) {
+    return azimuth_bound(sine) + 9.5L * half_ulp * sine + half_ulp / 2;
+}
+
+// Both directions are right where the axis is perpendicular to them, as far as the dot product (2 u and the lengths)
+// can tell: then the nearer one counts.
+Direction mirrored_up(const Direction &direction, const Item &item, const glm::vec4 &found) {
+    const Real cosine = glm::dot(direction, Direction(item.axis));
+    const bool undecided = std::abs(cosine) < 4 * half_ulp + uniform_bound(1);
+    const Real side = undecided ? glm::dot(direction, Direction(found)) : cosine;
+    return side < 0 ? -direction : direction;
+}
+
+class AccuracySampling : public testing::Test {
+protected:
+    std::vector<Item> items_ = items();
+    Probe probe_{sampling_items_spirv, sizeof(ItemRange)};
+    std::vector<Result> results_ = evaluate<Result>(probe_, items_);
+};
+
+TEST_F(AccuracySampling, OfDirectionsAndWeights) {
+    Comparison about("direction_about", "length");
+    Comparison cosine("cosine_hemisphere_cos_sin", "length");
+    Comparison hemisphere("uniform_hemisphere_direction", "length");
+    Comparison weight("power_heuristic", "ulp");
+    for (std::size_t i = 0; i < items_.size(); ++i) {
+        const Item &item = items_[i];
+        const Result &result = results_[i];
+        const Real h = item.height;
+        const Real u = item.numbers.x;
+        const Real turns = item.numbers.y;
+        about.add(glm::vec3(result.about), turned_to(item.axis, direction_at(1 - h, std::sqrt(h * (2 - h)), turns)),
+                  direction_about_bound(item.axis, h, 0), list(item));
+        cosine.add(glm::vec3(result.cosine), turned_to(item.axis, direction_at(std::sqrt(1 - u), std::sqrt(u), turns)),
+                   cosine_hemisphere_bound(item), list(item));
+        const Real sine = 2 * std::sqrt(u * (1 - u));
+        hemisphere.add(glm::vec3(result.hemisphere),
+                       mirrored_up(direction_at(1 - 2 * u, sine, turns), item, result.hemisphere), uniform_bound(sine),
+                       list(item));
+        // w = 1 / (1 + q^2): q 5 u, q^2 11 u, the sum u, the division 2.5 ulp. Where a square overflows, w is 0.
+        const Real a = item.density;
+        const Real b = item.other_density;
+        add_in_ulp(weight, result.weight.x, a * a / (a * a + b * b), 14.5L, 0x1p-100L, list(item));
+    }
+    about.finish();
+    cosine.finish();
+    hemisphere.finish();
+    weight.finish();
+}
+
+// Multiple importance sampling is unbiased because the two weights of a direction sum to 1: each is within 14.5 ulp of
+// at most 2^-24 of its value.
+TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
+    std::vector<Item> exchanged = items_;
+    for (Item &item : exchanged)
+        std::swap(item.density, item.other_density);
+    const std::vector<Result> others = evaluate<Result>(probe_, exchanged);
+    Comparison sum("sum of two weights", "absolute");
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        if (items_[i].other_density > 0.0F)
+            sum.add(Real{results_[i].weight.x} + Real{others[i].weight.x}, 1, 2 * 14.5L * half_ulp, list(items_[i]));
+    sum.finish();
+}
+
+} // namespace
+
+} // namespace accuracy

@@ -1,0 +1,84 @@
+// A context on a real device with a scene whose image is known exactly. Used by the tests of the contract of pt.h.
+#pragma once
+
+#include "tests/support/context_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace api {
+
+inline constexpr uint32_t width = 12;
+inline constexpr uint32_t height = 7;
+
+// A sphere around the camera that emits red, green and blue of 1, 2 and 4: every pixel is that, exactly.
+inline const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 2, 4}, 0};
+inline const pt_sphere sphere{{0, 0, 0}, 9, {0, 0, 0}, 0, 0};
+inline const std::array<float, 3> radiance{1, 2, 4};
+
+inline pt_scene valid_scene() {
+    return {sizeof(pt_scene), 1, 1, 0, &material, &sphere, nullptr};
+}
+
+inline pt_camera valid_camera() {
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.target[2] = -1;
+    return camera;
+}
+
+inline pt_render valid_render() {
+    pt_render render{};
+    render.struct_size = sizeof render;
+    render.width = width;
+    render.height = height;
+    render.max_path_length = 1;
+    return render;
+}
+
+inline pt_accumulate_info samples(uint32_t count) {
+    return {sizeof(pt_accumulate_info), count, nullptr, nullptr, 0};
+}
+
+inline pt_image tight_image(std::vector<float> &pixels) {
+    return {sizeof(pt_image), 0, pixels.data(), pixels.size() * sizeof(float), 0};
+}
+
+class ApiTest : public ContextFixture {
+protected:
+    void set_all() {
+        const pt_scene scene = valid_scene();
+        const pt_camera camera = valid_camera();
+        const pt_render render = valid_render();
+        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
+        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << message();
+        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << message();
+    }
+
+    std::string message() const { return pt_last_error(context()); }
+
+    void expect_failure(pt_result result, pt_result expected, const std::string &expected_message) const {
+        EXPECT_EQ(pt_result_name(result), std::string(pt_result_name(expected)));
+        EXPECT_EQ(message(), expected_message);
+    }
+
+    std::vector<float> image() {
+        std::vector<float> pixels(width * height * 3, -1.0F);
+        readback(pixels);
+        return pixels;
+    }
+
+    // That a readback gives the scene's image, of the given number of samples.
+    void expect_image(uint32_t sample_count) {
+        EXPECT_EQ(stats().sample_count, sample_count);
+        const std::vector<float> pixels = image();
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            ASSERT_EQ(pixels[i], radiance[i % 3]) << "value " << i;
+    }
+};
+
+} // namespace api

@@ -1,0 +1,177 @@
+// The growth rule of structs on a real device, for each struct and each size that it can have had: callers compiled
+// with older and newer headers get what the struct would say with zeros in place of what they do not know.
+#include "tests/device/api_fixture.h"
+
+#include <cstring>
+#include <utility>
+
+namespace api {
+
+namespace {
+
+// The result and, of a failure, the message.
+using Outcome = std::pair<pt_result, std::string>;
+
+// Sizes from the first field alone to the whole, in steps of 8 bytes, so that no pointer is cut in two.
+template <typename T>
+std::vector<uint32_t> older_sizes() {
+    std::vector<uint32_t> sizes{sizeof(uint32_t)};
+    for (uint32_t size = 8; size < sizeof(T); size += 8)
+        sizes.push_back(size);
+    return sizes;
+}
+
+template <typename T>
+T with_tail(const T &value, uint32_t size, int byte) {
+    T copy = value;
+    std::memset(reinterpret_cast<unsigned char *>(&copy) + size, byte, sizeof(T) - size);
+    return copy;
+}
+
+// The sizes at which a call makes something else of an older struct, behind which other things lie in memory, than of
+// the whole struct with zeros there. None should.
+template <typename T, typename Call>
+std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
+    std::vector<uint32_t> misread;
+    for (const uint32_t size : older_sizes<T>()) {
+        T older = with_tail(value, size, 0xff);
+        T zeros = with_tail(value, size, 0);
+        older.struct_size = size;
+        zeros.struct_size = sizeof(T);
+        if (call(older) != call(zeros))
+            misread.push_back(size);
+    }
+    return misread;
+}
+
+// That a call looks at each byte behind the struct that the library knows, and says so; it is called name in messages.
+template <typename T, typename Call>
+void expect_tail_refused(const T &value, const std::string &name, const Call &call) {
+    struct Newer {
+        T known;
+        unsigned char tail[16];
+    };
+    for (std::size_t i = 0; i < sizeof(Newer::tail); ++i) {
+        Newer newer{value, {}};
+        newer.known.struct_size = sizeof(Newer);
+        newer.tail[i] = 1;
+        const Outcome outcome{PT_ERROR_UNSUPPORTED, name + ".struct_size = " + std::to_string(sizeof(Newer)) +
+                                                        ": byte " + std::to_string(sizeof(T) + i) +
+                                                        " is set, but this library knows only the first " +
+                                                        std::to_string(sizeof(T)) + " bytes of the struct"};
+        EXPECT_EQ(call(newer.known), outcome);
+    }
+    T absurd = value;
+    absurd.struct_size = 65537;
+    const Outcome outcome{PT_ERROR_INVALID_ARGUMENT,
+                          name + ".struct_size = 65537: must be the size of the struct (<= 65536)"};
+    EXPECT_EQ(call(absurd), outcome);
+}
+
+const std::vector<uint32_t> none;
+
+class StructSizeTest : public ApiTest {
+protected:
+    Outcome outcome(pt_result result) const { return {result, result < 0 ? message() : ""}; }
+};
+
+TEST(StructSize, AMisreadStructIsNoticed) {
+    const auto reads_beyond = [](const pt_camera &camera) { return camera.shutter_close; };
+    const auto reads_size = [](const pt_camera &camera) { return camera.struct_size; };
+    EXPECT_EQ(misread_sizes(valid_camera(), reads_beyond), older_sizes<pt_camera>());
+    EXPECT_EQ(misread_sizes(valid_camera(), reads_size), older_sizes<pt_camera>());
+}
+
+TEST_F(StructSizeTest, Scene) {
+    const auto call = [&](const pt_scene &scene) { return outcome(pt_set_scene(context(), &scene)); };
+    const pt_plane plane{{0, 1, 0}, 20, 0, 0};
+    pt_scene scene = valid_scene();
+    scene.plane_count = 1;
+    scene.planes = &plane;
+    EXPECT_EQ(call(scene).first, PT_OK) << message();
+    EXPECT_EQ(misread_sizes(scene, call), none);
+    expect_tail_refused(scene, "scene", call);
+}
+
+TEST_F(StructSizeTest, Camera) {
+    const auto call = [&](const pt_camera &camera) { return outcome(pt_set_camera(context(), &camera)); };
+    const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75};
+    EXPECT_EQ(call(camera).first, PT_OK) << message();
+    EXPECT_EQ(misread_sizes(camera, call), none);
+    expect_tail_refused(camera, "camera", call);
+}
+
+TEST_F(StructSizeTest, Render) {
+    const auto call = [&](const pt_render &render) { return outcome(pt_set_render(context(), &render)); };
+    pt_render render = valid_render();
+    render.seed = 5;
+    render.first_sample = 7;
+    render.estimator = PT_ESTIMATOR_COSINE;
+    render.sampler = PT_SAMPLER_HALTON;
+    render.first_row = 2;
+    render.row_count = 3;
+    EXPECT_EQ(call(render).first, PT_OK) << message();
+    EXPECT_EQ(misread_sizes(render, call), none);
+    expect_tail_refused(render, "render", call);
+}
+
+TEST_F(StructSizeTest, AccumulateInfo) {
+    set_all();
+    const auto call = [&](const pt_accumulate_info &info) { return outcome(pt_accumulate(context(), &info)); };
+    const pt_progress_fn go_on = [](void *, double) -> int32_t { return 0; };
+    const pt_accumulate_info info{sizeof info, 1, go_on, nullptr, 1e-9};
+    EXPECT_EQ(call(info).first, PT_OK) << message();
+    EXPECT_EQ(misread_sizes(info, call), none);
+    expect_tail_refused(info, "accumulate", call);
+}
+
+TEST_F(StructSizeTest, Image) {
+    set_all();
+    accumulate(1);
+    const auto call = [&](const pt_image &image) { return outcome(pt_readback(context(), &image)); };
+    std::vector<float> pixels(width * height * 4);
+    const pt_image image{sizeof image, PT_QUANTITY_STANDARD_ERROR, pixels.data(), pixels.size() * sizeof(float),
+                         width * 16};
+    EXPECT_EQ(call(image).first, PT_OK) << message();
+    EXPECT_EQ(misread_sizes(image, call), none);
+    expect_tail_refused(image, "image", call);
+}
+
+TEST(StructSize, CreateInfo) {
+    const auto call = [](const pt_create_info &info) {
+        pt_context *context = nullptr;
+        const pt_result result = pt_create(&info, &context);
+        pt_destroy(context);
+        return Outcome{result, result < 0 ? pt_last_error(nullptr) : ""};
+    };
+    const pt_log_fn ignore = [](void *, int32_t, const char *) {};
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.device = "cpu,no such device";
+    info.log = ignore;
+    info.submit_milliseconds = 2000;
+    EXPECT_EQ(misread_sizes(info, call), none);
+    expect_tail_refused(info, "create", call);
+}
+
+// What is written: as many bytes as the caller's struct has, the same as into the whole.
+TEST_F(StructSizeTest, Stats) {
+    set_all();
+    accumulate(16);
+    const pt_stats whole = stats();
+    for (const uint32_t size : older_sizes<pt_stats>()) {
+        pt_stats expected = with_tail(whole, size, 0x55);
+        pt_stats older = with_tail(pt_stats{}, 0, 0x55);
+        expected.struct_size = older.struct_size = size;
+        EXPECT_EQ(pt_get_stats(context(), &older), PT_OK) << message();
+        EXPECT_EQ(std::memcmp(&older, &expected, sizeof older), 0) << "of " << size << " bytes";
+    }
+    pt_stats absurd{};
+    absurd.struct_size = 65537;
+    expect_failure(pt_get_stats(context(), &absurd), PT_ERROR_INVALID_ARGUMENT,
+                   "stats.struct_size = 65537: must be the size of the struct (<= 65536)");
+}
+
+} // namespace
+
+} // namespace api

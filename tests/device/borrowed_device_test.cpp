@@ -1,0 +1,193 @@
+// What the library does on a borrowed device, beneath pt.h: submissions under the caller's lock, waiting, and leaving a
+// device that hangs alone.
+#include "lib/base/error.h"
+#include "lib/render/render_device.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "recurrence.spv.h"
+#include "tests/device/caller_vulkan.h"
+#include "tests/device/gate.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <optional>
+
+namespace {
+
+using pt::vulkan::Buffer;
+using pt::vulkan::BufferUse;
+using pt::vulkan::CallerVulkan;
+using pt::vulkan::ComputePipeline;
+using pt::vulkan::DescriptorSet;
+using pt::vulkan::Device;
+using pt::vulkan::Instance;
+using pt::vulkan::LogicalDevice;
+
+// Stands between a device and Vulkan, and looks whether the queue is held. For one device at a time.
+class QueueSpy {
+public:
+    explicit QueueSpy(const vk::raii::Device &device) {
+        counts = {};
+        // The dispatcher is the device's own table of functions, and no constant.
+        auto *functions = const_cast<vk::raii::DeviceDispatcher *>(device.getDispatcher());
+        real_submit = functions->vkQueueSubmit;
+        functions->vkQueueSubmit = &submit;
+        functions->vkQueueWaitIdle = [](VkQueue) { return wait(); };
+        functions->vkDeviceWaitIdle = [](VkDevice) { return wait(); };
+    }
+
+    static void lock(void *) {
+        ++counts.locks;
+        counts.held = true;
+    }
+    static void unlock(void *) { counts.held = false; }
+
+    struct Counts {
+        int locks, submissions, submissions_without_lock, waits_for_all;
+        bool held;
+        VkResult failure; // of the submissions to come, which do not reach the device; VK_SUCCESS: they do
+    };
+    static inline Counts counts{};
+
+private:
+    static VkResult submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo *infos, VkFence fence) {
+        ++counts.submissions;
+        counts.submissions_without_lock += counts.held ? 0 : 1;
+        return counts.failure == VK_SUCCESS ? real_submit(queue, count, infos, fence) : counts.failure;
+    }
+    static VkResult wait() {
+        ++counts.waits_for_all;
+        return VK_SUCCESS;
+    }
+    static inline PFN_vkQueueSubmit real_submit = nullptr;
+};
+
+void clear(Device &device, const Buffer &buffer) {
+    device.submit([&](const vk::raii::CommandBuffer &commands) { buffer.clear(commands, 0, buffer.size()); });
+}
+
+class BorrowedDeviceTest : public CallerVulkanFixture {
+protected:
+    CallerVulkan handles(bool with_lock) const {
+        pt_vulkan vulkan = caller_->handles();
+        vulkan.lock_queue = with_lock ? &QueueSpy::lock : nullptr;
+        vulkan.unlock_queue = with_lock ? &QueueSpy::unlock : nullptr;
+        return pt::vulkan::validated_vulkan(vulkan);
+    }
+
+    // Renders, reads back and destroys.
+    void render(bool with_lock) const {
+        const CallerVulkan handles = this->handles(with_lock);
+        Instance instance(pt::Log{}, handles.instance);
+        const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
+        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(),
+                                0.05);
+        const QueueSpy spy(device.device().handle());
+        const CourseworkScene coursework;
+        const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
+        device.set_film(device.make_film(settings));
+        device.prepare(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
+                       settings);
+        for (std::uint32_t sample = 0; sample < 4;) {
+            sample += device.start(sample, 4 - sample);
+            device.finish();
+        }
+        EXPECT_EQ(device.film().rejected_samples(), 0U);
+        device.discard_samples();
+        // What the film's buffers do not need on a device that shares its memory with the host.
+        std::array<std::byte, 64> words{};
+        Buffer buffer(device.device(), BufferUse::Storage, words.size(), "test");
+        clear(device.device(), buffer);
+        buffer.upload(words, 0);
+        buffer.download(words, 0);
+    }
+};
+
+TEST_F(BorrowedDeviceTest, EverySubmissionHoldsTheQueue) {
+    render(true);
+    EXPECT_GE(QueueSpy::counts.submissions, 3);
+    EXPECT_EQ(QueueSpy::counts.submissions_without_lock, 0);
+    EXPECT_EQ(QueueSpy::counts.locks, QueueSpy::counts.submissions);
+    EXPECT_FALSE(QueueSpy::counts.held);
+    EXPECT_EQ(QueueSpy::counts.waits_for_all, 0);
+}
+
+// The negative control: without the caller's functions the spy sees it.
+TEST_F(BorrowedDeviceTest, WithoutALockNoSubmissionHoldsTheQueue) {
+    render(false);
+    EXPECT_GE(QueueSpy::counts.submissions, 3);
+    EXPECT_EQ(QueueSpy::counts.submissions_without_lock, QueueSpy::counts.submissions);
+    EXPECT_EQ(QueueSpy::counts.locks, 0);
+}
+
+TEST_F(BorrowedDeviceTest, ASubmissionThatLosesTheDeviceLetsGoOfTheQueue) {
+    const CallerVulkan handles = this->handles(true);
+    Instance instance(pt::Log{}, handles.instance);
+    const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
+    Device device(instance, physical, LogicalDevice::borrow(physical, handles));
+    const QueueSpy spy(device.handle());
+    Buffer buffer(device, BufferUse::Storage, 64, "test");
+    QueueSpy::counts.failure = VK_ERROR_DEVICE_LOST;
+    EXPECT_EQ(error_of([&] { clear(device, buffer); }).code(), PT_ERROR_DEVICE_LOST);
+    EXPECT_EQ(QueueSpy::counts.locks, 1);
+    EXPECT_FALSE(QueueSpy::counts.held);
+    QueueSpy::counts.failure = VK_SUCCESS;
+    EXPECT_EQ(error_of([&] { clear(device, buffer); }).code(), PT_ERROR_DEVICE_LOST) << "for good";
+    EXPECT_EQ(QueueSpy::counts.submissions, 1);
+}
+
+#ifndef __SANITIZE_ADDRESS__ // what stays behind is a leak, as it should be
+// A submission that is given up is still under way: nothing that it uses may be destroyed, nor the caller's device.
+TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
+    const CallerVulkan handles = this->handles(false);
+    std::optional<Gate> gate(caller_->device());
+    {
+        Instance instance(pt::Log{}, handles.instance);
+        const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
+        Device device(instance, physical, LogicalDevice::borrow(physical, handles),
+                      {.patience = std::chrono::nanoseconds{0},
+                       .share_memory = true,
+                       .scene_in_constants = false,
+                       .invocations = 0,
+                       .queue_depth = 1});
+        const ComputePipeline pipeline(
+            device, recurrence_spirv,
+            std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
+            std::array{1664525U, 1013904223U});
+        constexpr std::uint32_t groups = 4;
+        Buffer offset(device, BufferUse::UniformOrStorage, 1024, "offset");
+        Buffer values(device, BufferUse::Storage, groups * 64 * 4, "values");
+        const DescriptorSet set = pipeline.bind(std::array{&offset, &values});
+        const std::uint32_t steps = 1;
+        const pt::Error loss = error_of([&] {
+            device.submit([&](const vk::raii::CommandBuffer &commands) {
+                gate->record(commands);
+                pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), groups);
+            });
+        });
+        EXPECT_EQ(loss.code(), PT_ERROR_DEVICE_LOST);
+        EXPECT_TRUE(device.hangs());
+    }
+    gate.reset(); // this device does end it
+    for (const std::string &line : messages_.take())
+        ADD_FAILURE() << "destroyed too early: " << line;
+    caller_.reset();
+    const std::vector<std::string> left = messages_.take();
+    if (!CallersOwnVulkan::validation())
+        return;
+    for (const char *kind :
+         {"VkBuffer", "VkDeviceMemory", "VkPipeline", "VkDescriptorPool", "VkFence", "VkCommandPool"})
+        EXPECT_TRUE(std::ranges::any_of(left, [&](const std::string &line) {
+            return line.find(std::string(kind) + " ") != std::string::npos &&
+                   line.find("has not been destroyed") != std::string::npos;
+        })) << kind;
+}
+#endif
+
+} // namespace

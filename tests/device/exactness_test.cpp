@@ -1,0 +1,334 @@
+// The film's promise: the same samples give the same bits, however they are split over calls and submissions.
+#include "lib/film/error_estimate.h"
+#include "lib/kernel/scene_features.h"
+#include "tests/device/probe.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/render_image.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 200; // no multiple of the workgroup size
+constexpr uint32_t height = 75;
+
+using Image = std::vector<float>;
+
+class ExactnessTest : public ContextFixture {
+protected:
+    void set_up_coursework(pt_context *on, uint32_t max_path_length) {
+        CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        const pt_render render = render_of(width, height, max_path_length);
+        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+    }
+
+    Image image_of(const std::vector<uint32_t> &calls) {
+        set_up_coursework(context(), 3);
+        for (const uint32_t samples : calls)
+            accumulate(samples);
+        Image image(width * height * 3);
+        readback(image);
+        return image;
+    }
+
+    // 8 x 8 pixels, of which each sample is the radiance.
+    Image image_inside_a_lamp(float radiance, uint32_t samples) {
+        const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0};
+        const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
+        const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+        return render_image(context(), scene, CourseworkScene::camera(), render_of(8, 8, 1), samples);
+    }
+};
+
+TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
+    const Image at_once = image_of({64});
+    EXPECT_EQ(image_of(std::vector<uint32_t>(64, 1)), at_once);
+    EXPECT_EQ(image_of({7, 19, 38}), at_once);
+    EXPECT_NE(image_of({7, 19, 37}), at_once) << "a missing sample must show";
+}
+
+// A dispatch gathers so many samples before it adds them to the film, and the table of a sequence's points
+// has room for so many: where the samples of a call reach that, pass it, or pass it by far, they are those of many
+// calls.
+class GatheringTest : public ExactnessTest {
+protected:
+    // How paths are made.
+    struct Paths {
+        uint32_t sampler;
+        uint32_t max_length;
+    };
+
+    Image small_image_of(const Paths &paths, const std::vector<uint32_t> &calls) {
+        CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        pt_render render = render_of(3, 1, paths.max_length);
+        render.sampler = paths.sampler;
+        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        for (const uint32_t samples : calls)
+            accumulate(samples);
+        EXPECT_EQ(stats().rejected_samples, 0U);
+        Image image(std::size_t{3} * 3);
+        readback(image);
+        return image;
+    }
+
+    // Samples that a dispatch can take at most.
+    uint32_t most_of_a_dispatch(const Paths &paths) {
+        CourseworkScene coursework;
+        const pt::Features features =
+            pt::features_of(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
+                            {3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1});
+        const uint32_t row_blocks = pt::point_layout(features).row_blocks();
+        const pt::vulkan::Limits &limits = probe_device().limits();
+        uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,
+                                           limits.loop_trip_budget / pt::loop_trips_per_sample(features));
+        if (row_blocks > 0)
+            most = std::min<uint64_t>(most, limits.max_uniform_range / sizeof(pt::PointBlock) / row_blocks);
+        return static_cast<uint32_t>(most);
+    }
+
+    // So many samples at once, in one submission after that which empties the film, against pieces, none of which fills
+    // a dispatch.
+    void expect_same_in_pieces(const Paths &paths, uint32_t sample_count) {
+        const uint64_t submissions = stats().submit_count;
+        const Image at_once = small_image_of(paths, {sample_count});
+        EXPECT_EQ(stats().submit_count, submissions + 2) << sample_count << " samples";
+        std::vector<uint32_t> pieces;
+        for (uint32_t left = sample_count; left > 0; left -= pieces.back())
+            pieces.push_back(std::min(left, 211U));
+        EXPECT_EQ(small_image_of(paths, pieces), at_once) << sample_count << " samples";
+        pieces.back() -= 1;
+        EXPECT_NE(small_image_of(paths, pieces), at_once) << "a missing sample must show";
+    }
+};
+
+// A dispatch does not reach over a power of two, so it takes the most that it can after one.
+TEST_F(GatheringTest, OfRandomSamplesKeepsTheBits) {
+    constexpr Paths paths{PT_SAMPLER_RANDOM, 2};
+    constexpr uint32_t most = pt::gpu::FILM_MAX_GATHERED;
+    ASSERT_EQ(most_of_a_dispatch(paths), most);
+    for (const uint32_t sample_count : {most - 1, most, most + 1, most + 2, 3 * most + 3})
+        expect_same_in_pieces(paths, 1024 + sample_count);
+}
+
+TEST_F(GatheringTest, OfPointsFromATableKeepsTheBits) {
+    constexpr Paths paths{PT_SAMPLER_SOBOL, 3};
+    const uint32_t most = most_of_a_dispatch(paths);
+    ASSERT_LT(most, 512U);
+    ASSERT_GT(most, 211U);
+    for (const uint32_t sample_count : {most - 1, most, most + 1, 512 + 3 * most + 1})
+        expect_same_in_pieces(paths, 512 + sample_count);
+}
+
+// A sphere about the camera that emits 160 film units, 2 * 2^6 and half of 2^6: 2^21 times what the second window of an
+// exact sum counts, the most that it may hold of a sample (film.glsl). A dispatch that gathered one sample more than it
+// may would overflow it.
+TEST_F(GatheringTest, OfTheFullestWindowIsExact) {
+    for (const uint32_t sample_count : {2046U, 2047U, 2048U, 5000U}) {
+        const Image image = image_inside_a_lamp(160.0F, sample_count);
+        EXPECT_EQ(image, Image(image.size(), 160.0F)) << sample_count << " samples";
+    }
+}
+
+// Submissions of 1 ms split a pass over pixels; of 1 s, they hold many samples.
+TEST_F(ExactnessTest, SliceTargetsKeepTheBits) {
+    Image images[3];
+    const uint32_t targets[3] = {1, 5, 1000};
+    for (int i = 0; i < 3; ++i) {
+        Context other = create_context([&](pt_create_info &info) { info.submit_milliseconds = targets[i]; });
+        set_up_coursework(other.get(), 6);
+        const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr, 0};
+        ASSERT_EQ(pt_accumulate(other.get(), &samples), PT_OK) << pt_last_error(other.get());
+        images[i].resize(width * height * 3);
+        const pt_image image{sizeof image, 0, images[i].data(), images[i].size() * sizeof(float), 0};
+        ASSERT_EQ(pt_readback(other.get(), &image), PT_OK) << pt_last_error(other.get());
+    }
+    EXPECT_EQ(images[0], images[2]);
+    EXPECT_EQ(images[1], images[2]);
+}
+
+// Stops at the given number of progress calls.
+struct Stopper {
+    int calls_left;
+    static int32_t progress(void *user, double) { return --static_cast<Stopper *>(user)->calls_left <= 0 ? 1 : 0; }
+};
+
+TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
+    const Image uninterrupted = image_of({48});
+    Context other = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+    set_up_coursework(other.get(), 3);
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    int cancelled = 0;
+    for (uint32_t done = 0; done < 48;) {
+        Stopper stopper{3};
+        const pt_accumulate_info samples{sizeof samples, 48 - done, &Stopper::progress, &stopper, 0};
+        const pt_result result = pt_accumulate(other.get(), &samples);
+        ASSERT_GE(result, PT_OK) << pt_last_error(other.get());
+        cancelled += result == PT_CANCELLED;
+        ASSERT_EQ(pt_get_stats(other.get(), &stats), PT_OK);
+        ASSERT_GE(stats.sample_count, done);
+        done = stats.sample_count;
+        if (cancelled == 2 && done > 0) { // what is there is the image of exactly that many samples
+            Image image(width * height * 3);
+            const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+            ASSERT_EQ(pt_readback(other.get(), &target), PT_OK) << pt_last_error(other.get());
+            EXPECT_EQ(image, image_of({done}));
+        }
+    }
+    EXPECT_GT(cancelled, 2);
+    Image image(width * height * 3);
+    const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+    ASSERT_EQ(pt_readback(other.get(), &target), PT_OK) << pt_last_error(other.get());
+    EXPECT_EQ(image, uninterrupted);
+}
+
+// The check at which the error was low enough is that of an uninterrupted call, and so are the bits, however the
+// samples come there: in submissions of any length, over calls, after cancellations.
+TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
+    constexpr uint32_t most = 4096;
+    constexpr double target = 0.07;
+    set_up_coursework(context(), 3);
+    const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target};
+    ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
+    const pt_stats reached = stats();
+    EXPECT_GT(reached.sample_count, 16U);
+    EXPECT_LT(reached.sample_count, most);
+    EXPECT_LE(reached.relative_rmse_high, target);
+    Image expected(width * height * 3);
+    readback(expected);
+
+    // Again: it is reached already.
+    ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED);
+    EXPECT_EQ(stats().sample_count, reached.sample_count);
+
+    Context other = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+    set_up_coursework(other.get(), 3);
+    const pt_accumulate_info few{sizeof few, 7, nullptr, nullptr, target};
+    ASSERT_EQ(pt_accumulate(other.get(), &few), PT_OK) << pt_last_error(other.get());
+    pt_result result = PT_CANCELLED;
+    int cancelled = 0;
+    for (; result == PT_CANCELLED; ++cancelled) {
+        Stopper stopper{5};
+        const pt_accumulate_info info{sizeof info, most, &Stopper::progress, &stopper, target};
+        result = pt_accumulate(other.get(), &info);
+    }
+    ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(other.get());
+    EXPECT_GT(cancelled, 2);
+    Image image(width * height * 3);
+    const pt_image readable{sizeof readable, PT_QUANTITY_RADIANCE, image.data(), image.size() * sizeof(float), 0};
+    ASSERT_EQ(pt_readback(other.get(), &readable), PT_OK) << pt_last_error(other.get());
+    EXPECT_EQ(image, expected);
+
+    // And one check earlier it was not.
+    set_up_coursework(context(), 3);
+    uint32_t before = pt::next_check(0);
+    while (pt::next_check(before) < reached.sample_count)
+        before = pt::next_check(before);
+    accumulate(before);
+    EXPECT_GT(stats().relative_rmse_high, target);
+}
+
+// All samples are taken where the target is out of reach, and where it would be reached with the last.
+TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
+    set_up_coursework(context(), 3);
+    for (const double target : {1e-9, 1e9}) {
+        const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target};
+        ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
+    }
+    EXPECT_EQ(stats().sample_count, 16U);
+}
+
+// Standard errors of n samples against the images of the first a of them, the largest power of two below n, and of
+// the others, each rendered by itself: |A - B| sqrt(a b) / n. In calls that end before, at and after the numbers at
+// which the parts of the film are folded, and across several of them.
+TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
+    const auto standard_errors = [&] {
+        Image errors(width * height * 3);
+        const pt_image target{sizeof target, PT_QUANTITY_STANDARD_ERROR, errors.data(), errors.size() * sizeof(float),
+                              0};
+        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+        return errors;
+    };
+    const auto part_of = [&](uint32_t first, uint32_t count) {
+        set_up_coursework(context(), 3);
+        pt_render render = render_of(width, height, 3);
+        render.first_sample = first;
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        accumulate(count);
+        Image image(width * height * 3);
+        readback(image);
+        return image;
+    };
+    // The largest deviation from the standard errors of two parts, over what rounding explains: of the two images and
+    // of the standard error to float32.
+    const auto deviation = [&](const Image &found, const Image &older, const Image &newer, double a, double b) {
+        double worst = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const double scale = std::sqrt(a * b) / (a + b);
+            const double expected = std::abs(double{older[i]} - double{newer[i]}) * scale;
+            const double rounding = 0x1p-24 * ((double{older[i]} + double{newer[i]}) * scale + double{found[i]});
+            worst = std::max(worst, std::abs(double{found[i]} - expected) / std::max(rounding, 1e-30));
+        }
+        return worst;
+    };
+    image_of({8});
+    EXPECT_EQ(standard_errors(), Image(width * height * 3, std::numeric_limits<float>::infinity()));
+    const struct {
+        std::vector<uint32_t> calls;
+        uint32_t older, newer;
+    } cases[] = {{{9}, 8, 1}, {{5, 11}, 8, 8}, {{16, 1}, 16, 1}, {{40}, 32, 8}, {{1, 15, 16, 32}, 32, 32}};
+    for (const auto &[calls, older, newer] : cases) {
+        image_of(calls);
+        const Image found = standard_errors();
+        const Image first = part_of(0, older);
+        const Image last = part_of(older, newer);
+        EXPECT_LE(deviation(found, first, last, older, newer), 1.01) << older << " and " << newer;
+        // Negative control: a sample that is missing from a part shows.
+        EXPECT_GT(deviation(found, part_of(0, older - 1), last, older, newer), 1e3) << older << " and " << newer;
+    }
+}
+
+// Samples are a pure function of their index: two halves of a sequence, taken apart, average to the whole.
+TEST_F(ExactnessTest, FirstSampleContinuesTheSequence) {
+    const Image whole = image_of({32});
+    Image halves[2];
+    for (uint32_t i = 0; i < 2; ++i) {
+        set_up_coursework(context(), 3);
+        pt_render render = render_of(width, height, 3);
+        render.first_sample = 16 * i;
+        ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
+        accumulate(16);
+        halves[i].resize(width * height * 3);
+        readback(halves[i]);
+    }
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+        // Three roundings to float32, each at most 2^-24 relative.
+        const double mean = 0.5 * (double{halves[0][i]} + double{halves[1][i]});
+        ASSERT_NEAR(mean, whole[i], 1.3e-7 * whole[i]) << "value " << i;
+    }
+}
+
+// A sphere that emits 0.1 around the camera: every sample is exactly the float32 nearest to 0.1, so the mean of any
+// number of them is too. Loop trips in all go far beyond the 65,535 after which a known driver stops a kernel: the
+// count kept by the kernel, checked at readback, shows that no sample is lost.
+TEST_F(ExactnessTest, NoSampleIsLostInLongRuns) {
+    const Image image = image_inside_a_lamp(0.1F, 1U << 20);
+    EXPECT_EQ(image, Image(image.size(), 0.1F));
+    EXPECT_EQ(stats().sample_count, 1U << 20);
+}
+
+} // namespace

@@ -1,0 +1,195 @@
+// Exact sums: the device's fixed-point additions against sums of the same floats in wider integers on the host.
+#include "lib/film/film.h"
+
+#include "film_sums.spv.h"
+#include "tests/device/probe.h"
+#include "tests/device/vulkan_fixture.h"
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+constexpr std::uint32_t pixels = 1000;
+constexpr std::uint32_t per_pixel = 40;
+
+// A float as a multiple of 2^-60, finer bits rounded to nearest, ties to even: in double, where both steps are exact.
+Wide multiple_of_2_to_minus_60(float value) {
+    return static_cast<Wide>(std::nearbyint(std::ldexp(double{value}, 60)));
+}
+
+bool acceptable(const glm::vec4 &sample) {
+    bool good = true;
+    for (int channel = 0; channel < 3; ++channel)
+        good = good && !std::signbit(sample[channel]) && sample[channel] < 0x1p28F;
+    return good;
+}
+
+// Samples over the whole range, with exact powers of two, zeros, denormals and unacceptable ones among them.
+std::vector<glm::vec4> awkward_samples() {
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<float> exponent(-60.0F, 28.0F);
+    std::uniform_int_distribution<int> kind(0, 19);
+    const float special[] = {0.0F,
+                             -0.0F,
+                             0x1p-149F,
+                             0x1p-126F,
+                             0x1p-60F,
+                             0x1p-61F,
+                             0x1.8p-60F,
+                             0x1p27F,
+                             0x1.fffffep27F,
+                             0x1p28F,
+                             -1.0F,
+                             std::numeric_limits<float>::infinity(),
+                             std::numeric_limits<float>::quiet_NaN()};
+    std::vector<glm::vec4> samples(pixels * per_pixel);
+    for (glm::vec4 &sample : samples)
+        for (int channel = 0; channel < 3; ++channel)
+            sample[channel] =
+                kind(generator) == 0 ? special[generator() % std::size(special)] : std::exp2(exponent(generator));
+    // A pixel as bright as can be, whose sums reach into the most significant words.
+    std::fill_n(samples.begin(), per_pixel, glm::vec4(0x1.fffffep27F));
+    return samples;
+}
+
+std::uint32_t word(const std::vector<std::uint32_t> &film, std::size_t plane, std::size_t pixel) {
+    return film[(pt::gpu::FILM_WORDS + plane) * pixels + pixel];
+}
+
+// In the second part of the film; the first stays as it is.
+TEST(Film, DeviceSumsAreExact) {
+    struct {
+        std::uint32_t per_pixel, count, film_part;
+    } push{per_pixel, pixels, 1};
+    const std::vector<glm::vec4> samples = awkward_samples();
+    Probe probe(film_sums_spirv, sizeof push);
+    const std::vector<std::uint32_t> film =
+        probe.run<std::uint32_t>(samples, pixels * pt::Film::words_per_pixel, push, pixels);
+    EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
+                            [](std::uint32_t value) { return value == 0; }));
+
+    for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
+        Wide sums[3] = {};
+        std::uint32_t accepted = 0;
+        for (std::uint32_t i = 0; i < per_pixel; ++i) {
+            const glm::vec4 &sample = samples[pixel * per_pixel + i];
+            if (!acceptable(sample))
+                continue;
+            ++accepted;
+            for (int channel = 0; channel < 3; ++channel)
+                sums[channel] += multiple_of_2_to_minus_60(sample[channel]);
+        }
+        ASSERT_EQ(word(film, pt::gpu::FILM_ACCEPTED, pixel), accepted);
+        ASSERT_EQ(word(film, pt::gpu::FILM_REJECTED, pixel), per_pixel - accepted);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            for (std::size_t i = 0; i < 4; ++i)
+                ASSERT_EQ(word(film, 4 * channel + i, pixel), static_cast<std::uint32_t>(sums[channel] >> (32 * i)))
+                    << "pixel " << pixel << " channel " << channel << " word " << i;
+    }
+}
+
+// The most samples that an invocation gathers, with windows as full as they can be: the first by the
+// brightest sample, the others by halves of a window's unit that round up or down.
+TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
+    struct {
+        std::uint32_t per_pixel, count, film_part;
+    } push{pt::gpu::FILM_MAX_GATHERED, 4, 0};
+    const float extremes[] = {0x1.fffffep27F, 0x1.fffffp4F, 0x1.00001p5F, 0x1.fffffep-18F};
+    std::vector<glm::vec4> samples;
+    for (const float extreme : extremes)
+        samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
+    const auto film = Probe(film_sums_spirv, sizeof push)
+                          .run<std::uint32_t>(samples, push.count * pt::Film::words_per_pixel, push, push.count);
+    for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
+        const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_EQ(film[i * push.count + pixel], static_cast<std::uint32_t>(sum >> (32 * i))) << extremes[pixel];
+    }
+}
+
+// What one part of the film holds of a pixel, with the red sum as a number of units.
+struct Part {
+    std::uint32_t red;
+    std::uint32_t accepted;
+    std::uint32_t rejected;
+};
+
+// Estimates from a film of one pixel, with the unit 0.25.
+pt::PixelEstimates estimates(const Part &a, const Part &b, const pt::PartCounts &expected) {
+    std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
+    const auto set = [&](const Part &part, std::size_t first) {
+        const std::uint64_t sum = std::uint64_t{part.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
+        words[first + 1] = static_cast<std::uint32_t>(sum);
+        words[first + 2] = static_cast<std::uint32_t>(sum >> 32);
+        words[first + pt::gpu::FILM_ACCEPTED] = part.accepted;
+        words[first + pt::gpu::FILM_REJECTED] = part.rejected;
+    };
+    set(a, 0);
+    set(b, pt::gpu::FILM_WORDS);
+    return pt::pixel_estimates(words, 1, 0.25, expected, true);
+}
+
+TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {
+    const std::vector<float> mean = estimates({5, 1, 1}, {4, 2, 0}, {2, 2}).radiance;
+    EXPECT_EQ(mean, (std::vector<float>{0.75F, 0.0F, 0.0F}));
+    EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}, {2, 2}).radiance, std::vector<float>(3, 0.0F));
+}
+
+// Means of 8 and 4 units differ by one radiance unit, of which equal parts count a half.
+TEST(Film, StandardErrorIsFromTheDifferenceOfTheParts) {
+    EXPECT_EQ(estimates({16, 2, 0}, {8, 2, 0}, {2, 2}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
+    // Of 1 and 4 samples: sqrt(1 * 4) / 5. Rejected samples do not count.
+    EXPECT_EQ(estimates({8, 1, 3}, {16, 4, 0}, {4, 4}).standard_error[0], 0.4F);
+}
+
+TEST(Film, StandardErrorIsUnknownWithAnEmptyPart) {
+    const std::vector<float> unknown(3, std::numeric_limits<float>::infinity());
+    EXPECT_EQ(estimates({8, 1, 0}, {0, 0, 0}, {1, 0}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 1}, {8, 1, 0}, {1, 1}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 1}, {0, 0, 1}, {1, 1}).standard_error, unknown);
+}
+
+TEST(Film, LostSamplesAreAnError) {
+    const pt::Error error = error_of([] { estimates({9, 4, 0}, {9, 3, 0}, {4, 4}); });
+    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+    EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
+    // Not even if the other part has one too many.
+    EXPECT_EQ(error_of([] { estimates({9, 5, 0}, {9, 3, 0}, {4, 4}); }).code(), PT_ERROR_INTERNAL);
+}
+
+using FilmStrips = VulkanFixture;
+
+// Word p of plane i of a film that is cut into strips is 100 i + p, and pieces of it are read that begin and end
+// anywhere.
+TEST_F(FilmStrips, AreReadAsOne) {
+    constexpr std::uint32_t film_pixels = 16;
+    pt::Film film(device(), 4, 4, 6);
+    ASSERT_EQ(film.strips().size(), 3U);
+    for (pt::Film::Strip &strip : film.strips()) {
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t plane = 0; plane < pt::Film::words_per_pixel; ++plane)
+            for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
+                words.push_back(100 * plane + strip.first_pixel + i);
+        strip.words.upload(std::as_bytes(std::span(words)), 0);
+    }
+    for (std::uint32_t first = 0; first < film_pixels; ++first)
+        for (std::uint32_t count = 1; first + count <= film_pixels; ++count) {
+            std::vector<std::uint32_t> words(count * pt::Film::words_per_pixel);
+            film.download(first, count, words);
+            for (std::uint32_t i = 0; i < words.size(); ++i)
+                ASSERT_EQ(words[i], 100 * (i / count) + first + i % count) << first << ", " << count;
+        }
+}
+
+} // namespace

@@ -1,0 +1,167 @@
+// Host and kernel agree on the bytes between them: push constants, and the scene buffer word by word.
+#include "lib/kernel/gpu_scene.h"
+#include "lib/scene/curved_plane.h"
+#include "push_layout.spv.h"
+#include "tests/device/probe.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace {
+
+TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
+    pt::gpu::FrameConstants frame{};
+    frame.camera_right = {1, 2, 3};
+    frame.film_scale = 4;
+    frame.camera_up = {5, 6, 7};
+    frame.width = 8;
+    frame.camera_forward = {9, 10, 11};
+    frame.height = 12;
+    frame.seed = {13, 14};
+    frame.strip_first_pixel = 15;
+    frame.strip_pixel_count = 16;
+    frame.first_pixel = 17;
+    frame.pixel_count = 18;
+    frame.film_part = 19;
+    frame.first_sample = 20;
+    frame.sample_count = 21;
+    frame.split_pass = 22;
+    const auto seen = Probe(push_layout_spirv, sizeof frame).run<float>({}, 24, frame, 1);
+    for (int i = 0; i < 22; ++i)
+        EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
+}
+
+pt::Camera camera_at(glm::dvec3 position) {
+    return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.25, 0.75};
+}
+
+// A plane, a ball that moves, and a lamp: the lamp goes first, then the other spheres, then the planes.
+pt::Scene small_scene() {
+    pt::Scene scene;
+    scene.materials = {{{0.5F, 0.25F, 0}, {0, 0, 0}, {0, 0, 0}, 0},
+                       {{0.25F, 0.25F, 0.25F}, {0.75F, 0.75F, 0.75F}, {0, 0, 0}, 40},
+                       {{0, 0, 0}, {0, 0, 0}, {30, 60, 90}, 0}};
+    scene.spheres = {{{1, 2, 3}, 0.5, {4, 0, 0}, 1}, {{0, 9, 0}, 2, {0, 0, 0}, 2}};
+    scene.planes = {{{0, 1, 0}, 4, 0}};
+    return scene;
+}
+
+TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
+    const pt::Camera camera = camera_at({0, 0, 1});
+    const pt::Scene scene = small_scene();
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    EXPECT_EQ(features.sphere_count, 2U);
+    EXPECT_EQ(features.plane_count, 1U);
+    EXPECT_EQ(features.lamp_count, 1U);
+    EXPECT_TRUE(features.gloss);
+    EXPECT_TRUE(features.motion);
+    EXPECT_FALSE(features.curvature);
+    EXPECT_TRUE(features.scene_in_uniform);
+
+    const auto per_pi = [](double factor) { return static_cast<float>(factor / std::numbers::pi); };
+    const std::vector<glm::vec4> expected = {
+        {0, 9, -1, 2},    // lamp
+        {2, 2, 2, 0.5F},  // ball, a quarter of its way
+        {0, 1, 0, 4},     // plane
+        {30, 60, 90, 60}, // emissions and their means
+        {0, 0, 0, 0},     //
+        {0, 0, 0, 0},     //
+        {0, 0, 0, 0},     // diffuse albedos over pi and lobe probabilities
+        {per_pi(0.25), per_pi(0.25), per_pi(0.25), 0.6F},
+        {per_pi(0.5), per_pi(0.25), 0, 0},
+        {0, 0, 0, 0}, // specular factors times (n + 2) / (2 pi) and glossinesses
+        {per_pi(0.75 * 21), per_pi(0.75 * 21), per_pi(0.75 * 21), 40},
+        {0, 0, 0, 0},
+        {0, 0, 0, 0}, // ways while the shutter is open
+        {2, 0, 0, 0},
+    };
+    EXPECT_EQ(pt::gpu_scene(scene, camera, features), expected);
+    EXPECT_EQ(pt::scene_word_count(features), expected.size());
+}
+
+TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
+    pt::Scene scene = small_scene();
+    scene.materials[1].specular = {0, 0, 0};
+    scene.spheres[0].motion = {0, 0, 0};
+    const pt::Features features =
+        pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    EXPECT_FALSE(features.gloss);
+    EXPECT_FALSE(features.motion);
+    EXPECT_EQ(pt::scene_word_count(features), 9U);
+}
+
+// Positions are exact multiples of 2^-20 here, so that moving scene and camera together by 2^30 is exact in double: the
+// kernel must get the same words. A float32 subtraction would be off by up to 64.
+TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
+    const glm::dvec3 shift{0x1p30, -0x1p30, 0x1p29};
+    pt::Scene scene = small_scene();
+    const pt::Camera camera = camera_at({0, 0, 1});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const auto expected = pt::gpu_scene(scene, camera, features);
+    for (pt::Sphere &sphere : scene.spheres)
+        sphere.center += shift;
+    scene.planes[0].offset -= glm::dot(scene.planes[0].normal, shift);
+    EXPECT_EQ(pt::gpu_scene(scene, camera_at(camera.position + shift), features), expected);
+}
+
+// A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp
+// that is 2048 times as large as far away, and then it counts as a lamp no more.
+TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
+    pt::Scene scene = small_scene();
+    scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
+    scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
+    const pt::Camera camera = camera_at({0, 0, 1});
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    EXPECT_EQ(features.sphere_count, 2U);
+    EXPECT_EQ(features.plane_count, 3U);
+    EXPECT_EQ(features.lamp_count, 1U);
+    EXPECT_TRUE(features.curvature);
+    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_CURVATURE], 1U);
+
+    const std::vector<glm::vec4> words = pt::gpu_scene(scene, camera, features);
+    ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
+    EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
+    EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
+    EXPECT_EQ(words[4], glm::vec4(0, 1, 0, 4));
+    EXPECT_EQ(words[5 + 3], glm::vec4(30, 60, 90, 60));
+    EXPECT_EQ(words[10 + 2], glm::vec4(glm::dvec4(0.5, 0.25, 0, 0) / std::numbers::pi));
+    EXPECT_EQ(words[22], glm::vec4(1.0F / 1024, 0, 0, 0));
+    EXPECT_EQ(words[23], glm::vec4(1.0F / 262144, 0, 0, 0));
+    EXPECT_EQ(words[24], glm::vec4(0));
+}
+
+// What is not huge against its distance and its way keeps its centre and radius.
+TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
+    const pt::Material diffuse{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    const pt::Material lamp{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt::Camera camera = camera_at({0, 0, 0});
+    const auto below = [](double radius, double height, double motion) {
+        return pt::Sphere{{0, -radius - height, 0}, radius, {motion, 0, 0}, 0};
+    };
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 0), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(33, -1, 0), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(33, 0, 0), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(31, 1, 0), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
+    EXPECT_FALSE(pt::curved_plane(below(33, 1, 3), diffuse, camera));
+    EXPECT_TRUE(pt::curved_plane(below(65537, 1, 0), lamp, camera));
+    EXPECT_FALSE(pt::curved_plane(below(65535, 1, 0), lamp, camera));
+    pt::Camera closed = camera;
+    closed.shutter_close = closed.shutter_open;
+    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
+}
+
+TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
+    pt::Scene scene = small_scene();
+    EXPECT_EQ(pt::film_unit(scene), 0.5); // 90 is in [2^6, 2^7) and goes to [2^7, 2^8)
+    scene.materials[2].emission = {1e14F, 0, 0};
+    EXPECT_EQ(pt::film_unit(scene), 0x1p39); // 1e14 is in [2^46, 2^47)
+    scene.spheres.pop_back();
+    EXPECT_EQ(pt::film_unit(scene), 1.0); // unused materials do not count
+}
+
+} // namespace

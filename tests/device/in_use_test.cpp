@@ -1,0 +1,183 @@
+// Calls on a context that is in a call already: from its callbacks, and from another thread.
+#include "lib/api/in_use.h"
+#include "tests/device/api_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace api {
+
+namespace {
+
+const std::string from_callback = "called from a callback of its own context";
+const std::string from_thread = "this context is in use by another thread";
+
+class InUseTest : public ApiTest {
+protected:
+    using Outcomes = std::map<std::string, std::string>; // by call: result and message
+
+    // Every call on a context that returns a result.
+    static Outcomes outcomes(pt_context *context) {
+        const pt_scene scene = valid_scene();
+        const pt_camera camera = valid_camera();
+        const pt_render render = valid_render();
+        const pt_accumulate_info one = samples(1);
+        std::vector<float> pixels(width * height * 3);
+        const pt_image image = tight_image(pixels);
+        pt_device_info device{};
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        std::uint32_t count = 0;
+        const std::map<std::string, std::function<pt_result()>> calls = {
+            {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},
+            {"pt_set_scene", [&] { return pt_set_scene(context, &scene); }},
+            {"pt_set_camera", [&] { return pt_set_camera(context, &camera); }},
+            {"pt_set_render", [&] { return pt_set_render(context, &render); }},
+            {"pt_reload_shaders", [&] { return pt_reload_shaders(context); }},
+            {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
+            {"pt_readback", [&] { return pt_readback(context, &image); }},
+            {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
+            {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
+        };
+        Outcomes outcomes;
+        for (const auto &[name, call] : calls) {
+            const pt_result result = call();
+            outcomes[name] = std::string(pt_result_name(result)) + ": " + pt_last_error(context);
+        }
+        return outcomes;
+    }
+
+    static void expect_all_refused(const Outcomes &outcomes, const std::string &message) {
+        EXPECT_EQ(outcomes.size(), 9U);
+        for (const auto &[name, outcome] : outcomes)
+            EXPECT_EQ(outcome, "PT_ERROR_INVALID_STATE: " + message) << name;
+    }
+
+    // Accumulates a sample, and does something in the first callback of that.
+    void accumulate_and(const std::function<void()> &action, pt_result expected = PT_OK) {
+        struct Once {
+            const std::function<void()> &action;
+            bool done = false;
+            static std::int32_t progress(void *user, double /*fraction*/) {
+                auto *once = static_cast<Once *>(user);
+                if (!once->done) {
+                    once->done = true;
+                    once->action();
+                }
+                return 0;
+            }
+        } once{action};
+        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0};
+        EXPECT_EQ(pt_accumulate(context(), &info), expected) << message();
+        EXPECT_TRUE(once.done);
+    }
+};
+
+TEST_F(InUseTest, CallsFromACallbackAreRefused) {
+    set_all();
+    Outcomes inside;
+    accumulate_and([&] { inside = outcomes(context()); });
+    expect_all_refused(inside, from_callback);
+    EXPECT_EQ(message(), from_callback) << "the last call that failed";
+    expect_image(1);
+    EXPECT_EQ(message(), "") << "that was refused before a call that was not";
+}
+
+TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
+    set_all();
+    Outcomes elsewhere;
+    std::string before, after, here;
+    accumulate_and([&] {
+        std::thread([&] {
+            before = pt_last_error(context());
+            elsewhere = outcomes(context());
+        }).join();
+        here = message();
+    });
+    expect_all_refused(elsewhere, from_thread);
+    EXPECT_EQ(before, from_thread) << "not even the message is to be had";
+    EXPECT_EQ(here, "") << "this thread's calls have not failed";
+    expect_image(1);
+    EXPECT_EQ(message(), "");
+}
+
+// What is refused leaves the message of the call in progress alone, which is the newer one once that call has failed.
+TEST_F(InUseTest, TheMessageIsThatOfTheLastCallThatFailed) {
+    set_all();
+    std::string inside;
+    const auto fail = [&] {
+        EXPECT_EQ(pt_set_scene(context(), nullptr), PT_ERROR_INVALID_STATE);
+        inside = message();
+        throw std::runtime_error("thrown by a callback");
+    };
+    accumulate_and(fail, PT_ERROR_INTERNAL);
+    EXPECT_EQ(inside, from_callback);
+    EXPECT_EQ(message(), "thrown by a callback");
+    std::thread([&] { EXPECT_EQ(message(), "thrown by a callback"); }).join();
+}
+
+TEST_F(InUseTest, AnotherContextIsFree) {
+    set_all();
+    const Context other = create_context();
+    pt_result result = PT_ERROR_INTERNAL;
+    accumulate_and([&] {
+        const pt_scene scene = valid_scene();
+        result = pt_set_scene(other.get(), &scene);
+    });
+    EXPECT_EQ(result, PT_OK);
+}
+
+using Lines = std::vector<std::string>;
+
+// Tries to end its context whenever it is told something.
+struct EagerLog {
+    Lines lines;
+    pt_context *context = nullptr;
+
+    static void receive(void *user, int32_t level, const char *line) {
+        auto *log = static_cast<EagerLog *>(user);
+        if (level == PT_LOG_ERROR)
+            log->lines.push_back(line);
+        pt_destroy(log->context);
+    }
+};
+
+TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
+    EagerLog log;
+    Context other = create_context([&](pt_create_info &info) {
+        info.flags = 0;
+        info.log = &EagerLog::receive;
+        info.log_user = &log;
+    });
+    const pt_scene scene = valid_scene();
+    const pt_camera camera = valid_camera();
+    const pt_render render = valid_render();
+    ASSERT_EQ(pt_set_scene(other.get(), &scene), PT_OK);
+    ASSERT_EQ(pt_set_camera(other.get(), &camera), PT_OK);
+    ASSERT_EQ(pt_set_render(other.get(), &render), PT_OK);
+    log.context = other.get();
+    const pt_accumulate_info info{sizeof info, 1,
+                                  [](void *user, double) -> std::int32_t {
+                                      auto *context = static_cast<pt_context *>(user);
+                                      pt_destroy(context);
+                                      EXPECT_EQ(pt_last_error(context), from_callback);
+                                      std::thread([&] { pt_destroy(context); }).join();
+                                      return 1;
+                                  },
+                                  other.get(), 0};
+    EXPECT_GE(pt_accumulate(other.get(), &info), PT_OK) << pt_last_error(other.get());
+    log.context = nullptr;
+    EXPECT_EQ(log.lines, (Lines{"pt_destroy: " + from_callback + ", which stays",
+                                "pt_destroy: " + from_thread + ", which stays"}));
+    const pt_accumulate_info more = samples(1);
+    EXPECT_EQ(pt_accumulate(other.get(), &more), PT_OK) << pt_last_error(other.get());
+}
+
+} // namespace
+
+} // namespace api

@@ -1,0 +1,73 @@
+// The path-tracing kernel over a small film, as lib/kernel/kernel.cpp runs it, but with the scene and the
+// constants that a test asks for. Used by the tests of what must not change a picture.
+#pragma once
+
+#include "lib/film/film.h"
+#include "lib/kernel/gpu_scene.h"
+#include "pathtrace.spv.h"
+#include "tests/device/probe.h"
+#include "tests/device/scene_constants.h"
+#include "tests/invariance/invariance_scene.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+class KernelRender {
+public:
+    using FilmWords = std::vector<std::uint32_t>;
+    using Constants = std::array<std::uint32_t, pt::gpu::CONSTANT_COUNT>;
+
+    static constexpr std::uint32_t width = 16;
+    static constexpr std::uint32_t height = 12;
+    static constexpr std::uint32_t sample_count = 16;
+
+    KernelRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
+        settings_{width, height, max_path_length, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height},
+        features_(pt::features_of(scene, camera, settings_)),
+        words_(pt::gpu_scene(scene, camera, features_)),
+        film_unit_(pt::film_unit(scene)),
+        frame_(pt::frame_constants(camera, settings_, film_unit_)) {
+        frame_.strip_pixel_count = frame_.pixel_count = width * height;
+        frame_.sample_count = sample_count;
+    }
+
+    const pt::Features &features() const { return features_; }
+    const std::vector<glm::vec4> &words() const { return words_; }
+    Constants constants() const { return pt::specialization_constants(features_); }
+
+    // The film of the words of a scene that the kernel finds where source says.
+    FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
+        return film_of_kernel(constants(), source, words);
+    }
+
+    // The same with specialization constants of the test's own.
+    FilmWords film_of_kernel(const Constants &constants, std::uint32_t source,
+                             const std::vector<glm::vec4> &words) const {
+        Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
+        set_scene_for(probe, source, words);
+        std::vector<std::uint32_t> indices(sample_count);
+        std::iota(indices.begin(), indices.end(), 0U);
+        probe.set_points(pt::point_table(settings_.sampler, settings_.seed, indices, pt::point_layout(features_)));
+        return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height,
+                                        frame_, width * height);
+    }
+
+    // What the film shows. Throws if samples are lost.
+    std::vector<float> radiance(const FilmWords &film) const {
+        return pt::pixel_estimates(film, width * height, film_unit_, {sample_count, 0}, false).radiance;
+    }
+
+private:
+    pt::RenderSettings settings_;
+    pt::Features features_;
+    std::vector<glm::vec4> words_;
+    double film_unit_;
+    pt::gpu::FrameConstants frame_;
+};
+
+inline KernelRender render_of_scene(const InvarianceScene &scene, std::uint32_t max_path_length = 4) {
+    return {pt::validated_scene(scene.scene()), pt::validated_camera(scene.camera), max_path_length};
+}

@@ -1,0 +1,56 @@
+// What a context says to its log without being asked for validation.
+#include "tests/device/api_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace api {
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+class LogTest : public ApiTest {
+protected:
+    static void collect(void *user, int32_t level, const char *line) {
+        static_cast<Lines *>(user)->push_back(std::to_string(level) + " " + line);
+    }
+};
+
+TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
+    Lines lines;
+    const Context logged = create_context([&](pt_create_info &info) {
+        info.flags = 0;
+        info.log = &LogTest::collect;
+        info.log_user = &lines;
+    });
+    pt_device_info device{};
+    ASSERT_EQ(pt_get_context_device(logged.get(), &device), PT_OK);
+    EXPECT_EQ(lines, (Lines{std::string("3 renders on ") + device.name + " (" + device.driver + ")"}));
+    lines.clear();
+    const pt_scene scene = valid_scene();
+    const pt_camera camera = valid_camera();
+    const pt_render render = valid_render();
+    ASSERT_EQ(pt_set_scene(logged.get(), &scene), PT_OK);
+    ASSERT_EQ(pt_set_camera(logged.get(), &camera), PT_OK);
+    ASSERT_EQ(pt_set_render(logged.get(), &render), PT_OK);
+    EXPECT_EQ(lines, Lines{});
+    const pt_accumulate_info one = samples(1);
+    ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
+    ASSERT_EQ(lines.size(), 1U);
+    // Not by std::regex, which GCC 12 does not compile without warnings where sanitizers are on.
+    const std::string &built = lines[0];
+    EXPECT_TRUE(built.starts_with("3 built a kernel for this scene alone in ") ||
+                built.starts_with("3 built a kernel for all scenes of this kind in "))
+        << built;
+    EXPECT_TRUE(built.ends_with(" ms")) << built;
+    lines.clear();
+    ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);
+    EXPECT_EQ(lines, Lines{}) << "the kernel is there";
+}
+
+} // namespace
+
+} // namespace api

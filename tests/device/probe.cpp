@@ -1,0 +1,81 @@
+// The shared device and the run of a probe; see probe.h.
+#include "tests/device/probe.h"
+
+#include "lib/vulkan/device_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+void on_message(void * /*user*/, int32_t level, const char *line) {
+    if (level <= PT_LOG_WARNING)
+        ADD_FAILURE() << "the Vulkan layer says: " << line;
+}
+
+// Instance and device of the whole program, best device first, as pt_create chooses it.
+struct SharedDevice {
+    pt::Log log{&on_message, nullptr};
+    pt::vulkan::Instance instance{log, std::getenv("PT_TEST_NO_VALIDATION") == nullptr};
+    pt::vulkan::Device device{instance, chosen(), pt::vulkan::LogicalDevice::create(chosen())};
+
+    vk::raii::PhysicalDevice chosen() const {
+        std::vector<vk::raii::PhysicalDevice> devices = instance.physical_devices();
+        std::vector<pt_device_info> infos;
+        for (const vk::raii::PhysicalDevice &candidate : devices)
+            infos.push_back(pt::vulkan::describe(candidate));
+        return devices[pt::vulkan::choose_device(infos, "")];
+    }
+};
+
+constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eUniformBuffer};
+
+constexpr std::size_t guard_bytes = 4096;
+constexpr std::byte guard_value{0xa5};
+constexpr std::uint32_t workgroup_size = 64;
+constexpr std::size_t scene_bytes = 16384; // what a uniform buffer surely holds
+
+} // namespace
+
+pt::vulkan::Device &probe_device() {
+    static SharedDevice shared;
+    return shared.device;
+}
+
+Probe::Probe(std::span<const std::uint32_t> spirv, std::uint32_t push_bytes, std::span<const std::uint32_t> constants) :
+    pipeline_(probe_device(), spirv, bindings, push_bytes, constants) {}
+
+void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> output, std::span<const std::byte> push,
+                     std::uint32_t invocations) {
+    using pt::vulkan::Buffer;
+    using pt::vulkan::BufferUse;
+    pt::vulkan::Device &device = probe_device();
+    ASSERT_LE(points_.size(), probe_point_blocks);
+    Buffer scene(device, BufferUse::UniformOrStorage, std::max(scene_bytes, scene_.size() * sizeof(glm::vec4)),
+                 "scene of a probe");
+    Buffer points(device, BufferUse::Streamed, probe_point_blocks * sizeof(pt::PointBlock), "points of a probe");
+    Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
+    Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
+    out.upload(output, 0);
+    in.upload(input, 0);
+    scene.upload(std::as_bytes(std::span(scene_)), 0);
+    points.upload(std::as_bytes(std::span(points_)), 0);
+    std::vector<std::byte> guard(guard_bytes, guard_value);
+    out.upload(guard, output.size());
+
+    const std::array buffers = {&scene, &scene, &out, &in, &points};
+    const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
+    device.submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);
+    });
+    out.download(output, 0);
+    out.download(guard, output.size());
+    for (const std::byte value : guard)
+        ASSERT_EQ(value, guard_value) << "the kernel wrote past its output";
+}

@@ -1,0 +1,13 @@
+// Items in and out of a probe; tests/device/accuracy/evaluation.h has the host's side. Each probe declares its own structs.
+#ifndef ITEMS_GLSL
+#define ITEMS_GLSL
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform ItemRange { uint count; uint skipped; } item_range;
+
+bool is_item(uint index)
+{
+    return index < item_range.count && index != item_range.skipped;
+}
+
+#endif

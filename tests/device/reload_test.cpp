@@ -1,0 +1,268 @@
+// pt_reload_shaders by its contract: kernels are exchanged on success alone, and the samples are those of one kernel.
+#include "lib/render/renderer.h"
+#include "lib/scene/scene.h"
+#include "tests/device/api_fixture.h"
+#include "tests/device/shader_folder.h"
+#include "tests/support/shared_context.h"
+
+#include "tests/support/expected_error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
+namespace api {
+
+namespace {
+
+class ReloadTest : public ApiTest {
+protected:
+    void SetUp() override {
+        own_ = create_context([&](pt_create_info &info) { info.shader_dir = folder_.c_str(); });
+        ApiTest::SetUp();
+        ASSERT_TRUE(own_);
+        set_all_on(own_.get());
+    }
+
+    void TearDown() override {
+        own_.reset();
+        ApiTest::TearDown();
+    }
+
+    pt_context *own() const { return own_.get(); }
+    std::string own_message() const { return pt_last_error(own()); }
+
+    static void set_all_on(pt_context *on) {
+        const pt_scene scene = valid_scene();
+        const pt_camera camera = valid_camera();
+        const pt_render render = valid_render();
+        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK);
+        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK);
+        ASSERT_EQ(pt_set_render(on, &render), PT_OK);
+    }
+
+    static void accumulate_on(pt_context *on, uint32_t count) {
+        const pt_accumulate_info info = samples(count);
+        ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
+    }
+
+    static uint32_t sample_count_of(pt_context *on) {
+        pt_stats stats{};
+        stats.struct_size = offsetof(pt_stats, rmse);
+        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK);
+        return stats.sample_count;
+    }
+
+    // That the context holds so many samples of the fixture's scene, which is uniform, times a factor.
+    static void expect_samples(pt_context *on, uint32_t count, float factor) {
+        EXPECT_EQ(sample_count_of(on), count);
+        std::vector<float> pixels(width * height * 3, -1.0F);
+        const pt_image target = tight_image(pixels);
+        ASSERT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            ASSERT_EQ(pixels[i], factor * radiance[i % 3]) << "value " << i;
+    }
+
+    void expect_refusal(const std::string &part) {
+        EXPECT_EQ(pt_reload_shaders(own()), PT_ERROR_SHADER);
+        EXPECT_NE(own_message().find(part), std::string::npos) << own_message() << "\nmust contain\n" << part;
+    }
+
+    // The exact change: powers of two scale every sum without rounding.
+    void double_the_radiance() const {
+        shaders_.replace("pathtrace.comp", "* frame.film_scale", "* (2.0 * frame.film_scale)");
+    }
+
+    ShaderFolder shaders_;
+
+private:
+    std::string folder_ = shaders_.path();
+    Context own_;
+};
+
+TEST_F(ReloadTest, AContextWithoutAFolderHasNothingToReload) {
+    set_all();
+    accumulate(2);
+    expect_failure(pt_reload_shaders(context()), PT_ERROR_INVALID_STATE,
+                   "no shader_dir: the kernels are those in the library");
+    expect_image(2);
+    EXPECT_EQ(pt_reload_shaders(nullptr), PT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(ReloadTest, TheSameKernelsKeepTheSamples) {
+    accumulate_on(own(), 3);
+    shaders_.replace("pathtrace.comp", "void main()", "// a remark\nvoid main()");
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    expect_samples(own(), 3, 1);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 5, 1);
+}
+
+TEST_F(ReloadTest, OtherKernelsDiscardTheSamples) {
+    accumulate_on(own(), 3);
+    double_the_radiance();
+    expect_samples(own(), 3, 1);
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    EXPECT_EQ(sample_count_of(own()), 0U);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 2, 2);
+    set_all_on(own());
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 2);
+}
+
+TEST_F(ReloadTest, AContextIsCreatedWithTheFolderAsItIs) {
+    double_the_radiance();
+    const std::string folder = shaders_.path();
+    const Context late = create_context([&](pt_create_info &info) { info.shader_dir = folder.c_str(); });
+    ASSERT_TRUE(late);
+    set_all_on(late.get());
+    accumulate_on(late.get(), 1);
+    expect_samples(late.get(), 1, 2);
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 1);
+}
+
+TEST_F(ReloadTest, AContextIsNotCreatedOfWhatDoesNotCompile) {
+    const std::string place = shaders_.break_after_line("film.glsl", 30);
+    const std::string folder = shaders_.path();
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.shader_dir = folder.c_str();
+    pt_context *created = nullptr;
+    EXPECT_EQ(pt_create(&info, &created), PT_ERROR_SHADER);
+    EXPECT_EQ(created, nullptr);
+    EXPECT_NE(std::string(pt_last_error(nullptr)).find(place), std::string::npos) << pt_last_error(nullptr);
+}
+
+TEST_F(ReloadTest, AFailureKeepsKernelsAndSamples) {
+    accumulate_on(own(), 3);
+    double_the_radiance(); // must not come into force with the rest broken
+    const std::string film = shaders_.read("film.glsl");
+    expect_refusal(shaders_.break_after_line("film.glsl", 30));
+    expect_samples(own(), 3, 1);
+    accumulate_on(own(), 2);
+    expect_samples(own(), 5, 1);
+    set_all_on(own());
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 1);
+
+    shaders_.write("film.glsl", film);
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    accumulate_on(own(), 1);
+    expect_samples(own(), 1, 2);
+}
+
+TEST_F(ReloadTest, AFolderMayVanishAndComeBack) {
+    accumulate_on(own(), 3);
+    const std::string aside = shaders_.path() + "-aside";
+    std::filesystem::rename(shaders_.path(), aside);
+    expect_refusal("pathtrace.comp: No such file or directory");
+    accumulate_on(own(), 1);
+    expect_samples(own(), 4, 1);
+    std::filesystem::rename(aside, shaders_.path());
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    expect_samples(own(), 4, 1);
+}
+
+TEST_F(ReloadTest, TheAccuracyIsThatOfTheFolder) {
+    const auto worst_of_sqrt = [&] {
+        std::vector<pt_function_accuracy> rows(100);
+        uint32_t count = 100;
+        EXPECT_EQ(pt_get_accuracy(own(), rows.data(), &count), PT_OK) << own_message();
+        const auto row = std::ranges::find_if(
+            rows, [](const pt_function_accuracy &each) { return std::string(each.name).starts_with("square root"); });
+        return row->worst_error;
+    };
+    EXPECT_LT(worst_of_sqrt(), 6.5);
+    shaders_.replace("accuracy.comp", "return sqrt(x)", "return x");
+    ASSERT_EQ(pt_reload_shaders(own()), PT_OK) << own_message();
+    EXPECT_GT(worst_of_sqrt(), 1e6);
+}
+
+int32_t stop(void * /*user*/, double /*fraction*/) {
+    return 1;
+}
+
+// A sample that is split over submissions goes on after a reload that changes nothing.
+TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
+    const std::string folder = shaders_.path();
+    const Context slow = create_context([&](pt_create_info &info) {
+        info.shader_dir = folder.c_str();
+        info.submit_milliseconds = 1;
+    });
+    set_all_on(slow.get());
+    const pt_accumulate_info stopped{sizeof stopped, 100'000'000, &stop, nullptr, 0};
+    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
+    const uint32_t before = sample_count_of(slow.get());
+    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
+    accumulate_on(slow.get(), 1);
+    expect_samples(slow.get(), before + 1, 1);
+    EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
+    double_the_radiance();
+    ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
+    accumulate_on(slow.get(), 2);
+    expect_samples(slow.get(), 2, 2);
+}
+
+TEST_F(ReloadTest, AllDevicesGetTheKernels) {
+    const std::string folder = shaders_.path();
+    const Context shared = create_context(
+        [&](pt_create_info &info) {
+            info.shader_dir = folder.c_str();
+            info.submit_milliseconds = 1;
+        },
+        [](const pt_create_info *info, pt_context **context) { return create_shared(2, *info, context); });
+    set_all_on(shared.get());
+    accumulate_on(shared.get(), 64);
+    expect_samples(shared.get(), 64, 1);
+    double_the_radiance();
+    ASSERT_EQ(pt_reload_shaders(shared.get()), PT_OK);
+    accumulate_on(shared.get(), 64);
+    expect_samples(shared.get(), 64, 2);
+}
+
+// lavapipe 22.3.6 loses memory when it refuses a kernel.
+#ifdef __SANITIZE_ADDRESS__
+using DriverMayLeak = __lsan::ScopedDisabler;
+#else
+struct DriverMayLeak {};
+#endif
+
+// Code whose entry point has another name than "main" is no kernel for any driver. Without the validation layer,
+// which would complain of it first.
+TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
+    pt::CreateSettings settings;
+    settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";
+    pt::Renderer renderer(settings);
+    renderer.set_scene(pt::validated_scene(valid_scene()));
+    renderer.set_camera(pt::validated_camera(valid_camera()));
+    renderer.set_render(pt::validated_render(valid_render()));
+    const auto take_a_sample = [&] { EXPECT_EQ(renderer.accumulate(1, 0, {nullptr, nullptr}), PT_OK); };
+    take_a_sample();
+
+    constexpr uint32_t main_word = 0x6e69616d; // "main", little-endian
+    const std::span<const uint32_t> good = pt::embedded_code().pathtrace;
+    std::vector<uint32_t> words(good.begin(), good.end());
+    const auto entry = std::ranges::find(words, main_word);
+    ASSERT_NE(entry, words.end());
+    *entry = 0x6e69616e;
+    pt::KernelCode bad = pt::embedded_code();
+    bad.pathtrace = words;
+    const pt::Error error = error_of([&] {
+        [[maybe_unused]] const DriverMayLeak allowance{};
+        renderer.set_code(bad);
+    });
+    EXPECT_EQ(pt::result_name(error.code()), std::string("PT_ERROR_SHADER")) << error.what();
+    EXPECT_EQ(renderer.stats(false).sample_count, 1U);
+    take_a_sample();
+    EXPECT_EQ(renderer.stats(false).sample_count, 2U);
+}
+
+} // namespace
+
+} // namespace api

@@ -1,0 +1,56 @@
+// The caller's rounding mode: it changes no bit, and is as before after every call.
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cfenv>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+class RoundingTest : public ContextFixture {
+protected:
+    ~RoundingTest() override { std::fesetround(FE_TONEAREST); }
+
+    struct Outcome {
+        std::vector<float> image;
+        double rmse;
+        bool operator==(const Outcome &) const = default;
+    };
+
+    // A context's life in one rounding mode, driver threads and all, in which the sampler has points to compute.
+    Outcome render(int rounding) {
+        std::fesetround(rounding);
+        const Context made = create_context([](pt_create_info &info) { info.flags = 0; });
+        pt_context *on = made.get();
+        const CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        pt_camera camera = CourseworkScene::camera();
+        camera.position[0] = 0.1;
+        const pt_render render = render_of(60, 33, 3);
+        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0};
+        EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
+        Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};
+        const pt_image image{sizeof image, 0, outcome.image.data(), outcome.image.size() * sizeof(float), 0};
+        EXPECT_EQ(pt_readback(on, &image), PT_OK) << pt_last_error(on);
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
+        outcome.rmse = stats.rmse;
+        EXPECT_EQ(std::fegetround(), rounding);
+        return outcome;
+    }
+};
+
+TEST_F(RoundingTest, TheCallersModeChangesNoBit) {
+    const Outcome nearest = render(FE_TONEAREST);
+    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO})
+        EXPECT_TRUE(render(mode) == nearest) << mode;
+}
+
+} // namespace

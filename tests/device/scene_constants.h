@@ -1,0 +1,38 @@
+// Specialization constants for a kernel that finds its scene in one place or another. Used by the tests of those
+// places.
+#pragma once
+
+#include "shaders/gpu_layout.h"
+#include "tests/device/probe.h"
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+// Takes over constants; the numbers of the words follow them if they are where the scene is.
+inline std::vector<std::uint32_t> with_scene_source(std::span<const std::uint32_t> constants, std::uint32_t source,
+                                                    std::span<const glm::vec4> words) {
+    std::vector<std::uint32_t> result(constants.begin(), constants.end());
+    result[pt::gpu::ID_SCENE_SOURCE] = source;
+    result[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
+    if (source == pt::gpu::SCENE_IN_CONSTANTS)
+        for (const glm::vec4 &word : words)
+            for (int i = 0; i < 4; ++i)
+                result.push_back(std::bit_cast<std::uint32_t>(word[i]));
+    return result;
+}
+
+// Fills the scene's buffer, unless the kernel has the scene without: then with other words of the same number.
+inline void set_scene_for(Probe &probe, std::uint32_t source, std::span<const glm::vec4> words) {
+    if (source == pt::gpu::SCENE_IN_CONSTANTS)
+        probe.set_scene(std::vector<glm::vec4>(words.size(), glm::vec4(-77.0F)));
+    else
+        probe.set_scene(words);
+}
+
+inline std::string name_of_source(std::uint32_t source) {
+    constexpr const char *names[] = {"Storage", "Uniform", "Constants"};
+    return names[source];
+}

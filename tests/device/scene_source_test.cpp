@@ -1,0 +1,168 @@
+// The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
+// buffer.
+#include "tests/device/kernel_render.h"
+#include "tests/invariance/invariance_scene.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/render_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace {
+
+namespace gpu = pt::gpu;
+
+using FilmWords = KernelRender::FilmWords;
+
+constexpr std::uint32_t width = KernelRender::width;
+constexpr std::uint32_t height = KernelRender::height;
+constexpr std::uint32_t sample_count = KernelRender::sample_count;
+
+// Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
+// scene.
+struct Comparison {
+    const KernelRender &render;
+    const FilmWords film;
+
+    explicit Comparison(const KernelRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
+        EXPECT_LE(of.words().size(), gpu::CONSTANT_SCENE_WORDS);
+        EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * width * height], sample_count);
+    }
+
+    bool holds(std::uint32_t source, const std::vector<glm::vec4> &words) const {
+        return render.film(source, words) == film;
+    }
+};
+
+// A floor, a ball, and lamps: few surfaces, as it is building kernels that takes the time.
+InvarianceScene scene_with_lamps(int lamp_count) {
+    InvarianceScene scene = InvarianceScene::coursework();
+    scene.planes.resize(1);
+    scene.spheres = {{{-2, -2, -12}, 3, {0, 0, 0}, 2, 0}};
+    for (int i = 0; i < lamp_count; ++i)
+        scene.spheres.push_back({{3.0 * i - 8.0, 4, -10.5}, 0.5, {0, 0, 0}, static_cast<uint32_t>(i % 2), 0});
+    return scene;
+}
+
+// At rest, and with so many lamps that one is chosen at each vertex.
+InvarianceScene diffuse_scene() {
+    InvarianceScene scene = scene_with_lamps(gpu::EVERY_LAMP_LIMIT + 1);
+    for (pt_material &material : scene.materials)
+        std::fill_n(material.specular, 3, 0.0F);
+    return scene;
+}
+
+// Where scenes are not compiled into the kernel, each has one source, and compilers may fuse a product and a sum of
+// the one where they do not of another.
+class SceneSource : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!probe_device().policy().scene_in_constants)
+            GTEST_SKIP() << "this device reads scenes from buffers alone";
+    }
+};
+
+TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
+    const KernelRender render = render_of_scene(diffuse_scene());
+    EXPECT_FALSE(render.features().motion || render.features().gloss || render.features().curvature);
+    EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+
+    // Negative control: one number is off by its last bit.
+    std::vector<glm::vec4> words = render.words();
+    float &radius = words[render.features().lamp_count].w; // of the first ball
+    radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
+}
+
+// With one lamp its radiance, place and size are constants everywhere, which invites compilers to move them about in
+// products.
+TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
+    InvarianceScene scene = scene_with_lamps(1);
+    scene.camera.shutter_close = 1.0;
+    scene.spheres[0].motion[1] = 0.5;
+    scene.spheres[1].motion[0] = 1.5;
+    scene.spheres.push_back({{0, -1002.5, -8}, 1000, {0, 0, 0}, scene.planes[0].material, 0});
+    const KernelRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().motion && render.features().gloss && render.features().curvature);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+}
+
+// With two lamps that are alike but for their places, what is selected among their radiances is the same for both.
+TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
+    InvarianceScene scene = scene_with_lamps(2);
+    scene.spheres[2].material = scene.spheres[1].material;
+    const KernelRender render = render_of_scene(scene);
+    EXPECT_EQ(render.features().lamp_count, 2U);
+    EXPECT_EQ(render.words()[render.features().surface_count()], render.words()[render.features().surface_count() + 1]);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+
+    // Negative control: the last bit of the radiance of one of them.
+    std::vector<glm::vec4> words = render.words();
+    float &red = words[render.features().surface_count() + 1].r;
+    red = std::nextafter(red, 0.0F);
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
+}
+
+// Balls and planes of one glossy material that shines: all that the scene says of a surface but its place is the same.
+TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
+    InvarianceScene scene = scene_with_lamps(2);
+    std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
+    std::fill_n(scene.materials[3].specular, 3, 0.37F);
+    std::fill_n(scene.materials[3].emission, 3, 0.7F);
+    for (pt_sphere &sphere : scene.spheres)
+        sphere.material = 3;
+    for (pt_plane &plane : scene.planes)
+        plane.material = 3;
+    const KernelRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().gloss);
+    EXPECT_EQ(render.features().surface_count(), 4U);
+    EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
+}
+
+// With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.
+TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
+    InvarianceScene scene = InvarianceScene::coursework();
+    scene.planes.clear();
+    scene.spheres = {{{1, 2, 3}, 17, {0, 0, 0}, 3, 0}};
+    std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
+    std::fill_n(scene.materials[3].specular, 3, 0.37F);
+    std::fill_n(scene.materials[3].emission, 3, 0.7F);
+    const KernelRender render = render_of_scene(scene);
+    EXPECT_TRUE(render.features().gloss);
+    EXPECT_EQ(render.features().surface_count(), 1U);
+    EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
+}
+
+// Through pt.h: the second scene of a context takes the place of one with the same features, and there the kernel may
+// read a buffer; in a context of its own it may have constants.
+class SceneSourceTest : public ContextFixture {
+protected:
+    static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {
+        return render_image(on, source.scene(), source.camera, ::render_of(width, height, 4), sample_count);
+    }
+};
+
+TEST_F(SceneSourceTest, TheSceneBeforeDoesNotMatter) {
+    const InvarianceScene before = scene_with_lamps(2);
+    InvarianceScene after = before;
+    after.spheres[0].center[0] += 0.5;
+    const std::vector<float> of_before = image_of(context(), before);
+    const std::vector<float> of_after = image_of(context(), after);
+    const Context fresh = create_context();
+    EXPECT_TRUE(image_of(fresh.get(), after) == of_after);
+    EXPECT_TRUE(image_of(context(), before) == of_before) << "again";
+    EXPECT_FALSE(of_before == of_after);
+}
+
+} // namespace

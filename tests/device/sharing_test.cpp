@@ -1,0 +1,147 @@
+// The work of a context shared by several devices, and an image rendered in pieces: neither changes a bit.
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/shared_context.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 120;
+constexpr uint32_t height = 45;
+
+using Image = std::vector<float>;
+
+class SharingTest : public ContextFixture {
+protected:
+    // A context on the fixture's device, taken as often as devices are wanted.
+    Context context_on(uint32_t device_count, uint32_t submit_milliseconds) {
+        return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
+                              [&](const pt_create_info *info, pt_context **context) {
+                                  return create_shared(device_count, *info, context);
+                              });
+    }
+
+    static void set_up(pt_context *on, uint32_t first_row = 0, uint32_t row_count = 0) {
+        CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        pt_render render = render_of(width, height, 3);
+        render.first_row = first_row;
+        render.row_count = row_count;
+        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+    }
+
+    static pt_result accumulate_on(pt_context *on, uint32_t samples, pt_progress_fn progress = nullptr,
+                                   void *user = nullptr) {
+        const pt_accumulate_info info{sizeof info, samples, progress, user, 0};
+        return pt_accumulate(on, &info);
+    }
+
+    static Image image_of(pt_context *on, uint32_t rows = height, uint32_t quantity = PT_QUANTITY_RADIANCE) {
+        Image image(std::size_t{width} * rows * 3);
+        const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        return image;
+    }
+
+    static pt_stats stats_of(pt_context *on) {
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
+        return stats;
+    }
+};
+
+// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples.
+TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
+    const Context alone = context_on(1, 50);
+    set_up(alone.get());
+    ASSERT_EQ(accumulate_on(alone.get(), 77), PT_OK);
+    const Image expected = image_of(alone.get());
+    const Image expected_error = image_of(alone.get(), height, PT_QUANTITY_STANDARD_ERROR);
+    for (const uint32_t submit_milliseconds : {1U, 50U}) {
+        const Context shared = context_on(3, submit_milliseconds);
+        set_up(shared.get());
+        ASSERT_EQ(accumulate_on(shared.get(), 50), PT_OK);
+        EXPECT_NE(image_of(shared.get()), expected) << "27 missing samples must show";
+        ASSERT_EQ(accumulate_on(shared.get(), 27), PT_OK);
+        EXPECT_EQ(image_of(shared.get()), expected);
+        EXPECT_EQ(image_of(shared.get(), height, PT_QUANTITY_STANDARD_ERROR), expected_error);
+        const pt_stats stats = stats_of(shared.get());
+        EXPECT_EQ(stats.device_count, 3U);
+        EXPECT_EQ(stats.sample_count, 77U);
+        EXPECT_EQ(stats.relative_rmse, stats_of(alone.get()).relative_rmse);
+        EXPECT_EQ(stats.device_bytes, 3 * stats_of(alone.get()).device_bytes);
+    }
+}
+
+struct Stopper {
+    int calls_left;
+    double last = 0;
+
+    static int32_t progress(void *user, double fraction) {
+        auto *stopper = static_cast<Stopper *>(user);
+        EXPECT_GT(stopper->calls_left, 0) << "called again after it asked to stop";
+        EXPECT_TRUE(fraction >= stopper->last && fraction <= 1.0) << fraction;
+        stopper->last = fraction;
+        return --stopper->calls_left == 0 ? 1 : 0;
+    }
+};
+
+TEST_F(SharingTest, StoppingSeveralDevicesLeavesARangeWithoutGaps) {
+    const Context shared = context_on(3, 1);
+    const Context alone = context_on(1, 50);
+    set_up(shared.get());
+    uint32_t done = 0;
+    int stops = 0;
+    while (done < 24) {
+        Stopper stopper{4};
+        const pt_result result = accumulate_on(shared.get(), 24 - done, &Stopper::progress, &stopper);
+        ASSERT_GE(result, PT_OK) << pt_last_error(shared.get());
+        stops += result == PT_CANCELLED;
+        done = stats_of(shared.get()).sample_count;
+        if (done == 0)
+            continue;
+        set_up(alone.get());
+        ASSERT_EQ(accumulate_on(alone.get(), done), PT_OK);
+        ASSERT_EQ(image_of(shared.get()), image_of(alone.get())) << done << " samples";
+    }
+    EXPECT_GT(stops, 1);
+}
+
+TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
+    set_up(context());
+    accumulate(16);
+    const Image whole = image_of(context());
+    for (const auto &[first_row, row_count] : {std::pair{0U, 7U}, {7U, 30U}, {37U, 0U}, {44U, 1U}}) {
+        const uint32_t rows = row_count == 0 ? height - first_row : row_count;
+        set_up(context(), first_row, row_count);
+        accumulate(16);
+        const auto begin = whole.begin() + std::ptrdiff_t{width} * first_row * 3;
+        const Image expected(begin, begin + std::ptrdiff_t{width} * rows * 3);
+        EXPECT_EQ(image_of(context(), rows), expected) << "rows from " << first_row;
+    }
+    set_up(context(), 1, 7);
+    accumulate(16);
+    EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{width} * 7 * 3));
+}
+
+TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
+    uint32_t counts[2];
+    for (const uint32_t devices : {1U, 2U}) {
+        const Context shared = context_on(devices, 5);
+        set_up(shared.get());
+        const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2};
+        ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
+        counts[devices - 1] = stats_of(shared.get()).sample_count;
+    }
+    EXPECT_EQ(counts[0], counts[1]);
+}
+
+} // namespace

@@ -1,0 +1,187 @@
+// The rules of a camera, its defaults and its axes.
+#include "lib/base/error.h"
+#include "lib/scene/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// At (0, 0, 1), looking along -z.
+pt_camera valid_camera() {
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.position[2] = 1;
+    return camera;
+}
+
+// The message of the error, or "accepted".
+std::string message(const pt_camera &camera) {
+    try {
+        pt::validated_camera(camera);
+    } catch (const pt::Error &error) {
+        EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
+        return error.what();
+    }
+    return "accepted";
+}
+
+void set(double (&to)[3], double x, double y, double z) {
+    to[0] = x;
+    to[1] = y;
+    to[2] = z;
+}
+
+struct Case {
+    const char *name;
+    void (*spoil)(pt_camera &camera);
+    const char *message;
+};
+
+void PrintTo(const Case &test_case, std::ostream *out) {
+    *out << test_case.name;
+}
+
+class BrokenCamera : public testing::TestWithParam<Case> {};
+
+TEST_P(BrokenCamera, IsRefusedWithMessage) {
+    pt_camera camera = valid_camera();
+    ASSERT_EQ(message(camera), "accepted");
+    GetParam().spoil(camera);
+    EXPECT_EQ(message(camera), GetParam().message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rules, BrokenCamera,
+    testing::Values(
+        Case{"Reserved", [](pt_camera &c) { c.reserved = 2; }, "camera.reserved = 2: must be 0"},
+        Case{"PositionNan", [](pt_camera &c) { c.position[1] = nan; }, "camera.position[1] = nan: must be finite"},
+        Case{"PositionLarge", [](pt_camera &c) { c.position[0] = 2e18; },
+             "camera.position[0] = 2e+18: must be 0 or of a magnitude in [1e-18, 1e18]"},
+        Case{"TargetInfinite", [](pt_camera &c) { c.target[2] = infinity; }, "camera.target[2] = inf: must be finite"},
+        Case{"TargetSmall", [](pt_camera &c) { c.target[2] = -1e-20; },
+             "camera.target[2] = -1e-20: must be 0 or of a magnitude in [1e-18, 1e18]"},
+        Case{"TargetIsPosition", [](pt_camera &c) { set(c.target, 0, 0, 1); },
+             "camera.target = (0, 0, 1): must differ from position"},
+        Case{"UpNan", [](pt_camera &c) { c.up[0] = nan; }, "camera.up[0] = nan: must be finite"},
+        Case{"UpParallel", [](pt_camera &c) { set(c.up, 0, 0, 1); },
+             "camera.up = (0, 0, 1): must not be parallel to the viewing direction"},
+        Case{"UpAntiparallel", [](pt_camera &c) { set(c.up, 0, 0, -2.5); },
+             "camera.up = (0, 0, -2.5): must not be parallel to the viewing direction"},
+        Case{"UpAlmostParallel", [](pt_camera &c) { set(c.up, 0, 0x1p-27, 1); },
+             "camera.up = (0, 7.450580596923828e-09, 1): must not be parallel to the viewing direction"},
+        Case{"UpParallelButHuge", [](pt_camera &c) { set(c.up, 0, 0, -1e300); },
+             "camera.up = (0, 0, -1e+300): must not be parallel to the viewing direction"},
+        Case{"DefaultUpParallel", [](pt_camera &c) { set(c.target, 0, -5, 1); },
+             "camera.up = (0, 1, 0): must not be parallel to the viewing direction"},
+        Case{"FovNegative", [](pt_camera &c) { c.vertical_fov = -1; },
+             "camera.vertical_fov = -1: must lie in [1e-8, pi)"},
+        Case{"FovPi", [](pt_camera &c) { c.vertical_fov = std::numbers::pi; },
+             "camera.vertical_fov = 3.141592653589793: must lie in [1e-8, pi)"},
+        Case{"FovDegrees", [](pt_camera &c) { c.vertical_fov = 45; },
+             "camera.vertical_fov = 45: must lie in [1e-8, pi)"},
+        Case{"FovNan", [](pt_camera &c) { c.vertical_fov = nan; }, "camera.vertical_fov = nan: must be finite"},
+        Case{"FovSmall", [](pt_camera &c) { c.vertical_fov = 9e-9; },
+             "camera.vertical_fov = 9e-09: must lie in [1e-8, pi)"},
+        Case{"ShutterOpensEarly", [](pt_camera &c) { c.shutter_open = -0.25; },
+             "camera.shutter_open = -0.25: must be >= 0"},
+        Case{"ShutterClosesLate", [](pt_camera &c) { c.shutter_close = 1.5; },
+             "camera.shutter_close = 1.5: must be <= 1"},
+        Case{"ShutterClosesBeforeItOpens", [](pt_camera &c) { c.shutter_open = 0.5; },
+             "camera.shutter_close = 0: must be >= shutter_open (0.5)"},
+        Case{"ShutterOpenNan", [](pt_camera &c) { c.shutter_open = nan; }, "camera.shutter_open = nan: must be finite"},
+        Case{"ShutterCloseInfinite", [](pt_camera &c) { c.shutter_close = infinity; },
+             "camera.shutter_close = inf: must be finite"},
+        Case{"Several",
+             [](pt_camera &c) {
+                 c.position[0] = nan;
+                 c.vertical_fov = 4;
+                 c.reserved = 1;
+             },
+             "camera.reserved = 1: must be 0\n"
+             "camera.position[0] = nan: must be finite\n"
+             "camera.vertical_fov = 4: must lie in [1e-8, pi)"}),
+    [](const auto &instance) { return std::string(instance.param.name); });
+
+TEST(Camera, HasTheDefaultsOfTheHeader) {
+    const pt::Camera camera = pt::validated_camera(valid_camera());
+    EXPECT_EQ(camera.position, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(camera.forward, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(camera.tan_half_fov, std::tan(std::numbers::pi / 8));
+    EXPECT_EQ(camera.shutter_open, 0.0);
+    EXPECT_EQ(camera.shutter_close, 1.0);
+}
+
+TEST(Camera, TakesWhatIsSet) {
+    pt_camera source = valid_camera();
+    set(source.position, 1, 2, 3);
+    set(source.target, 1, 2, 5);
+    set(source.up, 3, 0, 7);
+    source.vertical_fov = 1.5;
+    source.shutter_open = 0.25;
+    source.shutter_close = 0.25;
+    const pt::Camera camera = pt::validated_camera(source);
+    EXPECT_EQ(camera.position, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(camera.forward, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(camera.up, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(camera.right, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(camera.tan_half_fov, std::tan(0.75));
+    EXPECT_EQ(camera.shutter_open, 0.25);
+    EXPECT_EQ(camera.shutter_close, 0.25);
+}
+
+TEST(Camera, AcceptsExtremes) {
+    pt_camera camera = valid_camera();
+    set(camera.position, 1e18, -1e18, 1e-18);
+    set(camera.target, -1e18, 1e18, 0);
+    set(camera.up, 0, 0, 1e-300);
+    camera.vertical_fov = std::nextafter(std::numbers::pi, 0.0);
+    camera.shutter_open = camera.shutter_close = 1;
+    EXPECT_EQ(message(camera), "accepted");
+    camera.vertical_fov = 1e-8;
+    EXPECT_EQ(message(camera), "accepted");
+    set(camera.position, 0, 0, 1e18);
+    set(camera.target, 0, 0, std::nextafter(1e18, 0.0));
+    set(camera.up, 0, 1e300, 0);
+    EXPECT_EQ(message(camera), "accepted");
+}
+
+// The axes that float32 gets to see are right to its precision even where up is almost parallel to the view.
+TEST(Camera, AxesAreOrthonormalToFloatPrecision) {
+    const double views[][3] = {{1, 2, 3}, {-1, 1e-9, 0}, {1e-17, 3e-18, -2e-18}, {1e17, -1e18, 7e16}};
+    for (const auto &view : views) {
+        // From comfortable to a little more than the tolerance, 2^-26.
+        for (const double tilt : {1.0, 1e-3, 1e-6, 0x1p-25}) {
+            SCOPED_TRACE(testing::Message() << view[0] << ' ' << view[1] << ' ' << view[2] << " tilt " << tilt);
+            const double length = std::hypot(view[0], view[1], view[2]);
+            const glm::dvec3 direction = glm::dvec3(view[0], view[1], view[2]) / length;
+            const glm::dvec3 aside = glm::normalize(glm::cross(direction, glm::dvec3(0.1, -0.9, 0.4)));
+            pt_camera source = valid_camera();
+            set(source.position, 0, 0, 0);
+            set(source.target, view[0], view[1], view[2]);
+            const glm::dvec3 up = direction + tilt * aside;
+            set(source.up, up.x, up.y, up.z);
+            const pt::Camera camera = pt::validated_camera(source);
+            for (const glm::dvec3 &axis : {camera.right, camera.up, camera.forward})
+                EXPECT_NEAR(glm::length(axis), 1.0, 0x1p-24);
+            EXPECT_NEAR(glm::dot(camera.right, camera.up), 0.0, 0x1p-24);
+            EXPECT_NEAR(glm::dot(camera.right, camera.forward), 0.0, 0x1p-24);
+            EXPECT_NEAR(glm::dot(camera.up, camera.forward), 0.0, 0x1p-24);
+            // up itself was rounded by the test: 2^-53 / tilt.
+            EXPECT_NEAR(glm::dot(camera.up, aside), 1.0, 0x1p-24);
+            // Right-handed: right x up points backwards.
+            EXPECT_NEAR(glm::dot(glm::cross(camera.right, camera.up), camera.forward), -1.0, 0x1p-24);
+        }
+    }
+}
+
+} // namespace

@@ -1,0 +1,130 @@
+// The choice among invented devices.
+#include "lib/vulkan/device_choice.h"
+
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace {
+
+pt_device_info invented(std::uint32_t kind, const std::string &name, std::uint8_t uuid = 0) {
+    pt_device_info info{};
+    info.kind = kind;
+    info.suitable = 1;
+    std::ranges::copy(name, info.name);
+    std::ranges::fill(info.uuid, uuid);
+    return info;
+}
+
+pt_device_info unsuitable(pt_device_info info, const std::string &reason) {
+    info.suitable = 0;
+    std::ranges::copy(reason, info.reason);
+    return info;
+}
+
+const std::vector<pt_device_info> workstation = {
+    invented(PT_DEVICE_OTHER, "Abacus", 0x10),
+    invented(PT_DEVICE_CPU, "llvmpipe (LLVM 15)", 0x11),
+    invented(PT_DEVICE_VIRTUAL_GPU, "Virtio Venus", 0x12),
+    invented(PT_DEVICE_INTEGRATED_GPU, "Radeon Vega 8", 0x13),
+    unsuitable(invented(PT_DEVICE_DISCRETE_GPU, "GeForce 9800", 0x14), "Vulkan 1.2 is needed"),
+    invented(PT_DEVICE_DISCRETE_GPU, "Radeon RX 7900", 0xab),
+    invented(PT_DEVICE_DISCRETE_GPU, "GeForce RTX 4090", 0x16),
+};
+
+TEST(DeviceChoiceTest, TheBestIsTheFirstOfTheBestKind) {
+    constexpr std::array best_first = {5U, 6U, 3U, 2U, 1U, 0U};
+    std::vector<pt_device_info> devices = workstation;
+    for (const std::size_t expected : best_first) {
+        EXPECT_EQ(pt::vulkan::choose_device(devices, ""), expected);
+        devices[expected] = unsuitable(devices[expected], "removed");
+    }
+    EXPECT_EQ(error_of([&] { pt::vulkan::choose_device(devices, ""); }).code(), PT_ERROR_NO_DEVICE);
+}
+
+TEST(DeviceChoiceTest, AnIndexIsTakenAsItIs) {
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "0"), 0U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "06"), 6U);
+    for (const std::string outside : {"7", "4090", "99999999999999999999"}) {
+        const pt::Error error = error_of([&] { pt::vulkan::choose_device(workstation, outside); });
+        EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
+        EXPECT_TRUE(names(error, outside) && names(error, "below 7")) << error.what();
+    }
+    const pt::Error error = error_of([] { pt::vulkan::choose_device(workstation, "4"); });
+    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
+    EXPECT_TRUE(names(error, "GeForce 9800") && names(error, "Vulkan 1.2 is needed")) << error.what();
+}
+
+TEST(DeviceChoiceTest, AWordNamesAKind) {
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "cpu"), 1U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "gpu"), 5U);
+    EXPECT_EQ(pt::vulkan::choose_device(std::span(workstation).first(4), "gpu"), 3U);
+    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(std::span(workstation).first(2), "gpu"); }).code(),
+              PT_ERROR_NO_DEVICE);
+    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(std::span(workstation).last(2), "cpu"); }).code(),
+              PT_ERROR_NO_DEVICE);
+}
+
+TEST(DeviceChoiceTest, AUuidNamesOneDevice) {
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "12121212-1212-1212-1212-121212121212"), 2U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, std::string(32, '1')), 1U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "ABABABABABABABABABABABABABABABAB"), 5U);
+    EXPECT_EQ(error_of([] { pt::vulkan::choose_device(workstation, std::string(32, 'c')); }).code(),
+              PT_ERROR_NO_DEVICE);
+}
+
+TEST(DeviceChoiceTest, APartOfANameNamesTheBestThatHasIt) {
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "LLVM"), 1U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "rtx 40"), 6U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "radeon"), 5U);
+    EXPECT_EQ(pt::vulkan::choose_device(workstation, "GeForce"), 6U);
+}
+
+TEST(DeviceChoiceTest, ARefusalHasTheReasonAgainstEveryDevice) {
+    const pt::Error error = error_of([] { pt::vulkan::choose_device(workstation, "Voodoo"); });
+    EXPECT_EQ(error.code(), PT_ERROR_NO_DEVICE);
+    EXPECT_TRUE(names(error, "Voodoo")) << error.what();
+    for (const pt_device_info &device : workstation)
+        EXPECT_TRUE(names(error, device.name)) << error.what();
+    EXPECT_TRUE(names(error, "GeForce 9800: Vulkan 1.2 is needed")) << error.what();
+}
+
+TEST(DeviceChoiceTest, SeveralAreAListOrAllOfTheBestKind) {
+    using Indices = std::vector<std::size_t>;
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, ""), (Indices{5}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "all"), (Indices{5, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "ALL"), (Indices{5, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "6,1"), (Indices{6, 1}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "3,16161616-16161616-1616161616161616"), (Indices{3, 6}));
+    EXPECT_EQ(pt::vulkan::choose_devices(workstation, "llvm"), (Indices{1}));
+    // What is no list of numbers is a name, commas and all.
+    const std::vector<pt_device_info> with_comma = {invented(PT_DEVICE_CPU, "llvmpipe (LLVM 15, 256 bits)", 0x11)};
+    EXPECT_EQ(pt::vulkan::choose_devices(with_comma, "15, 256"), (Indices{0}));
+    for (const std::string wrong : {"5,7", "5,4", "5,", ",", "5,vega"})
+        EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(workstation, wrong); }).code(), PT_ERROR_NO_DEVICE)
+            << wrong;
+}
+
+// By its index, its UUID, or as a driver lists it again.
+TEST(DeviceChoiceTest, NoDeviceIsChosenTwice) {
+    std::vector<pt_device_info> devices = workstation;
+    devices.push_back(devices[5]);
+    for (const std::string twice : {"5,5", "3,5,3", "5,abababab-abab-abab-abab-abababababab", "7,5"}) {
+        const pt::Error error = error_of([&] { pt::vulkan::choose_devices(devices, twice); });
+        EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT) << twice;
+        EXPECT_TRUE(names(error, "create.device = \"" + twice + "\": must not name a device twice")) << error.what();
+    }
+    EXPECT_EQ(pt::vulkan::choose_devices(devices, "all"), (std::vector<std::size_t>{5, 6}));
+    // Drivers that know no UUIDs.
+    const std::vector<pt_device_info> nameless = {invented(PT_DEVICE_CPU, "a"), invented(PT_DEVICE_CPU, "b")};
+    EXPECT_EQ(error_of([&] { pt::vulkan::choose_devices(nameless, "1,1"); }).code(), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(pt::vulkan::choose_devices(nameless, "0,1"), (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(pt::vulkan::choose_devices(nameless, "all"), (std::vector<std::size_t>{0, 1}));
+}
+
+} // namespace

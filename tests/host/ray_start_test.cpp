@@ -1,0 +1,130 @@
+// Where camera rays start in narrow views.
+#include "lib/scene/ray_start.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace {
+
+const glm::dvec3 eye = {1, 2, 3};
+
+pt::Camera looking_along(const glm::dvec3 &forward, double vertical_fov) {
+    const glm::dvec3 ahead = glm::normalize(forward);
+    const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
+    return {eye, right, glm::cross(right, ahead), ahead, std::tan(0.5 * vertical_fov), 0.0, 1.0};
+}
+
+const pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
+const glm::dvec3 oblique = glm::normalize(glm::dvec3(0.48, 0.6, -0.64));
+
+double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes,
+                const pt::Camera &camera) {
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
+    scene.spheres = spheres;
+    scene.planes = planes;
+    const pt::Camera ahead = pt::starting_ahead(scene, camera, square);
+    EXPECT_LT(glm::length(ahead.position - camera.position - ahead.start_distance * camera.forward),
+              1e-15 * ahead.start_distance + 1e-15);
+    return ahead.start_distance;
+}
+
+pt::Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
+    return {eye + place, radius, motion, 0};
+}
+
+// Through the pinhole if a pixel's side is above 2^-14 of its distance: fov = 64 * 2^-14.
+TEST(RayStart, IsThePinholeInWideViews) {
+    EXPECT_EQ(start_of({ball(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
+    EXPECT_GT(start_of({ball(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
+}
+
+constexpr double narrow = 1e-5;
+
+// As far before the surface as the view is wide there: its half diagonal is 7.07e-6 of the distance.
+TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
+    const pt::Camera camera = looking_along(oblique, narrow);
+    const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
+    EXPECT_EQ(start_of({}, {}, camera), 0.0);
+    EXPECT_NEAR(start_of({ball(1e6 * oblique, 2)}, {}, camera), (1e6 - 2) * (1 - width), 1e-3);
+    EXPECT_NEAR(start_of({ball(1e6 * oblique, 2), ball(1e5 * oblique, 0.1)}, {}, camera), (1e5 - 0.1) * (1 - width),
+                1e-4);
+    EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
+}
+
+// At the narrowest view that there is, of balls down to a quarter of its width.
+TEST(RayStart, IsOutsideOfTinyFarBalls) {
+    const pt::Camera camera = looking_along(oblique, 1e-8);
+    for (int i = 0; i < 200; ++i) {
+        const double distance = 1e8 * (1 + 1e-3 * i);
+        const double radius = distance * 2.5e-9 * std::pow(1.01, i);
+        EXPECT_LE(start_of({ball(distance * oblique, radius)}, {}, camera), distance - radius) << i;
+    }
+}
+
+TEST(RayStart, LooksPastWhatIsOutOfView) {
+    const pt::Camera camera = looking_along(oblique, narrow);
+    const double alone = start_of({ball(1e6 * oblique, 2)}, {}, camera);
+    const glm::dvec3 aside = camera.right * (2.0 + 1e3 * narrow);
+    EXPECT_EQ(start_of({ball(1e6 * oblique, 2), ball(-5.0 * oblique, 2)}, {}, camera), alone) << "behind";
+    EXPECT_EQ(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + aside, 2)}, {}, camera), alone) << "aside";
+    EXPECT_LT(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + 0.99 * aside, 2)}, {}, camera), 1e3);
+    EXPECT_EQ(start_of({ball(1e6 * oblique, 2)}, {{{0, 1, 0}, -1, 0}}, camera), alone) << "a floor below the camera";
+    EXPECT_LT(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + 10.0 * aside, 2, -20.0 * aside)}, {}, camera), 1e3)
+        << "it moves through the view";
+}
+
+TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
+    const pt::Camera camera = looking_along(oblique, narrow);
+    EXPECT_NEAR(start_of({ball({0, 0, 0}, 1e6)}, {}, camera), 1e6, 20);
+    EXPECT_NEAR(start_of({ball(-1e5 * oblique, 1e6)}, {}, camera), 9e5, 20);
+    EXPECT_EQ(start_of({ball({0, 0, 0}, 1e6, {1, 0, 0})}, {}, camera), 0.0) << "no matter how it moves";
+    EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
+}
+
+// No ray of the view may meet a surface before it starts: 20,000 random ones against random spheres and planes, by the
+// textbook's formulas in long double.
+TEST(RayStart, NothingInViewIsBeforeIt) {
+    std::mt19937 engine(5);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
+    int near_misses = 0;
+    for (int round = 0; round < 200; ++round) {
+        const double fov = std::pow(10.0, uniform(-8, -2.5));
+        const pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, fov);
+        const double distance = std::pow(10.0, uniform(0, 8));
+        const double spread = fov * distance;
+        const glm::dvec3 place =
+            camera.forward * distance + camera.right * uniform(-spread, spread) + camera.up * uniform(-spread, spread);
+        const double radius = std::pow(10.0, uniform(-2, 2)) * spread;
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
+        const pt::Plane plane{normal, -glm::dot(normal, eye + place), 0};
+        const bool is_plane = round % 4 == 0;
+        const double start = is_plane ? start_of({}, {plane}, camera) : start_of({ball(place, radius)}, {}, camera);
+        for (int i = 0; i < 100; ++i) {
+            const glm::dvec3 ray = glm::normalize(camera.forward + camera.tan_half_fov * uniform(-1, 1) * camera.right +
+                                                  camera.tan_half_fov * uniform(-1, 1) * camera.up);
+            double t = std::numeric_limits<double>::infinity();
+            if (is_plane) {
+                const double met = glm::dot(normal, place) / glm::dot(normal, ray);
+                t = met > 0 ? met : t;
+            } else {
+                const double b = glm::dot(place, ray);
+                const double chord = radius * radius - glm::dot(place - b * ray, place - b * ray);
+                const bool inside = glm::length(place) < radius;
+                if (chord > 0 && (inside || b > 0))
+                    t = inside ? b + std::sqrt(chord) : b - std::sqrt(chord);
+            }
+            const double depth = t * glm::dot(ray, camera.forward);
+            EXPECT_GE(depth, start) << "round " << round;
+            near_misses += depth < start * 1.1 && start > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(near_misses, 1000) << "the bound is of use";
+}
+
+} // namespace

@@ -1,0 +1,263 @@
+// What the kernel may leave out of a scene, by geometry: insides of spheres, planes between surfaces and lamps.
+#include "lib/kernel/scene_features.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <cmath>
+#include <cstdint>
+#include <initializer_list>
+#include <vector>
+
+namespace {
+
+constexpr std::uint32_t dark = 0;
+constexpr std::uint32_t shining = 1;
+
+const glm::dvec3 eye = {1, 2, 3};
+const glm::dvec3 nowhere = {0, 0, 0}; // the motion of a sphere at rest
+
+struct Shutter {
+    double open;
+    double close;
+};
+
+pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes = {},
+                         const Shutter &shutter = {0, 1}) {
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0},
+                       {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0},
+                       {glm::vec3(0.5F), glm::vec3(0), glm::vec3(-0.0F), 0}};
+    scene.spheres = spheres;
+    scene.planes = planes;
+    const pt::Camera camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, shutter.open, shutter.close};
+    const pt::Features features =
+        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const auto constants = pt::specialization_constants(features);
+    EXPECT_EQ(constants[pt::gpu::ID_INSIDE], features.inside ? 1U : 0U);
+    EXPECT_EQ(constants[pt::gpu::ID_PLANES_BLOCK], features.planes_block ? 1U : 0U);
+    EXPECT_EQ(constants[pt::gpu::ID_PLANES_EMIT], features.planes_emit ? 1U : 0U);
+    return features;
+}
+
+// Centres are as seen from the camera.
+pt::Sphere ball_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &motion = nowhere,
+                   std::uint32_t material = dark) {
+    return {eye + centre, radius, motion, material};
+}
+
+pt::Sphere lamp_at(const glm::dvec3 &centre, double radius, const glm::dvec3 &motion = nowhere) {
+    return ball_at(centre, radius, motion, shining);
+}
+
+bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
+    return features_of(spheres, {}, shutter).inside;
+}
+
+TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
+    EXPECT_FALSE(inside({}));
+    for (const std::uint32_t material : {dark, shining}) {
+        EXPECT_FALSE(inside({ball_at({0, 3, -4}, 4, nowhere, material)}));
+        EXPECT_TRUE(inside({ball_at({0, 3, -4}, 6, nowhere, material)}));
+        EXPECT_TRUE(inside({ball_at({0, 0, 0}, 1e-3, nowhere, material)})) << "in its centre";
+    }
+    EXPECT_FALSE(inside({ball_at({0, 0, -5}, 4), ball_at({0, 5, 0}, 4)}));
+    EXPECT_TRUE(inside({ball_at({0, 0, -5}, 4), ball_at({0, 5, 0}, 6)})) << "in the second alone";
+    EXPECT_TRUE(inside({ball_at({0, 0, -5}, 6), ball_at({0, 5, 0}, 4)})) << "in the first alone";
+}
+
+// A sphere at rest that the camera touches is held as a plane with a curvature, whose sides need no such feature; one
+// that moves is not. From there, float32 cannot tell outside from inside.
+TEST(FeatureInside, IsTrueWhereFloat32CannotTell) {
+    constexpr double radius = 2;
+    const auto touches = [](double distance) { // at half time; at others the sphere is farther off
+        return inside({ball_at({-8, distance, 0}, radius, {16, 0, 0})});
+    };
+    EXPECT_TRUE(touches(radius * (1 - 0x1p-20)));
+    EXPECT_TRUE(touches(radius));
+    EXPECT_TRUE(touches(radius * (1 + 0x1p-20)));
+    EXPECT_FALSE(touches(radius * (1 + 0x1p-10)));
+    for (const double distance : {1 - 0x1p-20, 1.0, 1 + 0x1p-20})
+        for (const std::uint32_t material : {dark, shining}) {
+            const pt::Features resting = features_of({ball_at({0, distance, 0}, 1, nowhere, material)});
+            EXPECT_TRUE(resting.curvature);
+            EXPECT_EQ(resting.sphere_count, 0U);
+            EXPECT_FALSE(resting.inside);
+        }
+}
+
+// The centre goes from -8 to 8 in x, at a height above the camera: it passes over the camera at half time.
+TEST(FeatureInside, IsAtAnyTimeOfTheShutter) {
+    const auto passing = [](double height, const Shutter &shutter) {
+        return inside({ball_at({-8, height, 0}, 1, {16, 0, 0})}, shutter);
+    };
+    EXPECT_TRUE(passing(0, {0, 1})) << "in mid-shutter alone";
+    EXPECT_TRUE(passing(0.75, {0, 1}));
+    EXPECT_FALSE(passing(1.25, {0, 1}));
+    EXPECT_TRUE(passing(0, {0, 0.5})) << "as it closes";
+    EXPECT_TRUE(passing(0, {0.5, 1})) << "as it opens";
+    EXPECT_FALSE(passing(0, {0, 0.375})) << "not yet";
+    EXPECT_FALSE(passing(0, {0.625, 1})) << "no more";
+}
+
+TEST(FeatureInside, IsAtOneTimeOfAClosedShutter) {
+    const auto at_time = [](double time) {
+        return features_of({ball_at({-8, 0, 0}, 1, {16, 0, 0})}, {}, {time, time});
+    };
+    EXPECT_FALSE(at_time(0).inside);
+    EXPECT_TRUE(at_time(0.5).inside);
+    EXPECT_FALSE(at_time(0.5).motion);
+    EXPECT_FALSE(at_time(1).inside);
+}
+
+// A plane below the camera, given with its normal up or down: heights are as seen from the camera.
+pt::Plane floor_at(double height, bool upwards = true) {
+    const double side = upwards ? 1 : -1;
+    return {{0, side, 0}, -side * (eye.y + height), dark};
+}
+
+// Lamps are sampled and found by their index; what else emits is a plane, or a sphere that is held as one.
+TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
+    pt::Plane glowing = floor_at(-4);
+    glowing.material = shining;
+    const pt::Sphere huge_lamp = lamp_at({0, 0, -262145}, 262144);
+    EXPECT_FALSE(features_of({}).planes_emit);
+    EXPECT_FALSE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4)}).planes_emit);
+    EXPECT_FALSE(features_of({ball_at({0, 0, -262145}, 262144)}, {floor_at(-4)}).planes_emit);
+    EXPECT_TRUE(features_of({}, {glowing}).planes_emit);
+    EXPECT_TRUE(features_of({lamp_at({0, 3, -5}, 1)}, {floor_at(-4), glowing}).planes_emit) << "the last plane";
+    EXPECT_TRUE(features_of({huge_lamp}).curvature);
+    EXPECT_TRUE(features_of({huge_lamp}).planes_emit);
+}
+
+bool planes_block(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Plane> &planes,
+                  const Shutter &shutter = {0, 1}) {
+    return features_of(spheres, planes, shutter).planes_block;
+}
+
+TEST(FeaturePlanesBlock, IsWhetherALampIsNotAllOnTheSideOfTheCamera) {
+    for (const bool upwards : {true, false}) {
+        const std::vector<pt::Plane> floor = {floor_at(-4, upwards)};
+        EXPECT_FALSE(planes_block({lamp_at({0, 3, -5}, 1)}, floor)) << "above";
+        EXPECT_FALSE(planes_block({lamp_at({0, -2.875, -5}, 1)}, floor)) << "just above";
+        EXPECT_TRUE(planes_block({lamp_at({0, -3, -5}, 1)}, floor)) << "touches it";
+        EXPECT_TRUE(planes_block({lamp_at({0, -3.5, -5}, 1)}, floor)) << "mostly above";
+        EXPECT_TRUE(planes_block({lamp_at({0, -4.5, -5}, 1)}, floor)) << "mostly below";
+        EXPECT_TRUE(planes_block({lamp_at({0, -5, -5}, 1)}, floor)) << "touches it from below";
+        EXPECT_TRUE(planes_block({lamp_at({0, -9, -5}, 1)}, floor)) << "below";
+        EXPECT_TRUE(planes_block({lamp_at({0, 9, -5}, 1)}, {floor_at(4, upwards)})) << "above a ceiling";
+        EXPECT_FALSE(planes_block({lamp_at({0, 1, -5}, 1)}, {floor_at(4, upwards)})) << "below a ceiling";
+        EXPECT_TRUE(planes_block({lamp_at({0, 3, -5}, 1)}, {floor_at(0, upwards)})) << "the camera is on the plane";
+        EXPECT_TRUE(planes_block({lamp_at({0, -3, -5}, 1)}, {floor_at(0, upwards)})) << "the camera is on the plane";
+    }
+}
+
+TEST(FeaturePlanesBlock, IsByAnyPlaneAndAnyLamp) {
+    const pt::Plane tilted = {{0.6, 0, 0.8}, 7 - glm::dot(glm::dvec3(0.6, 0, 0.8), eye), dark}; // 7 from the camera
+    const pt::Sphere near = lamp_at({0, 1, -5}, 1);        // 3 from the tilted plane
+    const pt::Sphere far = lamp_at({-6, 1, -8}, 1);        // 3 beyond it
+    const pt::Sphere across = lamp_at({-4.2, 1, -5.6}, 1); // its centre is on it
+    const pt::Sphere high = lamp_at({0, 6, -5}, 1);
+    EXPECT_FALSE(planes_block({near}, {tilted, floor_at(-4), floor_at(4)}));
+    EXPECT_TRUE(planes_block({far}, {tilted, floor_at(-4), floor_at(4)}));
+    EXPECT_TRUE(planes_block({across}, {tilted, floor_at(-4), floor_at(4)}));
+    EXPECT_TRUE(planes_block({near, far}, {floor_at(-4), floor_at(4), tilted})) << "the last lamp, the last plane";
+    EXPECT_TRUE(planes_block({high, near}, {floor_at(-4), floor_at(4), tilted}));
+    EXPECT_FALSE(planes_block({high, near}, {floor_at(-4), tilted}));
+}
+
+// From above a floor to below it, at which it arrives at half time.
+TEST(FeaturePlanesBlock, IsAtAnyTimeOfTheShutter) {
+    const auto falling = [](const Shutter &shutter) {
+        return planes_block({lamp_at({0, 3, -5}, 1, {0, -12, 0})}, {floor_at(-4)}, shutter);
+    };
+    EXPECT_TRUE(falling({0, 1}));
+    EXPECT_TRUE(falling({0, 0.5625})) << "partly through as the shutter closes";
+    EXPECT_FALSE(falling({0, 0.4375})) << "not yet";
+    EXPECT_FALSE(falling({0, 0}));
+    EXPECT_FALSE(falling({0.25, 0.25}));
+    EXPECT_TRUE(falling({1, 1}));
+    EXPECT_FALSE(planes_block({lamp_at({0, 3, -5}, 1, {9, 0, 9})}, {floor_at(-4)})) << "along the floor";
+    EXPECT_TRUE(planes_block({lamp_at({0, -9, -5}, 1, {0, 12, 0})}, {floor_at(-4)})) << "comes up from below";
+}
+
+TEST(FeaturePlanesBlock, NeedsPlanesAndLamps) {
+    EXPECT_FALSE(planes_block({lamp_at({0, -9, -5}, 1)}, {}));
+    EXPECT_FALSE(planes_block({ball_at({0, -9, -5}, 1)}, {floor_at(-4)})) << "no lamp";
+    EXPECT_FALSE(planes_block({ball_at({0, -9, -5}, 1, nowhere, 2)}, {floor_at(-4)})) << "emits -0";
+    EXPECT_FALSE(planes_block({}, {floor_at(-4)}));
+    EXPECT_FALSE(planes_block({}, {}));
+}
+
+// It may bulge towards the camera and come between two points of the region that its tangent plane cuts out.
+TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
+    const pt::Sphere huge = ball_at({0, -1004, 0}, 1000);
+    const pt::Features features = features_of({huge, lamp_at({0, 3, -5}, 1)}, {});
+    EXPECT_TRUE(features.curvature);
+    EXPECT_TRUE(features.planes_block);
+    EXPECT_FALSE(planes_block({ball_at({0, -14, 0}, 10), lamp_at({0, 3, -5}, 1)}, {})) << "held by its centre";
+}
+
+// Five words for each of as many surfaces as a scene may have are more than a 32-bit number.
+TEST(SceneWordCount, HoldsForTheLargestScenes) {
+    constexpr std::uint32_t most_surfaces = (1U << 30) - 1;
+    pt::Features features{};
+    features.sphere_count = most_surfaces;
+    features.gloss = true;
+    features.motion = true;
+    EXPECT_EQ(pt::scene_word_count(features), std::uint64_t{5} * most_surfaces);
+    features.sphere_count = 1;
+    features.plane_count = most_surfaces - 1;
+    features.curvature = true;
+    EXPECT_EQ(pt::scene_word_count(features), std::uint64_t{5} * most_surfaces);
+}
+
+TEST(FeatureSky, IsALampThatHoldsTheCamera) {
+    const auto counts = [](const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
+        const pt::Features features = features_of(spheres, {}, shutter);
+        const auto constants = pt::specialization_constants(features);
+        EXPECT_EQ(constants[pt::gpu::ID_LAMP_COUNT], features.lamp_count);
+        EXPECT_EQ(constants[pt::gpu::ID_SKY_COUNT], features.sky_count);
+        return std::pair{features.lamp_count, features.sky_count};
+    };
+    using Counts = std::pair<std::uint32_t, std::uint32_t>;
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 2)}), (Counts{1, 0}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4)}), (Counts{0, 1}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4), ball_at({0, 3, 0}, 4), lamp_at({0, 3, 0}, 1)}), (Counts{1, 1}));
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}), (Counts{1, 0})) << "not all of the time";
+    EXPECT_EQ(counts({lamp_at({0, 3, 0}, 4, {0, 2, 0})}, {0, 0.4}), (Counts{0, 1}));
+}
+
+// With floors at heights below the camera.
+bool known_sides(const std::vector<pt::Sphere> &spheres, const std::vector<double> &heights) {
+    std::vector<pt::Plane> planes;
+    for (const double height : heights)
+        planes.push_back({{0, 1, 0}, height - eye.y, dark});
+    const pt::Features features = features_of(spheres, planes);
+    EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_KNOWN_SIDES], features.known_sides ? 1U : 0U);
+    return features.known_sides;
+}
+
+TEST(FeatureKnownSides, IsWhetherTheCameraTellsThemAndMust) {
+    const pt::Sphere room = ball_at({0, 0, 0}, 9);
+    EXPECT_FALSE(known_sides({}, {1, 2})) << "vertices do as well";
+    EXPECT_TRUE(known_sides({}, {1, 1.001})) << "close planes";
+    EXPECT_TRUE(known_sides({room}, {1})) << "inside";
+    EXPECT_TRUE(known_sides({ball_at({0, -1e6 - 1, 0}, 1e6)}, {1})) << "a huge ball";
+    EXPECT_TRUE(known_sides({room}, {1e-15}));
+    EXPECT_FALSE(known_sides({room}, {0})) << "the camera is on the plane";
+    EXPECT_FALSE(known_sides({ball_at({0, -1e6, 0}, 1e6)}, {1})) << "the camera is on the huge ball";
+}
+
+TEST(FeaturePlanesMove, IsWhetherAHugeBallDoes) {
+    const auto moves = [](const glm::dvec3 &motion) {
+        const pt::Features features = features_of({ball_at({0, -1e6 - 1, 0}, 1e6, motion)});
+        EXPECT_TRUE(features.curvature);
+        EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_PLANES_MOVE], features.planes_move ? 1U : 0U);
+        return features.planes_move && features.motion;
+    };
+    EXPECT_FALSE(moves(nowhere));
+    EXPECT_TRUE(moves({1e-9, 0, 0}));
+}
+
+} // namespace

@@ -1,0 +1,294 @@
+// The rules of a scene: one broken scene per rule, and the whole message about it.
+#include "lib/base/error.h"
+#include "lib/scene/scene.h"
+#include "tests/support/scene_of.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr float nan_float = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinity_float = std::numeric_limits<float>::infinity();
+
+// A valid scene that a test spoils.
+struct Draft {
+    std::vector<pt_material> materials =
+        std::vector<pt_material>(5, pt_material{{0.5F, 0.5F, 0.5F}, {0.25F, 0.25F, 0.25F}, {0.0F, 1.0F, 2.0F}, 10.0F});
+    std::vector<pt_sphere> spheres = std::vector<pt_sphere>(4, pt_sphere{{1, 2, 3}, 4, {5, 6, 7}, 1, 0});
+    std::vector<pt_plane> planes = std::vector<pt_plane>(2, pt_plane{{0, 1, 0}, 2, 2, 0});
+    std::function<void(pt_scene &)> spoil = [](pt_scene &) {};
+
+    pt::Scene validated() const {
+        pt_scene scene = scene_of(materials, spheres, planes);
+        spoil(scene);
+        return pt::validated_scene(scene);
+    }
+
+    // The message of the error, or "accepted".
+    std::string message() const {
+        try {
+            validated();
+        } catch (const pt::Error &error) {
+            EXPECT_EQ(error.code(), PT_ERROR_INVALID_SCENE);
+            return error.what();
+        }
+        return "accepted";
+    }
+};
+
+struct Case {
+    const char *name;
+    void (*spoil)(Draft &draft);
+    const char *message;
+};
+
+void PrintTo(const Case &test_case, std::ostream *out) {
+    *out << test_case.name;
+}
+
+class BrokenScene : public testing::TestWithParam<Case> {};
+
+TEST_P(BrokenScene, IsRefusedWithMessage) {
+    Draft draft;
+    ASSERT_EQ(draft.message(), "accepted");
+    GetParam().spoil(draft);
+    EXPECT_EQ(draft.message(), GetParam().message);
+}
+
+const char *const length = "must be 0 or of a magnitude in [1e-18, 1e18]";
+const char *const divided = "must be 0 or of a magnitude in [1e-18, 1e18] after division by the normal's length";
+
+std::string text(const char *field, const char *rule) {
+    return std::string(field) + ": " + rule;
+}
+
+const std::string small_center = text("spheres[0].center[0] = 9e-19", length);
+const std::string large_center = text("spheres[0].center[2] = -1.1e+18", length);
+const std::string small_motion = text("spheres[3].motion[0] = -1e-300", length);
+const std::string large_motion = text("spheres[3].motion[1] = 1e+19", length);
+const std::string large_offset = text("planes[0].offset = 2e+18", divided);
+const std::string small_offset = text("planes[0].offset = 1e-17", divided);
+const std::string overflowing_offset = text("planes[1].offset = 1e+300", divided);
+const std::string underflowing_offset = text("planes[1].offset = 1e-300", divided);
+
+INSTANTIATE_TEST_SUITE_P(
+    Materials, BrokenScene,
+    testing::Values(Case{"DiffuseNegative", [](Draft &d) { d.materials[1].diffuse[2] = -0.5F; },
+                         "materials[1].diffuse[2] = -0.5: must be >= 0"},
+                    Case{"DiffuseNan", [](Draft &d) { d.materials[0].diffuse[0] = nan_float; },
+                         "materials[0].diffuse[0] = nan: must be finite"},
+                    Case{"DiffuseLarge", [](Draft &d) { d.materials[0].diffuse[1] = 2e18F; },
+                         "materials[0].diffuse[1] = 2e+18: must be <= 1e18"},
+                    Case{"SpecularNegative", [](Draft &d) { d.materials[4].specular[0] = -1e-30F; },
+                         "materials[4].specular[0] = -1e-30: must be >= 0"},
+                    Case{"SpecularInfinite", [](Draft &d) { d.materials[2].specular[1] = infinity_float; },
+                         "materials[2].specular[1] = inf: must be finite"},
+                    Case{"SpecularLarge", [](Draft &d) { d.materials[2].specular[1] = 1e30F; },
+                         "materials[2].specular[1] = 1e+30: must be <= 1e18"},
+                    Case{"EmissionNegative", [](Draft &d) { d.materials[3].emission[0] = -0.1F; },
+                         "materials[3].emission[0] = -0.1: must be >= 0"},
+                    Case{"EmissionInfinite", [](Draft &d) { d.materials[3].emission[1] = -infinity_float; },
+                         "materials[3].emission[1] = -inf: must be finite"},
+                    Case{"EmissionLarge", [](Draft &d) { d.materials[3].emission[2] = 1.1e18F; },
+                         "materials[3].emission[2] = 1.1e+18: must be <= 1e18"},
+                    Case{"GlossinessNegative", [](Draft &d) { d.materials[0].glossiness = -1.0F; },
+                         "materials[0].glossiness = -1: must be >= 0"},
+                    Case{"GlossinessNan", [](Draft &d) { d.materials[0].glossiness = -nan_float; },
+                         "materials[0].glossiness = nan: must be finite"},
+                    Case{"GlossinessLarge", [](Draft &d) { d.materials[0].glossiness = 2e9F; },
+                         "materials[0].glossiness = 2e+09: must be <= 1e9"}),
+    [](const auto &instance) { return std::string(instance.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Spheres, BrokenScene,
+    testing::Values(
+        Case{"CenterNan", [](Draft &d) { d.spheres[3].center[1] = nan; }, "spheres[3].center[1] = nan: must be finite"},
+        Case{"CenterSmall", [](Draft &d) { d.spheres[0].center[0] = 9e-19; }, small_center.c_str()},
+        Case{"CenterLarge", [](Draft &d) { d.spheres[0].center[2] = -1.1e18; }, large_center.c_str()},
+        Case{"RadiusNegative", [](Draft &d) { d.spheres[3].radius = -1; }, "spheres[3].radius = -1: must be > 0"},
+        Case{"RadiusZero", [](Draft &d) { d.spheres[0].radius = 0; }, "spheres[0].radius = 0: must be > 0"},
+        Case{"RadiusInfinite", [](Draft &d) { d.spheres[0].radius = infinity; },
+             "spheres[0].radius = inf: must be finite"},
+        Case{"RadiusSmall", [](Draft &d) { d.spheres[0].radius = 1e-19; },
+             "spheres[0].radius = 1e-19: must lie in [1e-18, 1e18]"},
+        Case{"RadiusLarge", [](Draft &d) { d.spheres[0].radius = 1e19; },
+             "spheres[0].radius = 1e+19: must lie in [1e-18, 1e18]"},
+        Case{"MotionInfinite", [](Draft &d) { d.spheres[2].motion[2] = -infinity; },
+             "spheres[2].motion[2] = -inf: must be finite"},
+        Case{"MotionSmall", [](Draft &d) { d.spheres[3].motion[0] = -1e-300; }, small_motion.c_str()},
+        Case{"MotionLarge", [](Draft &d) { d.spheres[3].motion[1] = 1e19; }, large_motion.c_str()},
+        Case{"MaterialMissing", [](Draft &d) { d.spheres[2].material = 7; },
+             "spheres[2].material = 7: must be < material_count (5)"},
+        Case{"MaterialOneTooFar", [](Draft &d) { d.spheres[2].material = 5; },
+             "spheres[2].material = 5: must be < material_count (5)"},
+        Case{"Reserved", [](Draft &d) { d.spheres[1].reserved = 3; }, "spheres[1].reserved = 3: must be 0"}),
+    [](const auto &instance) { return std::string(instance.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Planes, BrokenScene,
+    testing::Values(
+        Case{"NormalZero", [](Draft &d) { d.planes[0].normal[1] = 0; },
+             "planes[0].normal = (0, 0, 0): must not be zero"},
+        Case{"NormalNan", [](Draft &d) { d.planes[1].normal[0] = nan; }, "planes[1].normal[0] = nan: must be finite"},
+        Case{"OffsetNan", [](Draft &d) { d.planes[1].offset = nan; }, "planes[1].offset = nan: must be finite"},
+        Case{"OffsetLarge", [](Draft &d) { d.planes[0].offset = 2e18; }, large_offset.c_str()},
+        Case{"OffsetSmallByLongNormal",
+             [](Draft &d) {
+                 d.planes[0] = {{0, 0, 20}, 1e-17, 0, 0};
+             },
+             small_offset.c_str()},
+        Case{"OffsetOverflowsByShortNormal",
+             [](Draft &d) {
+                 d.planes[1] = {{1e-300, 0, 0}, 1e300, 0, 0};
+             },
+             overflowing_offset.c_str()},
+        Case{"OffsetUnderflowsByLongNormal",
+             [](Draft &d) {
+                 d.planes[1] = {{0, 1e300, 0}, 1e-300, 0, 0};
+             },
+             underflowing_offset.c_str()},
+        Case{"MaterialMissing", [](Draft &d) { d.planes[1].material = 4294967295U; },
+             "planes[1].material = 4294967295: must be < material_count (5)"},
+        Case{"Reserved", [](Draft &d) { d.planes[1].reserved = 1; }, "planes[1].reserved = 1: must be 0"}),
+    [](const auto &instance) { return std::string(instance.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(
+    Arrays, BrokenScene,
+    testing::Values(Case{"NoSpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
+                         "scene.spheres = NULL: must not be NULL, as sphere_count is 4"},
+                    Case{"NoPlanes", [](Draft &d) { d.spoil = [](pt_scene &s) { s.planes = nullptr; }; },
+                         "scene.planes = NULL: must not be NULL, as plane_count is 2"},
+                    Case{"NoMaterials", [](Draft &d) { d.spoil = [](pt_scene &s) { s.materials = nullptr; }; },
+                         "scene.materials = NULL: must not be NULL, as material_count is 5"},
+                    Case{"TooManySurfaces", // that are not there: the arrays must not be read
+                         [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = (1U << 30) - 2; }; },
+                         "scene.sphere_count + plane_count = 1073741824: must be < 2^30"},
+                    Case{"CountsThatWrapAround",
+                         [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = s.plane_count = 1U << 31; }; },
+                         "scene.sphere_count + plane_count = 4294967296: must be < 2^30"}),
+    [](const auto &instance) { return std::string(instance.param.name); });
+
+TEST(Scene, TellsOfAllViolationsInOrder) {
+    Draft draft;
+    draft.planes[0].reserved = 1;
+    draft.spheres[3].radius = -1;
+    draft.spheres[3].center[1] = nan;
+    draft.materials[1].diffuse[2] = -0.5F;
+    EXPECT_EQ(draft.message(), "materials[1].diffuse[2] = -0.5: must be >= 0\n"
+                               "spheres[3].center[1] = nan: must be finite\n"
+                               "spheres[3].radius = -1: must be > 0\n"
+                               "planes[0].reserved = 1: must be 0");
+}
+
+TEST(Scene, AMissingArrayDoesNotHideOtherViolations) {
+    Draft draft;
+    draft.planes[0].reserved = 1;
+    draft.spoil = [](pt_scene &scene) { scene.spheres = nullptr; };
+    EXPECT_EQ(draft.message(), "scene.spheres = NULL: must not be NULL, as sphere_count is 4\n"
+                               "planes[0].reserved = 1: must be 0");
+}
+
+TEST(Scene, ShowsEightViolationsAndCountsTheRest) {
+    Draft draft;
+    draft.spheres = std::vector<pt_sphere>(10, pt_sphere{{0, 0, 0}, 0, {0, 0, 0}, 0, 0});
+    std::string eight;
+    for (int i = 0; i < 8; ++i)
+        eight += (i > 0 ? "\nspheres[" : "spheres[") + std::to_string(i) + "].radius = 0: must be > 0";
+    EXPECT_EQ(draft.message(), eight + "\n... and 2 more");
+    draft.spheres.resize(8);
+    EXPECT_EQ(draft.message(), eight);
+}
+
+TEST(Scene, MayBeEmpty) {
+    const pt_scene scene{sizeof(pt_scene), 0, 0, 0, nullptr, nullptr, nullptr};
+    const pt::Scene owned = pt::validated_scene(scene);
+    EXPECT_TRUE(owned.materials.empty() && owned.spheres.empty() && owned.planes.empty());
+}
+
+TEST(Scene, SurfacesNeedMaterials) {
+    Draft draft;
+    draft.materials.clear();
+    draft.spheres.resize(1);
+    draft.planes.clear();
+    EXPECT_EQ(draft.message(), "spheres[0].material = 1: must be < material_count (0)");
+}
+
+TEST(Scene, AcceptsExtremes) {
+    Draft draft;
+    draft.materials[0] = {{0, 1e18F, 1e-45F}, {1e18F, 0, 0}, {0, -0.0F, 1e18F}, 1e9F};
+    draft.materials[1].glossiness = 0;
+    draft.spheres[0] = {{1e18, -1e18, 1e-18}, 1e-18, {-1e-18, 0, 1e18}, 4, 0};
+    draft.spheres[1] = {{0, -0.0, 0}, 1e18, {0, 0, 0}, 0, 0};
+    draft.planes[0] = {{0, -1, 0}, 1e18, 4, 0};
+    draft.planes[1] = {{0, -1, 0}, -1e-18, 4, 0};
+    EXPECT_EQ(draft.message(), "accepted");
+}
+
+TEST(Scene, CopiesEverything) {
+    Draft draft;
+    draft.materials[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10};
+    draft.spheres[2] = {{1, 2, 3}, 4, {5, 6, 7}, 3, 0};
+    draft.planes[1] = {{0, 0, -2}, 6, 4, 0};
+    const pt::Scene scene = draft.validated();
+    ASSERT_EQ(scene.materials.size(), 5U);
+    ASSERT_EQ(scene.spheres.size(), 4U);
+    ASSERT_EQ(scene.planes.size(), 2U);
+    EXPECT_EQ(scene.materials[3].diffuse, glm::vec3(1, 2, 3));
+    EXPECT_EQ(scene.materials[3].specular, glm::vec3(4, 5, 6));
+    EXPECT_EQ(scene.materials[3].emission, glm::vec3(7, 8, 9));
+    EXPECT_EQ(scene.materials[3].glossiness, 10.0F);
+    EXPECT_EQ(scene.spheres[2].center, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.spheres[2].radius, 4.0);
+    EXPECT_EQ(scene.spheres[2].motion, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(scene.spheres[2].material, 3U);
+    EXPECT_EQ(scene.planes[1].normal, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(scene.planes[1].offset, 3.0);
+    EXPECT_EQ(scene.planes[1].material, 4U);
+}
+
+pt::Plane normalized(const pt_plane &plane) {
+    Draft draft;
+    draft.planes = {plane};
+    return draft.validated().planes[0];
+}
+
+TEST(Scene, NormalizesPlanesOfAnyScale) {
+    const double denormal = std::numeric_limits<double>::denorm_min();
+    const double largest = std::numeric_limits<double>::max();
+    // A square, a sum of squares, a product and a rounded square root: with a division, 4 roundings of 2^-53.
+    const double tolerance = 4 * 0x1p-53;
+    for (const double scale : {1.0, 3.0, 1e300, 1e-300, 0x1p-1040, denormal, largest / 2}) {
+        SCOPED_TRACE(scale);
+        const pt::Plane plane = normalized({{scale, -2 * scale, 2 * scale}, 6 * std::min(scale, 1e290), 0, 0});
+        EXPECT_NEAR(plane.normal.x, 1.0 / 3.0, tolerance);
+        EXPECT_NEAR(plane.normal.y, -2.0 / 3.0, tolerance);
+        EXPECT_NEAR(plane.normal.z, 2.0 / 3.0, tolerance);
+        EXPECT_NEAR(plane.offset, 2.0 * (std::min(scale, 1e290) / scale), 2 * tolerance);
+    }
+}
+
+TEST(Scene, PlanesThatDifferByAPowerOfTwoAreEqual) {
+    const pt::Plane plane = normalized({{0.3, -0.7, 1.9}, 12.34, 0, 0});
+    const pt::Plane same =
+        normalized({{std::ldexp(0.3, 700), std::ldexp(-0.7, 700), std::ldexp(1.9, 700)}, std::ldexp(12.34, 700), 0, 0});
+    EXPECT_EQ(plane.normal, same.normal);
+    EXPECT_EQ(plane.offset, same.offset);
+    const pt::Plane other = normalized({{0.3, -0.7, 1.9}, std::nextafter(12.34, 13.0), 0, 0});
+    EXPECT_NE(plane.offset, other.offset);
+}
+
+TEST(Scene, UnitAxesStayExact) {
+    const pt::Plane plane = normalized({{0, -1, 0}, 0.1, 0, 0});
+    EXPECT_EQ(plane.normal, glm::dvec3(0, -1, 0));
+    EXPECT_EQ(plane.offset, 0.1);
+}
+
+} // namespace

@@ -1,0 +1,158 @@
+// Which surfaces count as one, and which lamps as close to another sphere.
+#include "lib/scene/twins.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace {
+
+using pt::Plane;
+using pt::Sphere;
+
+constexpr std::uint32_t dark = 0;
+constexpr std::uint32_t shining = 1;
+
+const glm::dvec3 eye = {1, 2, 3};
+
+pt::Camera camera() {
+    return {eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+}
+
+pt::Scene scene_of(const std::vector<Sphere> &spheres, const std::vector<Plane> &planes) {
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}};
+    scene.spheres = spheres;
+    scene.planes = planes;
+    return scene;
+}
+
+// The radii of the spheres that are left.
+std::vector<double> distinct(const std::vector<Sphere> &spheres) {
+    std::vector<double> radii;
+    for (const Sphere &sphere : pt::without_twins(scene_of(spheres, {}), camera()).spheres)
+        radii.push_back(sphere.radius);
+    return radii;
+}
+
+// The materials of the planes that are left; planes are given with unit normals.
+std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
+    std::vector<std::uint32_t> materials;
+    for (const Plane &plane : pt::without_twins(scene_of({}, planes), camera()).planes)
+        materials.push_back(plane.material);
+    return materials;
+}
+
+// Places are as seen from the camera.
+Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
+    return {eye + place, radius, motion, dark};
+}
+
+Plane plane(const glm::dvec3 &normal, double offset, std::uint32_t material) {
+    const glm::dvec3 unit = glm::normalize(normal);
+    return {unit, offset - glm::dot(unit, eye), material};
+}
+
+using Radii = std::vector<double>;
+
+TEST(Twins, OfSpheresTheFirstStands) {
+    EXPECT_EQ(distinct({}), Radii{});
+    EXPECT_EQ(distinct({ball({0, 0, -5}, 1), ball({3, 0, -5}, 2)}), (Radii{1, 2}));
+    EXPECT_EQ(distinct({ball({0, 0, -5}, 1), ball({3, 0, -5}, 2), ball({0, 0, -5}, 1)}), (Radii{1, 2}));
+    const double next = 1 + 1e-6;
+    EXPECT_EQ(distinct({ball({0, 0, -5}, next), ball({0, 0, -5}, 1), ball({0, 0, -5}, 1)}), Radii{next});
+}
+
+TEST(Twins, AreSpheresThatDifferByAMillionthOfTheirSize) {
+    for (const double size : {1e-9, 1.0, 1e9})
+        for (const double shift : {1e-6, 1e-7, 1e-8, 1e-9}) {
+            const Sphere first = ball({0, 0, -5 * size}, size);
+            EXPECT_EQ(distinct({first, ball({shift * size, 0, -5 * size}, size)}).size(), 1U) << size << ' ' << shift;
+            EXPECT_EQ(distinct({first, ball({0, 0, -5 * size}, size * (1 - shift))}).size(), 1U)
+                << size << ' ' << shift;
+            EXPECT_EQ(distinct({first, ball({0, 30 * shift * size, -5 * size}, size)}).size(), shift == 1e-6 ? 2U : 1U);
+        }
+}
+
+// Seen from afar float32 cannot tell a little more apart, but never balls that touch from one ball.
+TEST(Twins, AreSpheresWhoseCentresFloat32HoldsAlike) {
+    EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({4e-4, 0, -1e3}, 1)}).size(), 1U);
+    EXPECT_EQ(distinct({ball({0, 0, -1e2}, 1), ball({4e-4, 0, -1e2}, 1)}).size(), 2U);
+    EXPECT_EQ(distinct({ball({0, 0, -1e12}, 1), ball({2, 0, -1e12}, 1)}).size(), 2U);
+    EXPECT_EQ(distinct({ball({0, 0, -1e12}, 1), ball({0.1, 0, -1e12}, 1)}).size(), 1U);
+    EXPECT_EQ(distinct({ball({0, 0, -1e3}, 1), ball({0, 0, -1e3}, 1.0004)}).size(), 2U) << "a ball in a thin shell";
+}
+
+TEST(Twins, MoveTogether) {
+    const Sphere moving = ball({0, 0, -5}, 1, {0, 2, 0});
+    EXPECT_EQ(distinct({moving, moving}).size(), 1U);
+    EXPECT_EQ(distinct({moving, ball({0, 0, -5}, 1)}).size(), 2U);
+    EXPECT_EQ(distinct({moving, ball({0, 0, -5}, 1, {0, 2 + 1e-7, 0})}).size(), 1U);
+}
+
+// What counts of huge spheres is the surface where the camera sees it.
+TEST(Twins, OfHugeSpheresAreLikePlanes) {
+    constexpr double radius = 1e9;
+    const Sphere floor = ball({0, -1 - radius, 0}, radius);
+    EXPECT_EQ(distinct({floor, floor}).size(), 1U);
+    EXPECT_EQ(distinct({floor, ball({0.01, -1 - radius, 0}, radius)}).size(), 1U) << "moved along itself";
+    EXPECT_EQ(distinct({floor, ball({0, -1.01 - radius, 0}, radius)}).size(), 2U)
+        << "1e-11 of the radius, 1% of the height";
+    EXPECT_EQ(distinct({floor, ball({0, -1 - 2 * radius, 0}, 2 * radius)}).size(), 2U);
+    EXPECT_EQ(distinct({floor, ball({0, -1 - radius, 0}, radius, {1, 0, 0})}).size(), 2U);
+}
+
+TEST(Twins, OfPlanesTheFirstStands) {
+    using Materials = std::vector<std::uint32_t>;
+    const Plane floor = plane({0.3, 1, 0.2}, 1.5, 0);
+    EXPECT_EQ(distinct_planes({floor, plane({0.3, 1, 0.2}, 1.5, 1)}), Materials{0});
+    EXPECT_EQ(distinct_planes({floor, plane({-0.3, -1, -0.2}, -1.5, 1)}), Materials{0}) << "the other way round";
+    EXPECT_EQ(distinct_planes({floor, plane({-0.3, -1, -0.2}, 1.5, 1)}), (Materials{0, 1})) << "behind the camera";
+    EXPECT_EQ(distinct_planes({floor, plane({0.3, 1, 0.2}, 1.5 * (1 + 1e-6), 1)}), Materials{0});
+    EXPECT_EQ(distinct_planes({floor, plane({0.3, 1, 0.2}, 1.5 * (1 + 1e-5), 1)}), (Materials{0, 1}));
+    EXPECT_EQ(distinct_planes({floor, plane({0.3, 1 + 1e-6, 0.2}, 1.5, 1)}), Materials{0});
+    EXPECT_EQ(distinct_planes({floor, plane({0.3, 1 + 3e-5, 0.2}, 1.5, 1)}), (Materials{0, 1}));
+}
+
+// A lattice has many spheres with one coordinate alike, and none is another's twin.
+TEST(Twins, AreNoneOnALattice) {
+    std::vector<Sphere> lattice;
+    for (int i = 0; i < 32 * 32 * 32; ++i)
+        lattice.push_back(ball({i % 32, i / 32 % 32, -10 - i / 1024}, 0.5));
+    EXPECT_EQ(distinct(lattice).size(), lattice.size());
+    std::vector<Sphere> twice = lattice;
+    twice.insert(twice.end(), lattice.begin(), lattice.end());
+    EXPECT_EQ(distinct(twice).size(), lattice.size());
+}
+
+TEST(ClosePlanes, DifferByLessThanA256th) {
+    const auto close = [](const Plane &second) {
+        return pt::has_close_planes(scene_of({}, {plane({0.3, 1, 0.2}, 1.5, 0), second}), camera());
+    };
+    EXPECT_TRUE(close(plane({0.3, 1, 0.2}, 1.5 * 1.003, 0)));
+    EXPECT_TRUE(close(plane({-0.3, -1, -0.2}, -1.5 * 1.003, 0)));
+    EXPECT_FALSE(close(plane({0.3, 1, 0.2}, 1.5 * 1.005, 0)));
+    EXPECT_TRUE(close(plane({0.3, 1.003, 0.2}, 1.5, 0)));
+    EXPECT_FALSE(close(plane({0.3, 1, 0.21}, 1.5, 0)));
+}
+
+bool close_lamps(const glm::dvec3 &shift, double radius, std::uint32_t first, std::uint32_t second) {
+    std::vector<Sphere> spheres = {ball({0, 3, -5}, 1), ball(glm::dvec3(0, 3, -5) + shift, radius),
+                                   ball({5, 0, -5}, 1)};
+    spheres[0].material = first;
+    spheres[1].material = second;
+    return pt::has_close_lamps(scene_of(spheres, {}), camera());
+}
+
+TEST(CloseLamps, AreLessThanAQuarterOfTheirRadiiApart) {
+    EXPECT_FALSE(close_lamps({0, 0, 0}, 1, dark, dark));
+    for (const auto &[first, second] : {std::pair{shining, dark}, {dark, shining}, {shining, shining}}) {
+        EXPECT_TRUE(close_lamps({0.2, 0, 0}, 1, first, second));
+        EXPECT_TRUE(close_lamps({0, 0.1, 0}, 1.1, first, second));
+        EXPECT_FALSE(close_lamps({0.26, 0, 0}, 1, first, second));
+        EXPECT_FALSE(close_lamps({0, 0, 0}, 0.7, first, second));
+    }
+}
+
+} // namespace

@@ -1,0 +1,160 @@
+// Changes of a scene that must keep every bit of its image. Run alone with --gtest_filter=Invariance*.
+#include "tests/invariance/invariance_scene.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/render_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 64;
+constexpr uint32_t height = 32;
+
+using Image = std::vector<float>;
+
+Image render(pt_context *context, const InvarianceScene &source, uint64_t seed = 0, uint32_t samples = 16) {
+    pt_render settings = render_of(width, height, 4);
+    settings.seed = seed;
+    return render_image(context, source.scene(), source.camera, settings, samples);
+}
+
+std::size_t differing_values(const Image &a, const Image &b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        count += a[i] != b[i];
+    return count;
+}
+
+class Invariance : public ContextFixture, public testing::WithParamInterface<bool> {
+protected:
+    static InvarianceScene scene() {
+        return GetParam() ? InvarianceScene::many_lamps() : InvarianceScene::coursework();
+    }
+
+    Image image_of(const InvarianceScene &scene) { return render(context(), scene); }
+
+    void SetUp() override {
+        ContextFixture::SetUp();
+        original_ = image_of(scene());
+        // Negative control of all: what is seen of a scene in which one thing differs.
+        InvarianceScene changed = scene();
+        changed.spheres[2].radius *= 1.03;
+        EXPECT_GT(differing_values(image_of(changed), original_), 100U);
+    }
+
+    void expect_same_bits(const InvarianceScene &changed) {
+        EXPECT_EQ(differing_values(image_of(changed), original_), 0U);
+    }
+
+    const Image &original() const { return original_; }
+
+private:
+    Image original_;
+};
+
+// Powers of two change no mantissa, and nothing in the kernel knows a length of its own.
+TEST_P(Invariance, UnitOfLength) {
+    for (int exponent = -20; exponent <= 20; exponent += 4) {
+        SCOPED_TRACE(exponent);
+        InvarianceScene scaled = scene();
+        scaled.scale(std::ldexp(1.0, exponent));
+        expect_same_bits(scaled);
+    }
+    for (const int exponent : {-50, 50}) { // lengths of 2^-52 = 2e-16 and of 2^55 = 3e16
+        SCOPED_TRACE(exponent);
+        InvarianceScene scaled = scene();
+        scaled.scale(std::ldexp(1.0, exponent));
+        expect_same_bits(scaled);
+    }
+}
+
+// The kernel knows positions relative to the camera, which are made in double. Where the sums are exact, so are they.
+TEST_P(Invariance, Origin) {
+    const double ways[][3] = {
+        {1048576, -524288, 262144.5}, {1e6, -1e6, 1e6}, {-999999.5, 123456.25, 0.125}, {0, 3, -65536}};
+    for (const double(&way)[3] : ways) {
+        SCOPED_TRACE(way[0]);
+        InvarianceScene moved = scene();
+        moved.translate(way);
+        expect_same_bits(moved);
+    }
+}
+
+// Where they are rounded, to 2^-34 at 1e6, a float32 made of them can differ by a unit in its last place, 2^-23 of it:
+// rays then end up to 1e-6 of the scene elsewhere. Of 2048 * 16 paths at most a few meet another surface for it, each
+// with some 1e-5 of the light; the rest differ by about 1e-6.
+TEST_P(Invariance, OriginRounded) {
+    InvarianceScene original = scene();
+    original.turn({{0.36, 0.48, -0.8}, {-0.8, 0.6, 0}, {0.48, 0.64, 0.6}});
+    const Image unmoved = image_of(original);
+    InvarianceScene moved = original;
+    moved.translate({1e6 / 3, -1e6 / 7, 1e6 / 11});
+    const Image image = image_of(moved);
+    double sum = 0.0;
+    double difference = 0.0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        sum += unmoved[i];
+        difference += image[i] - unmoved[i];
+    }
+    std::printf("%zu of %zu values differ, the mean by %.1e\n", differing_values(image, unmoved), image.size(),
+                difference / sum);
+    EXPECT_LT(std::abs(difference), 1e-4 * sum);
+    InvarianceScene changed = moved;
+    changed.brighten(1.001F);
+    double brighter = 0.0;
+    for (const float value : image_of(changed))
+        brighter += value;
+    EXPECT_GT(brighter - sum, 1e-4 * sum);
+}
+
+TEST_P(Invariance, OrderOfMaterials) {
+    InvarianceScene reordered = scene();
+    reordered.reverse_materials();
+    expect_same_bits(reordered);
+    InvarianceScene added = scene();
+    added.materials.push_back(added.materials[0]); // which nothing is made of
+    expect_same_bits(added);
+}
+
+// A plane's equation may be multiplied by any number.
+TEST_P(Invariance, LengthOfNormals) {
+    InvarianceScene stretched = scene();
+    for (pt_plane &plane : stretched.planes) {
+        for (double &component : plane.normal)
+            component *= 0x1p100;
+        plane.offset *= 0x1p100;
+    }
+    expect_same_bits(stretched);
+}
+
+// Contexts in two threads do not know of each other.
+TEST_P(Invariance, ContextsInOtherThreads) {
+    constexpr int contexts = 2;
+    constexpr uint32_t samples = 64;
+    Image alone[contexts];
+    for (int i = 0; i < contexts; ++i)
+        alone[i] = render(context(), scene(), static_cast<uint64_t>(i), samples);
+    EXPECT_GT(differing_values(alone[0], alone[1]), 100U) << "another seed must show";
+    Image together[contexts];
+    std::vector<std::thread> threads;
+    for (int i = 0; i < contexts; ++i)
+        threads.emplace_back([&, i] {
+            const Context own = create_context();
+            for (int repeat = 0; repeat < 2; ++repeat)
+                together[i] = render(own.get(), scene(), static_cast<uint64_t>(i), samples);
+        });
+    for (std::thread &thread : threads)
+        thread.join();
+    for (int i = 0; i < contexts; ++i)
+        EXPECT_EQ(differing_values(together[i], alone[i]), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::Bool(),
+                         [](const auto &param) { return param.param ? "ManyLamps" : "Coursework"; });
+
+} // namespace

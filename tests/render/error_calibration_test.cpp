@@ -1,0 +1,163 @@
+// The error that a render states without a reference, against its error by converged references.
+#include "lib/film/error_estimate.h"
+#include "lib/film/sample_parts.h"
+#include "tests/render/reference_image.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 256;
+constexpr uint32_t height = 128;
+
+using Image = std::vector<float>;
+
+// The root of the mean of (x - r)^2 / (r^2 + 0.01).
+double relative_rmse(const Image &image, const Image &reference) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        const double expected = reference[i];
+        const double difference = image[i] - expected;
+        sum += difference * difference / (expected * expected + 0.01);
+    }
+    return std::sqrt(sum / static_cast<double>(image.size()));
+}
+
+struct Judgement {
+    double low;
+    double high;
+
+    bool accepts(double ratio) const { return ratio >= low && ratio <= high; }
+};
+
+// What the stated error over the true one may be in these cases; over many, 5% of all are below 0.9
+// (shaders/README.md). Random samples: both come from tens of thousands of values, of which the brightest few hundred
+// weigh most, so either scatters by some per cent. Sequences: up to 2^p - 1 with 1 <= p <= 2 more in mean square
+// (error_estimate.cpp), hence sqrt(3), and more where the denominators err: up to the factor 2 that is promised.
+constexpr Judgement of_random{0.9, 1.2};
+constexpr Judgement of_sequence{0.8, 2.0};
+
+struct Case {
+    const char *reference;
+    bool diffuse;
+    uint32_t max_path_length;
+    uint32_t sampler;
+    Judgement judgement;
+};
+
+std::string name_of(const Case &test_case) {
+    constexpr const char *samplers[] = {"", "Random", "Halton", "HaltonCp", "Sobol"};
+    std::string name = test_case.reference;
+    for (char &c : name)
+        c = c == '-' ? '_' : c;
+    return name + samplers[test_case.sampler];
+}
+
+void PrintTo(const Case &test_case, std::ostream *out) {
+    *out << name_of(test_case);
+}
+
+class ErrorCalibration : public ContextFixture {
+protected:
+    void set_up(bool diffuse, uint32_t max_path_length, uint32_t sampler, uint32_t first_sample = 0) {
+        CourseworkScene coursework;
+        if (diffuse)
+            coursework.make_diffuse();
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        pt_render render = render_of(width, height, max_path_length);
+        render.seed = 5;
+        render.sampler = sampler;
+        render.first_sample = first_sample;
+        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+    }
+
+    Image image() {
+        Image image(width * height * 3);
+        readback(image);
+        return image;
+    }
+};
+
+class StatedError : public ErrorCalibration, public testing::WithParamInterface<Case> {};
+
+TEST_P(StatedError, IsThatByTheReference) {
+    const Case &test_case = GetParam();
+    const Image reference = read_reference(test_case.reference).radiance;
+    set_up(test_case.diffuse, test_case.max_path_length, test_case.sampler);
+    for (const uint32_t more : {16U, 48U}) {
+        accumulate(more);
+        const pt_stats stated = stats();
+        const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
+        std::printf("%u samples: stated / true error %.3f\n", stated.sample_count, ratio);
+        EXPECT_TRUE(test_case.judgement.accepts(ratio)) << stated.sample_count << " samples: " << ratio;
+        EXPECT_LE(stated.relative_rmse_low, stated.relative_rmse);
+        EXPECT_GE(stated.relative_rmse_high, stated.relative_rmse);
+        // Negative control: the judgement sees an error stated too small.
+        EXPECT_FALSE(test_case.judgement.accepts(0.4 * ratio));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Coursework, StatedError,
+                         testing::Values(Case{"coursework_L2", false, 2, PT_SAMPLER_RANDOM, of_random},
+                                         Case{"coursework_L2", false, 2, PT_SAMPLER_HALTON, of_sequence},
+                                         Case{"coursework_L2", false, 2, PT_SAMPLER_HALTON_CP, of_sequence},
+                                         Case{"coursework_L2", false, 2, PT_SAMPLER_SOBOL, of_sequence},
+                                         Case{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_random},
+                                         Case{"coursework_L6", false, 6, PT_SAMPLER_HALTON, of_sequence},
+                                         Case{"coursework_L6", false, 6, PT_SAMPLER_HALTON_CP, of_sequence},
+                                         Case{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_sequence},
+                                         Case{"coursework-diffuse_L6", true, 6, PT_SAMPLER_SOBOL, of_sequence}),
+                         [](const auto &instance) { return name_of(instance.param); });
+
+// The error that an estimate from parts of single samples states: sums of the samples of each part, by the given rule.
+template <typename PartOf>
+double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
+    Image mean(samples[0].size());
+    Image error(samples[0].size());
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        double sums[2] = {};
+        for (std::size_t s = 0; s < samples.size(); ++s)
+            sums[part_of(static_cast<uint32_t>(s))] += static_cast<double>(samples[s][i]);
+        mean[i] = static_cast<float>((sums[0] + sums[1]) / static_cast<double>(samples.size()));
+        error[i] = static_cast<float>(std::abs(sums[0] - sums[1]) / static_cast<double>(samples.size()));
+    }
+    pt::ErrorEstimator estimator(width);
+    estimator.add(mean, error);
+    return estimator.result(1.0).relative_rmse.estimate;
+}
+
+// Parts put together from single samples, by the rule of the film and by one that is wrong: even and odd samples are
+// the first digit of the first dimension, the place in the pixel, so that each part would see one half of every
+// pixel.
+TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
+    constexpr uint32_t sample_count = 64;
+    std::vector<Image> samples;
+    for (uint32_t i = 0; i < sample_count; ++i) {
+        set_up(false, 2, PT_SAMPLER_SOBOL, i);
+        accumulate(1);
+        samples.push_back(image());
+    }
+    set_up(false, 2, PT_SAMPLER_SOBOL);
+    accumulate(sample_count);
+    const double truth = relative_rmse(image(), read_reference("coursework_L2").radiance);
+    const uint32_t older = pt::part_counts(sample_count)[0];
+    ASSERT_EQ(2 * older, sample_count);
+    const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
+    const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
+    // Roundings of images to float32 are far below 1e-4 of the error.
+    EXPECT_NEAR(by_film, stats().relative_rmse, 1e-4 * by_film);
+    EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;
+    EXPECT_FALSE(of_sequence.accepts(by_parity / truth)) << by_parity / truth;
+}
+
+} // namespace

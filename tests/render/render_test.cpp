@@ -1,0 +1,187 @@
+// Renders of the coursework scene against converged references made by other renderers (tests/reference/README.md).
+// The noise of the samples, measured from batches, says how close they must be.
+#include "tests/render/reference_image.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t width = 256;
+constexpr uint32_t height = 128;
+// Batches differ in their seeds: quasi-random samples of one seed are not independent of each other.
+constexpr uint32_t batch_count = 16;
+constexpr uint32_t batch_samples = 64;
+constexpr uint32_t block_size = 8;
+
+struct Case {
+    const char *reference;
+    bool diffuse;
+    uint32_t max_path_length;
+    double reference_rmse; // as stated with the reference
+    uint32_t sampler;      // random where the reference's samples are: its noise is then spread like ours
+};
+
+using Image = std::vector<float>;
+
+Image mean_of(const std::vector<Image> &batches) {
+    std::vector<double> sum(batches[0].size());
+    for (const Image &batch : batches)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += batch[i];
+    Image mean(sum.size());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        mean[i] = static_cast<float>(sum[i] / static_cast<double>(batches.size()));
+    return mean;
+}
+
+double image_mean(const Image &image, std::size_t channel) {
+    double sum = 0.0;
+    for (std::size_t i = channel; i < image.size(); i += 3)
+        sum += image[i];
+    return sum / (static_cast<double>(image.size()) / 3.0);
+}
+
+double block_mean(const Image &image, uint32_t block) {
+    const uint32_t left = block % (width / block_size) * block_size;
+    const uint32_t top = block / (width / block_size) * block_size;
+    double sum = 0.0;
+    for (uint32_t y = top; y < top + block_size; ++y)
+        for (uint32_t i = (y * width + left) * 3; i < (y * width + left + block_size) * 3; ++i)
+            sum += image[i];
+    return sum / (block_size * block_size * 3);
+}
+
+// Mean square per pixel and channel of the noise of the mean of the batches.
+double noise_of_mean(const std::vector<Image> &batches) {
+    double sum = 0.0;
+    std::vector<double> values(batches.size());
+    for (std::size_t i = 0; i < batches[0].size(); ++i) {
+        for (std::size_t b = 0; b < batches.size(); ++b)
+            values[b] = batches[b][i];
+        sum += statistics::moments(values).variance / static_cast<double>(batches.size());
+    }
+    return sum / static_cast<double>(batches[0].size());
+}
+
+struct Agreement {
+    double mean_square_t; // over blocks of 8 x 8 pixels; about expected_mean_square_t if only noise differs
+    double largest_t;
+};
+
+// Student's t of each block's difference to the reference: the batches give the variance of the block's mean, and the
+// reference's noise, of which only the total is known, is taken to be spread like ours.
+Agreement agreement(const std::vector<Image> &batches, const Image &reference, double reference_rmse) {
+    const double reference_share = reference_rmse * reference_rmse / noise_of_mean(batches);
+    constexpr uint32_t blocks = (width / block_size) * (height / block_size);
+    Agreement result{0.0, 0.0};
+    uint32_t noisy_blocks = 0;
+    std::vector<double> values(batches.size());
+    for (uint32_t block = 0; block < blocks; ++block) {
+        for (std::size_t b = 0; b < batches.size(); ++b)
+            values[b] = block_mean(batches[b], block);
+        const auto [mean, variance] = statistics::moments(values);
+        const double expected = block_mean(reference, block);
+        if (variance == 0.0) { // no noise: emission alone, where both are exact but for the reference's float32 sums
+            EXPECT_NEAR(mean, expected, 1e-5 * expected) << "block " << block;
+            continue;
+        }
+        const double of_mean = variance / static_cast<double>(batches.size()) * (1.0 + reference_share);
+        const double t = (mean - expected) / std::sqrt(of_mean);
+        result.mean_square_t += t * t;
+        result.largest_t = std::max(result.largest_t, std::abs(t));
+        ++noisy_blocks;
+    }
+    result.mean_square_t /= noisy_blocks;
+    return result;
+}
+
+// With k = 15 degrees of freedom t^2 has mean k / (k - 2) = 1.154 and standard deviation 1.84, so its mean over 512
+// independent blocks has standard deviation 0.081. Sums of 64 pixels are not quite normal and the reference's noise
+// is not quite spread like ours; 0.5 above the mean, 6 standard deviations, leaves room for that and still sees a
+// bias of one standard error per block.
+constexpr double expected_mean_square_t = 15.0 / 13.0;
+constexpr double mean_square_t_bound = expected_mean_square_t + 0.5;
+// P(|t| > 8.5) = 4e-7 with 15 degrees of freedom: 2e-4 over 512 blocks.
+constexpr double largest_t_bound = 8.5;
+
+class RenderTest : public ContextFixture, public testing::WithParamInterface<Case> {
+protected:
+    std::vector<Image> render_batches(const Case &test_case) {
+        CourseworkScene coursework;
+        if (test_case.diffuse)
+            coursework.make_diffuse();
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+        std::vector<Image> batches(batch_count, Image(width * height * 3));
+        for (uint32_t b = 0; b < batch_count; ++b) {
+            pt_render render = render_of(width, height, test_case.max_path_length);
+            render.seed = b + 1;
+            render.sampler = test_case.sampler;
+            EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+            accumulate(batch_samples);
+            readback(batches[b]);
+        }
+        return batches;
+    }
+};
+
+TEST_P(RenderTest, AgreesWithReference) {
+    const Case &test_case = GetParam();
+    const ReferenceImage reference = read_reference(test_case.reference);
+    ASSERT_EQ(reference.width, width);
+    ASSERT_EQ(reference.height, height);
+    const std::vector<Image> batches = render_batches(test_case);
+    const Image image = mean_of(batches);
+
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double expected = image_mean(reference.radiance, channel);
+        EXPECT_NEAR(image_mean(image, channel), expected, 1e-3 * expected) << "channel " << channel;
+    }
+    const Agreement found = agreement(batches, reference.radiance, test_case.reference_rmse);
+    RecordProperty("mean_square_t", std::to_string(found.mean_square_t));
+    RecordProperty("largest_t", std::to_string(found.largest_t));
+    std::printf("mean t^2 %.3f (expected %.3f), largest |t| %.2f, means %.5f %.5f %.5f\n", found.mean_square_t,
+                expected_mean_square_t, found.largest_t, image_mean(image, 0), image_mean(image, 1),
+                image_mean(image, 2));
+    EXPECT_LT(found.mean_square_t, mean_square_t_bound);
+    EXPECT_LT(found.largest_t, largest_t_bound);
+    EXPECT_EQ(stats().rejected_samples, 0U);
+    if (HasFailure()) {
+        const std::string name = testing::TempDir() + test_case.reference;
+        write_image(name + "_rendered.exr", width, height, image);
+        std::printf("the render is in %s_rendered.exr\n", name.c_str());
+    }
+
+    // Negative control: the judgement sees a render that is 3% too bright.
+    if (test_case.max_path_length > 1) {
+        std::vector<Image> wrong = batches;
+        for (Image &batch : wrong)
+            for (float &value : batch)
+                value *= 1.03F;
+        EXPECT_GT(agreement(wrong, reference.radiance, test_case.reference_rmse).mean_square_t, mean_square_t_bound);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Coursework, RenderTest,
+                         testing::Values(Case{"coursework_L1", false, 1, 0.05003, PT_SAMPLER_RANDOM},
+                                         Case{"coursework_L2", false, 2, 0.00537, PT_SAMPLER_BEST},
+                                         Case{"coursework_L6", false, 6, 0.0243, PT_SAMPLER_BEST},
+                                         Case{"coursework-diffuse_L2", true, 2, 0.00384, PT_SAMPLER_BEST},
+                                         Case{"coursework-diffuse_L6", true, 6, 0.01208, PT_SAMPLER_BEST}),
+                         [](const auto &param) {
+                             std::string name = param.param.reference;
+                             for (char &c : name)
+                                 c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                             return name;
+                         });
+
+} // namespace

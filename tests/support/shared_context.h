@@ -1,0 +1,15 @@
+// pt_create where the work is to be shared by several devices and there may be one alone: it is taken more than once.
+#pragma once
+
+#include "lib/api/context.h"
+
+#include <cstdint>
+#include <memory>
+
+inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::CreateSettings settings = pt::validated_create(info);
+        settings.devices_of_each = devices_of_each;
+        *context = std::make_unique<pt_context>(settings).release();
+    });
+}
