@@ -14,7 +14,7 @@ install(
   ARCHIVE COMPONENT pt_development
 )
 install(
-  FILES include/pt/pt.h
+  FILES include/pt/film.h include/pt/pt.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pt
   COMPONENT pt_development
 )

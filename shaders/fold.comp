@@ -1,4 +1,4 @@
-// Adds the film's newer part to the older one and empties it: one invocation per pixel of the strip.
+// Adds part 1 of the film to part 0 and empties it: one invocation per pixel of the strip.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -15,17 +15,17 @@ void main()
     if (gl_GlobalInvocationID.x >= frame.pixel_count)
         return;
     uint stride = frame.strip_pixel_count;
-    uint older = frame.first_pixel + gl_GlobalInvocationID.x;
-    uint newer = older + FILM_WORDS * stride;
+    uint kept = frame.first_pixel + gl_GlobalInvocationID.x;
+    uint emptied = kept + FILM_WORDS * stride;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
         uint first = channel * FILM_SUM_WORDS * stride;
         uvec4 sum;
         [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i)
-            sum[i] = film.words[newer + first + i * stride];
-        film_store_sum(older + first, stride, sum);
+            sum[i] = film.words[emptied + first + i * stride];
+        film_store_sum(kept + first, stride, sum);
     }
-    film.words[older + FILM_ACCEPTED * stride] += film.words[newer + FILM_ACCEPTED * stride];
-    film.words[older + FILM_REJECTED * stride] += film.words[newer + FILM_REJECTED * stride];
+    film.words[kept + FILM_ACCEPTED * stride] += film.words[emptied + FILM_ACCEPTED * stride];
+    film.words[kept + FILM_REJECTED * stride] += film.words[emptied + FILM_REJECTED * stride];
     [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
-        film.words[newer + plane * stride] = 0u;
+        film.words[emptied + plane * stride] = 0u;
 }

@@ -125,8 +125,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
-// Part 0 has the older samples and part 1 those since (lib/film/sample_parts.h): the image is the sum of both, and their
-// difference tells its error.
+// Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.
 PT_CONSTANT FILM_PARTS = 2;
 // Of a part, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
 // significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units

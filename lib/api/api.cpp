@@ -8,6 +8,8 @@
 #include "lib/kernel/accuracy.h"
 #include "lib/render/renderer.h"
 
+#include <pt/film.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -170,6 +172,28 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         // Before pt_set_render there is no size to check against; the renderer refuses then.
         const bool sized = renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count()) : pt::Image{});
+    });
+}
+
+pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes) {
+    return pt::guard_context(context, [&](const pt::Renderer &renderer) {
+        pt::require_not_null(size_bytes, "size_bytes");
+        const std::uint64_t needed = renderer.film_size_bytes();
+        if (data) {
+            pt::Violations violations;
+            const pt::Subject film(violations, "film");
+            film.require(*size_bytes >= needed, "size_bytes", *size_bytes, "must be >= " + std::to_string(needed));
+            violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+            renderer.save_film({static_cast<std::byte *>(data), needed});
+        }
+        *size_bytes = needed;
+    });
+}
+
+pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        pt::require_not_null(data, "data");
+        renderer.add_film({static_cast<const std::byte *>(data), size_bytes});
     });
 }
 

@@ -33,6 +33,8 @@ const char *result_name(pt_result result) noexcept {
         return "PT_ERROR_SHADER";
     case PT_ERROR_INTERNAL:
         return "PT_ERROR_INTERNAL";
+    case PT_ERROR_INCOMPATIBLE:
+        return "PT_ERROR_INCOMPATIBLE";
     default:
         return "unknown result";
     }

@@ -48,15 +48,14 @@ bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {
     return rejected_samples > samples >> 20;
 }
 
-std::uint32_t next_check(std::uint32_t sample_count) {
+std::uint64_t next_check(std::uint64_t sample_count) {
     if (sample_count < min_estimate_samples)
         return min_estimate_samples;
-    const std::uint32_t step = std::bit_floor(sample_count) / 8;
-    const std::uint64_t next = (std::uint64_t{sample_count} / step + 1) * step;
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(next, UINT32_MAX));
+    const std::uint64_t step = std::bit_floor(sample_count) / 8;
+    return (sample_count / step + 1) * step;
 }
 
-bool is_check(std::uint32_t sample_count) {
+bool is_check(std::uint64_t sample_count) {
     return sample_count >= min_estimate_samples && next_check(sample_count - 1) == sample_count;
 }
 

@@ -34,8 +34,8 @@ bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
 // The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of
 // two.
-std::uint32_t next_check(std::uint32_t sample_count);
-bool is_check(std::uint32_t sample_count);
+std::uint64_t next_check(std::uint64_t sample_count);
+bool is_check(std::uint64_t sample_count);
 
 // Factor >= 1 by which the error that the film's parts show may exceed the true one, with a sampler of pt.h.
 double exaggeration(std::uint32_t sampler);

@@ -2,7 +2,7 @@
 #include "lib/kernel/kernel.h"
 
 #include "lib/base/error.h"
-#include "lib/film/sample_parts.h"
+#include "lib/film/film_parts.h"
 #include "lib/kernel/gpu_scene.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pt {
 namespace {
 
 // Tables of points for one slice, 4 MiB at the most: one for each dispatch. A slice of 48 dispatches of 1023 samples
-// is cut at no more than 13 powers of two, the first of them 8.
+// is cut no more than 15 times, since from cut to cut the split has more zeros at its end (film_parts.h).
 constexpr std::uint32_t max_tables = 64;
 constexpr std::uint32_t max_full_dispatches = 48;
 
@@ -50,8 +50,8 @@ std::uint32_t sharers_of_pixel(const vulkan::Device &device, std::uint32_t pixel
 
 } // namespace
 
-Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, const Scene &scene, const Camera &camera,
-               const RenderSettings &settings) :
+Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const Scene &scene,
+               const Camera &camera, const RenderSettings &settings) :
     device_(device),
     pipelines_(pipelines),
     film_(film),
@@ -59,7 +59,6 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
     layout_(pt::point_layout(features_)),
     sampler_(settings.sampler),
     seed_(settings.seed),
-    first_index_(settings.first_sample),
     first_pixel_(settings.first_row * settings.width),
     film_unit_(pt::film_unit(scene)),
     frame_(frame_constants(camera, settings, film_unit_)),
@@ -74,7 +73,7 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, co
             "points of a slice") {
     scene_.upload(std::as_bytes(std::span(words_)), 0);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
-    for (Film::Strip &strip : film_.strips()) {
+    for (DeviceFilm::Strip &strip : film_.strips()) {
         const std::array buffers = {&scene_, &scene_, &strip.words, &strip.pass, &points_};
         sets_.push_back(trace.bind(buffers));
     }
@@ -92,12 +91,16 @@ std::uint32_t Kernel::max_samples() const {
 
 // The samples of a slice as batches of one dispatch each, all of one part of the film. Their tables are free: slices
 // end in the order in which they were started, and there is room for all that are under way.
-std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std::uint32_t sample_count) {
+std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std::uint32_t sample_count,
+                                                SampleRange hull) {
     std::vector<Batch> batches;
-    const std::uint32_t end = first_sample + sample_count;
-    for (std::uint32_t sample = first_sample; sample < end; sample += batches.back().sample_count) {
-        const std::uint32_t of_part = std::min(end, end_of_part(sample)) - sample;
-        batches.push_back({sample, std::min(max_dispatch_samples_, of_part), next_table_ * table_bytes_});
+    const std::uint64_t end = std::uint64_t{first_sample} + sample_count;
+    for (std::uint64_t sample = first_sample; sample < end; sample = batches.back().range().end) {
+        const std::uint64_t run_end = std::min(end, end_of_run(hull, sample));
+        const std::uint64_t count = std::min<std::uint64_t>(max_dispatch_samples_, run_end - sample);
+        batches.push_back(
+            {static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(count), next_table_ * table_bytes_});
+        hull = hull_of(hull, batches.back().range());
         next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
     }
     return batches;
@@ -108,7 +111,7 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
         return;
     for (const Batch &batch : batches) {
         std::vector<std::uint32_t> indices(batch.sample_count);
-        std::iota(indices.begin(), indices.end(), first_index_ + batch.first_sample);
+        std::iota(indices.begin(), indices.end(), batch.first_sample);
         const std::vector<PointBlock> table = point_table(sampler_, seed_, indices, layout_);
         points_.upload(std::as_bytes(std::span(table)), batch.table_offset);
     }
@@ -116,15 +119,16 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
 
 // Records a kernel over the part of a range of pixels that lies in each strip.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                      const Slice &slice, const Batch &batch, std::uint32_t invocations_per_pixel) const {
+                      const Slice &slice, const Batch &batch, std::uint32_t film_part,
+                      std::uint32_t invocations_per_pixel) const {
     gpu::FrameConstants frame = frame_;
     frame.split_pass = slice.whole ? 0 : 1;
-    frame.film_part = part_of(batch.first_sample);
-    frame.first_sample = first_index_ + batch.first_sample;
+    frame.film_part = film_part;
+    frame.first_sample = batch.first_sample;
     frame.sample_count = batch.sample_count;
     const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
     for (std::size_t i = 0; i < sets_.size(); ++i) {
-        const Film::Strip &strip = film_.strips()[i];
+        const DeviceFilm::Strip &strip = film_.strips()[i];
         const std::uint32_t first = std::max(slice.first_pixel, strip.first_pixel);
         const std::uint32_t end = std::min(slice_end, strip.first_pixel + strip.pixel_count);
         if (first >= end)
@@ -139,56 +143,58 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     }
 }
 
-// Each batch of whole samples finds the film's older part complete: where it is not, the newer one is folded into it
-// first.
-vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample) {
+// Where the film's split moves, its parts are folded before the batch that moves it.
+vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull) {
     const Slice all_pixels{0, film_.pixel_count(), 1, true};
-    std::uint32_t older_end = film_.older_end();
-    const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count);
+    PartUse parts = film_.parts();
+    const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count, hull);
     upload_points(batches);
     if (!slice.whole)
-        build_commit(first_sample);
+        build_commit();
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         for (const Batch &batch : batches) {
             const bool is_first = &batch == &batches.front();
-            const std::uint32_t needed = part_counts(batch.first_sample + 1)[0];
-            const bool folds = slice.whole && needed > older_end;
+            const SampleRange extended = hull_of(hull, batch.range());
+            const bool folds = slice.whole && parts.needs_fold(extended);
             if (!is_first && (folds || !overlap_))
                 vulkan::barrier_between_dispatches(commands);
             if (folds) {
-                dispatch(commands, pipelines_.fold(), all_pixels, batch, 1);
+                dispatch(commands, pipelines_.fold(), all_pixels, batch, 0, 1);
                 vulkan::barrier_between_dispatches(commands);
-                older_end = needed;
             }
-            dispatch(commands, trace, slice, batch, sharers_);
+            if (slice.whole)
+                parts.extend(extended);
+            dispatch(commands, trace, slice, batch, parts.part_of(batch.first_sample), sharers_);
         }
     });
-    film_.set_older_end(older_end);
+    film_.set_parts(parts);
     return ticket;
 }
 
 // Folds range by range too: only where the pass has been added to all pixels is the film read.
-vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample) {
+vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, const SampleRange &hull) {
     const Batch batch{sample, 1, 0};
-    const std::uint32_t needed = part_counts(sample + 1)[0];
+    const SampleRange extended = hull_of(hull, batch.range());
+    PartUse parts = film_.parts();
+    const bool folds = parts.needs_fold(extended);
+    parts.extend(extended);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
-        if (needed > film_.older_end()) {
-            dispatch(commands, pipelines_.fold(), range, batch, 1);
+        if (folds) {
+            dispatch(commands, pipelines_.fold(), range, batch, 0, 1);
             vulkan::barrier_between_dispatches(commands);
         }
-        dispatch(commands, pipelines_.commit(), range, batch, 1);
+        dispatch(commands, pipelines_.commit(), range, batch, parts.part_of(sample), 1);
     });
     if (range.first_pixel + range.pixel_count == film_.pixel_count())
-        film_.set_older_end(std::max(needed, film_.older_end()));
+        film_.set_parts(parts);
     return ticket;
 }
 
 // Before the pass, so that adding it cannot fail for want of them.
-void Kernel::build_commit(std::uint32_t sample) {
+void Kernel::build_commit() {
     pipelines_.commit();
-    if (part_counts(sample + 1)[0] > film_.older_end())
-        pipelines_.fold();
+    pipelines_.fold();
 }
 
 double Kernel::finish(vulkan::Device::Ticket ticket) {

@@ -2,7 +2,7 @@
 // Owned by RenderDevice, which makes a new one when any of them changes.
 #pragma once
 
-#include "lib/film/film.h"
+#include "lib/film/device_film.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/kernel/trace_pipelines.h"
@@ -24,8 +24,8 @@ namespace pt {
 class Kernel {
 public:
     // device, pipelines and film must outlive the kernel. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
-    Kernel(vulkan::Device &device, TracePipelines &pipelines, Film &film, const Scene &scene, const Camera &camera,
-           const RenderSettings &settings);
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const Scene &scene,
+           const Camera &camera, const RenderSettings &settings);
 
     const Features &features() const { return features_; }
     double film_unit() const { return film_unit_; }
@@ -37,13 +37,14 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Starts to take the samples of a slice, of which first_sample is the first, numbered as in sample_parts.h; those
-    // of a split pass are kept aside. At most the device's queue_depth of slices may be under way.
-    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample);
+    // Starts to take the samples of a slice, of which first_sample is the index of the first; those of a split pass are
+    // kept aside. hull: of the samples that this device and others that render the same have begun before. At most the
+    // device's queue_depth of slices may be under way.
+    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull);
 
     // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
     // holds whole samples again with the range that ends it.
-    vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample);
+    vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample, const SampleRange &hull);
 
     // Waits for a slice of start() and returns the seconds it took.
     double finish(vulkan::Device::Ticket ticket);
@@ -54,22 +55,23 @@ private:
         std::uint32_t first_sample;
         std::uint32_t sample_count;
         std::uint32_t table_offset; // bytes
+
+        SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
 
-    std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count);
+    std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count, SampleRange hull);
     void upload_points(const std::vector<Batch> &batches);
-    void build_commit(std::uint32_t sample);
+    void build_commit();
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
-                  const Batch &batch, std::uint32_t invocations_per_pixel) const;
+                  const Batch &batch, std::uint32_t film_part, std::uint32_t invocations_per_pixel) const;
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;
-    Film &film_;
+    DeviceFilm &film_;
     Features features_;
     PointLayout layout_;
     std::uint32_t sampler_;
     std::uint64_t seed_;
-    std::uint32_t first_index_; // of the first sample in the sequence
     std::uint32_t first_pixel_; // of the film, in the image
     double film_unit_;
     gpu::FrameConstants frame_;

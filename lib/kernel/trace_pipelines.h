@@ -33,7 +33,7 @@ public:
     // The kernel that adds a split pass to the film.
     const vulkan::ComputePipeline &commit();
 
-    // The kernel that adds the film's newer part to the older one.
+    // The kernel that adds one part of the film to the other.
     const vulkan::ComputePipeline &fold();
 
 private:

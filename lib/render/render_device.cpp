@@ -39,8 +39,8 @@ RenderDevice::~RenderDevice() {
 }
 
 // Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
-Film RenderDevice::make_film(const RenderSettings &settings) {
-    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * Film::bytes_per_pixel;
+DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
+    const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
     const std::uint64_t memory_bytes = device_.info().memory_bytes;
     if (bytes > memory_bytes)
         throw Error(PT_ERROR_UNSUPPORTED, "render.width * rows = " + std::to_string(settings.width) + " * " +
@@ -51,7 +51,7 @@ Film RenderDevice::make_film(const RenderSettings &settings) {
     return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits())};
 }
 
-void RenderDevice::set_film(Film film) {
+void RenderDevice::set_film(DeviceFilm film) {
     kernel_.reset(); // its descriptor sets name the old film
     film_ = std::move(film);
     ScheduleLimits limits{};
@@ -97,7 +97,7 @@ void RenderDevice::prepare(const Scene &scene, const Camera &camera, const Rende
     schedule_.emplace(film_->pixel_count(), limits);
 }
 
-Film &RenderDevice::film() {
+DeviceFilm &RenderDevice::film() {
     while (film_is_behind()) {
         start_film_work();
         finish();
@@ -105,9 +105,14 @@ Film &RenderDevice::film() {
     return *film_;
 }
 
-std::uint32_t RenderDevice::start(std::uint32_t next_sample, std::uint32_t remaining) {
+void RenderDevice::discard_pass() {
+    device_.submit([&](const vk::raii::CommandBuffer &commands) { film_->clear_pass(commands); });
+    pass_pixels_ = 0;
+}
+
+std::uint32_t RenderDevice::start(const SampleRange &samples, const SampleRange &hull) {
     if (!film_is_behind())
-        return start_samples(next_sample, remaining);
+        return start_samples(samples, hull);
     start_film_work();
     return 0;
 }
@@ -119,22 +124,24 @@ void RenderDevice::start_film_work() {
                                               ? device_.start([&](const vk::raii::CommandBuffer &commands) {
                                                     film_->clear(commands, slice.first_pixel, slice.pixel_count);
                                                 })
-                                              : kernel_->commit(slice, pass_sample_);
+                                              : kernel_->commit(slice, pass_sample_, pass_hull_);
     under_way_.push_back({slice, ticket, true});
     pixels_left -= slice.pixel_count;
 }
 
-std::uint32_t RenderDevice::start_samples(std::uint32_t next_sample, std::uint32_t remaining) {
+std::uint32_t RenderDevice::start_samples(const SampleRange &samples, const SampleRange &hull) {
     const bool in_pass = pass_pixels_ > 0;
-    const Slice slice = schedule_->next(std::max(remaining, 1U), pass_pixels_);
-    const std::uint32_t first_sample = in_pass ? pass_sample_ : next_sample;
-    under_way_.push_back({slice, kernel_->start(slice, first_sample), false});
+    const auto remaining = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(samples.count(), 1, UINT32_MAX));
+    const Slice slice = schedule_->next(remaining, pass_pixels_);
+    const std::uint32_t first_sample = in_pass ? pass_sample_ : static_cast<std::uint32_t>(samples.first);
+    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull), false});
     if (!slice.whole) {
         const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
         const bool is_complete = slice_end == film_->pixel_count();
         pass_pixels_ = is_complete ? 0 : slice_end;
         uncommitted_pixels_ = is_complete ? slice_end : 0;
         pass_sample_ = first_sample;
+        pass_hull_ = hull;
     }
     return in_pass ? 0 : slice.sample_count;
 }

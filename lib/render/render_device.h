@@ -2,7 +2,7 @@
 // which deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
 #pragma once
 
-#include "lib/film/film.h"
+#include "lib/film/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
@@ -34,12 +34,12 @@ public:
     const vulkan::Device &device() const { return device_; }
 
     // Brought up to date first, so that it holds the whole samples that this device has taken. Idle.
-    Film &film();
+    DeviceFilm &film();
     std::uint32_t pixel_count() const { return film_->pixel_count(); }
 
     // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
-    Film make_film(const RenderSettings &settings);
-    void set_film(Film film);
+    DeviceFilm make_film(const RenderSettings &settings);
+    void set_film(DeviceFilm film);
 
     // What the film holds is void. The kernel has to be prepared anew.
     void discard_samples() noexcept;
@@ -56,6 +56,14 @@ public:
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
     std::uint32_t pass_pixels() const { return pass_pixels_; }
 
+    // The sample of the pass under way, or no sample.
+    SampleRange pass() const {
+        return pass_pixels_ > 0 ? SampleRange{pass_sample_, std::uint64_t{pass_sample_} + 1} : SampleRange{};
+    }
+
+    // Ends the pass under way, of which the film has nothing. Idle.
+    void discard_pass();
+
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
     bool is_idle() const { return under_way_.empty(); }
 
@@ -63,10 +71,10 @@ public:
     // are complete. Not within a pass.
     bool film_is_behind() const { return uncleared_pixels_ + uncommitted_pixels_ > 0; }
 
-    // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of at most
-    // remaining samples, of which next_sample is the first, numbered from 0. Returns how many samples it has begun: 0
-    // for the film and within a pass. has_room() must hold.
-    std::uint32_t start(std::uint32_t next_sample, std::uint32_t remaining);
+    // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
+    // these samples. hull: of those that this device and others have begun before. Returns how many samples the slice
+    // has begun: 0 for the film and within a pass. has_room() must hold.
+    std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
 
     // Whether finish() would not wait. Not idle.
     bool is_done() const { return device_.is_done(under_way_.front().ticket); }
@@ -89,18 +97,19 @@ private:
     };
 
     void start_film_work();
-    std::uint32_t start_samples(std::uint32_t next_sample, std::uint32_t remaining);
+    std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 
     vulkan::Device device_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    std::optional<Film> film_;
+    std::optional<DeviceFilm> film_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel
     std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path
     std::vector<Work> under_way_;           // in the order of their starts; has room for all that there may be
     std::uint32_t pass_pixels_ = 0;
-    std::uint32_t pass_sample_ = 0;        // number of the pass's sample
+    std::uint32_t pass_sample_ = 0;        // index of the pass's sample
+    SampleRange pass_hull_;                // of the samples begun before it
     std::uint32_t uncleared_pixels_ = 0;   // at the film's end, that still hold what is void
     std::uint32_t uncommitted_pixels_ = 0; // at the film's end, without the pass's sample, which is complete
 };

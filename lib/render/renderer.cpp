@@ -2,8 +2,10 @@
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
-#include "lib/film/sample_parts.h"
 #include "lib/kernel/accuracy.h"
+#include "lib/kernel/gpu_scene.h"
+#include "lib/render/film_identity.h"
+#include "lib/render/saved_film.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
@@ -70,7 +72,7 @@ void Renderer::require_alive() const {
 void Renderer::discard_samples() noexcept {
     for (const auto &device : devices_)
         device->discard_samples();
-    samples_done_ = 0;
+    samples_ = {};
     error_.reset();
 }
 
@@ -91,7 +93,7 @@ void Renderer::set_render(const RenderSettings &settings) {
     const bool same_size =
         settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
     if (!same_size) {
-        std::vector<Film> films;
+        std::vector<DeviceFilm> films;
         for (const auto &device : devices_)
             films.push_back(device->make_film(settings));
         for (std::size_t i = 0; i < films.size(); ++i)
@@ -130,75 +132,91 @@ void Renderer::require_settings() const {
         throw Error(PT_ERROR_INVALID_STATE, "no render settings: call pt_set_render first");
 }
 
-bool Renderer::is_in_pass() const {
-    return std::ranges::any_of(devices_, [](const auto &device) { return device->pass_pixels() > 0; });
+void Renderer::require_samples() const {
+    if (samples_.empty())
+        throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
 }
 
-std::vector<Film *> Renderer::films() const {
-    std::vector<Film *> films;
+bool Renderer::is_in_pass() const {
+    return std::ranges::any_of(devices_, [](const auto &device) { return !device->pass().empty(); });
+}
+
+std::vector<DeviceFilm *> Renderer::films() const {
+    std::vector<DeviceFilm *> films;
     for (const auto &device : devices_)
         films.push_back(&device->film());
     return films;
 }
 
 const ErrorEstimate &Renderer::error() {
-    if (!error_ && samples_done_ < min_estimate_samples)
+    if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
         ErrorEstimator estimator(settings_->width);
         std::uint64_t rejected = 0;
-        read_films(films(), kernel().film_unit(), part_counts(samples_done_), true, [&](const PixelEstimates &pixels) {
+        read_films(films(), samples_, [&](const PixelSums &sums) {
+            const PixelEstimates pixels = sums.estimates(film_unit(*scene_), true);
             estimator.add(pixels.radiance, pixels.standard_error);
             rejected += pixels.rejected;
         });
-        const std::uint64_t samples = std::uint64_t{samples_done_} * devices_.front()->film().pixel_count();
+        const std::uint64_t samples = samples_.count() * devices_.front()->film().pixel_count();
         error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result(exaggeration(settings_->sampler));
     }
     return *error_;
 }
 
 bool Renderer::is_on_target(double target_error) {
-    return target_error > 0.0 && is_check(samples_done_) && error().relative_rmse.high <= target_error;
+    return target_error > 0.0 && is_check(samples_.count()) && error().relative_rmse.high <= target_error;
+}
+
+// The next sample is the first from first_sample on that the film lacks.
+void Renderer::require_room_for(std::uint32_t sample_count) const {
+    const std::uint64_t first = settings_->first_sample;
+    const std::uint64_t missing = sample_index_end - first - (samples_.count() - samples_.count_below(first));
+    if (sample_count > missing)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": sample indices would pass 2^32 (the next is " +
+                                                   std::to_string(samples_.next_missing(first).first) + ")");
+    if (sample_count > UINT32_MAX - samples_.count())
+        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
+                                                   ": a pixel holds at most 2^32 - 1 samples (it has " +
+                                                   std::to_string(samples_.count()) + ")");
 }
 
 pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
     require_settings();
-    const std::uint64_t first = std::uint64_t{settings_->first_sample} + samples_done_;
-    if (first + sample_count > std::uint64_t{1} << 32)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
-                                                   ": sample indices would pass 2^32 (the next is " +
-                                                   std::to_string(first) + ")");
-    if (sample_count > UINT32_MAX - samples_done_)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
-                                                   ": a pixel holds at most 2^32 - 1 samples (it has " +
-                                                   std::to_string(samples_done_) + ")");
+    require_room_for(sample_count);
     for (const auto &device : devices_)
         device->prepare(*scene_, *camera_, *settings_);
 
-    const std::uint32_t samples_wanted = samples_done_ + sample_count;
+    const std::uint64_t samples_wanted = samples_.count() + sample_count;
     const std::uint64_t pixel_count = devices_.front()->pixel_count();
     Job job{progress, sample_count * pixel_count - devices_.front()->pass_pixels()};
-    while (samples_done_ < samples_wanted) {
+    while (samples_.count() < samples_wanted) {
         if (!is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
-        take_samples(target_error > 0.0 ? std::min(samples_wanted, next_check(samples_done_)) : samples_wanted, job);
-        if (job.stopped && samples_done_ < samples_wanted)
+        take_samples(target_error > 0.0 ? std::min(samples_wanted, next_check(samples_.count())) : samples_wanted, job);
+        if (job.stopped && samples_.count() < samples_wanted)
             return PT_CANCELLED;
     }
     return PT_OK;
 }
 
-// Takes samples up to a number of them. Devices are dealt samples in order, and none is left out once one is begun:
-// what is done in the end is a range without gaps. Only a device that is alone may stop within a pass, and will go on
-// there.
-void Renderer::take_samples(std::uint32_t end, Job &job) {
-    std::uint32_t dealt = samples_done_ + (is_in_pass() ? 1 : 0);
+// Takes samples until the film has as many. Devices are dealt the samples that it lacks in ascending order, and none is
+// left out once one is begun. Only a device that is alone may stop within a pass, and will go on there.
+void Renderer::take_samples(std::uint64_t count, Job &job) {
+    SampleSet dealt = samples_;
+    if (is_in_pass())
+        dealt.add(devices_.front()->pass());
     const auto deal = [&](RenderDevice &device) {
-        const bool finishes_pass = device.pass_pixels() > 0 && !(job.stopped && devices_.size() == 1);
-        const bool goes_on = !job.stopped && (device.film_is_behind() || (device.pass_pixels() == 0 && dealt < end));
+        const bool finishes_pass = !device.pass().empty() && !(job.stopped && devices_.size() == 1);
+        const bool goes_on =
+            !job.stopped && (device.film_is_behind() || (device.pass().empty() && dealt.count() < count));
         if (!device.has_room() || !(finishes_pass || goes_on))
             return false;
-        dealt += device.start(dealt, end - dealt);
+        SampleRange next = dealt.next_missing(settings_->first_sample);
+        next.end = std::min(next.end, next.first + (count - std::min(count, dealt.count())));
+        dealt.add({next.first, next.first + device.start(next, dealt.hull())});
         return true;
     };
     const auto take = [&] {
@@ -207,7 +225,9 @@ void Renderer::take_samples(std::uint32_t end, Job &job) {
                 while (deal(*device)) {
                 }
         } while (finish_slice(job));
-        samples_done_ = dealt - (is_in_pass() ? 1 : 0);
+        samples_ = dealt;
+        if (is_in_pass())
+            samples_.remove(devices_.front()->pass());
         error_.reset();
     };
     try {
@@ -258,16 +278,58 @@ RenderDevice *Renderer::next_to_finish() {
 
 void Renderer::readback(const Image &image) {
     require_settings();
-    if (samples_done_ == 0)
-        throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate first");
+    require_samples();
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
     const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
-    read_films(films(), kernel().film_unit(), part_counts(samples_done_), is_error, [&](const PixelEstimates &pixels) {
+    const double unit = film_unit(*scene_);
+    read_films(films(), samples_, [&](const PixelSums &sums) {
+        const PixelEstimates pixels = sums.estimates(unit, is_error);
         const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;
         for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
             std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);
     });
+}
+
+FilmIdentity Renderer::identity() const {
+    std::vector<pt_device_info> infos;
+    for (const auto &device : devices_)
+        infos.push_back(device->device().info());
+    return identity_of(*scene_, *camera_, *settings_, code_, infos);
+}
+
+Rectangle Renderer::pixels() const {
+    return {0, settings_->first_row, settings_->width, settings_->row_count};
+}
+
+FilmHeader Renderer::film_header() const {
+    require_settings();
+    require_samples();
+    return {identity(), {{pixels(), samples_}}};
+}
+
+std::uint64_t Renderer::film_size_bytes() const {
+    return FilmLayout(film_header()).size_bytes();
+}
+
+void Renderer::save_film(std::span<std::byte> bytes) const {
+    save(films(), film_header(), bytes);
+}
+
+// A pass under way, of which no sample is counted yet, ends where the film brings its sample.
+void Renderer::add_film(std::span<const std::byte> bytes) {
+    require_settings();
+    const FilmReader film(bytes);
+    require_same(film.header().identity, identity());
+    require_addable(film, pixels(), samples_);
+    RenderDevice &device = *devices_.front();
+    const SampleSet &added = film.header().tiles.front().samples;
+    DeviceFilm &device_film = device.film();
+    if (is_in_pass() && added.overlap(device.pass()))
+        device.discard_pass();
+    add(film, hull_of(samples_.hull(), added.hull()), device_film);
+    samples_.add(added);
+    error_.reset();
 }
 
 pt_stats Renderer::stats(bool with_error) {
@@ -275,11 +337,11 @@ pt_stats Renderer::stats(bool with_error) {
     const bool readable = settings_ && alive;
     const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
     pt_stats stats{};
-    stats.sample_count = samples_done_;
+    stats.sample_count = static_cast<std::uint32_t>(samples_.count());
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
     for (const auto &device : devices_) {
-        stats.rejected_samples += readable && samples_done_ > 0 ? device->film().rejected_samples() : 0;
+        stats.rejected_samples += readable && !samples_.empty() ? device->film().rejected_samples() : 0;
         stats.device_bytes += device->device().allocated_bytes();
     }
     stats.features = devices_.front()->kernel() ? feature_bits(kernel().features()) : 0;

@@ -3,8 +3,9 @@
 
 #include "lib/api/image.h"
 #include "lib/base/log.h"
+#include "lib/film/device_film.h"
 #include "lib/film/error_estimate.h"
-#include "lib/film/film.h"
+#include "lib/film/film_header.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
@@ -16,6 +17,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +72,10 @@ public:
 
     void readback(const Image &image);
 
+    std::uint64_t film_size_bytes() const;
+    void save_film(std::span<std::byte> bytes) const; // of that size
+    void add_film(std::span<const std::byte> bytes);
+
     // Without the error its fields say that nothing is known.
     pt_stats stats(bool with_error);
 
@@ -91,13 +97,18 @@ private:
                     const CreateSettings &settings);
     void require_alive() const;
     void require_settings() const;
+    void require_samples() const;
+    void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
     bool is_in_pass() const;
     const Kernel &kernel() const { return *devices_.front()->kernel(); }
-    std::vector<Film *> films() const;
+    std::vector<DeviceFilm *> films() const;
+    FilmIdentity identity() const;
+    Rectangle pixels() const;
+    FilmHeader film_header() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
-    void take_samples(std::uint32_t end, Job &job);
+    void take_samples(std::uint64_t count, Job &job);
     bool finish_slice(Job &job);
     RenderDevice *next_to_finish();
 
@@ -108,7 +119,7 @@ private:
     std::optional<Scene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_; // the devices have films if it is there
-    std::uint32_t samples_done_ = 0;         // whole samples in every pixel
+    SampleSet samples_;                      // whole ones, in every pixel
     std::optional<ErrorEstimate> error_;     // of them, once it has been asked for
     std::uint64_t submit_count_ = 0;
     double device_seconds_ = 0.0;

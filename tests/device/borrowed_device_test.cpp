@@ -95,7 +95,7 @@ protected:
         device.prepare(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
                        settings);
         for (std::uint32_t sample = 0; sample < 4;) {
-            sample += device.start(sample, 4 - sample);
+            sample += device.start({sample, 4}, {0, sample});
             device.finish();
         }
         EXPECT_EQ(device.film().rejected_samples(), 0U);

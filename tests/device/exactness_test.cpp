@@ -235,10 +235,10 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
 
     // And one check earlier it was not.
     set_up_coursework(context(), 3);
-    uint32_t before = pt::next_check(0);
+    uint64_t before = pt::next_check(0);
     while (pt::next_check(before) < reached.sample_count)
         before = pt::next_check(before);
-    accumulate(before);
+    accumulate(static_cast<uint32_t>(before));
     EXPECT_GT(stats().relative_rmse_high, target);
 }
 

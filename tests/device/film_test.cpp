@@ -1,5 +1,5 @@
 // Exact sums: the device's fixed-point additions against sums of the same floats in wider integers on the host.
-#include "lib/film/film.h"
+#include "lib/film/device_film.h"
 
 #include "film_sums.spv.h"
 #include "tests/device/probe.h"
@@ -75,7 +75,7 @@ TEST(Film, DeviceSumsAreExact) {
     const std::vector<glm::vec4> samples = awkward_samples();
     Probe probe(film_sums_spirv, sizeof push);
     const std::vector<std::uint32_t> film =
-        probe.run<std::uint32_t>(samples, pixels * pt::Film::words_per_pixel, push, pixels);
+        probe.run<std::uint32_t>(samples, pixels * pt::PixelSums::words_per_pixel, push, pixels);
     EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
                             [](std::uint32_t value) { return value == 0; }));
 
@@ -110,7 +110,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     for (const float extreme : extremes)
         samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
     const auto film = Probe(film_sums_spirv, sizeof push)
-                          .run<std::uint32_t>(samples, push.count * pt::Film::words_per_pixel, push, push.count);
+                          .run<std::uint32_t>(samples, push.count * pt::PixelSums::words_per_pixel, push, push.count);
     for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
         const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
         for (std::size_t i = 0; i < 4; ++i)
@@ -125,47 +125,89 @@ struct Part {
     std::uint32_t rejected;
 };
 
-// Estimates from a film of one pixel, with the unit 0.25.
-pt::PixelEstimates estimates(const Part &a, const Part &b, const pt::PartCounts &expected) {
-    std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
-    const auto set = [&](const Part &part, std::size_t first) {
+pt::PixelSums one_pixel(const Part &older, const Part &newer) {
+    pt::PixelSums sums;
+    sums.resize(1);
+    const auto set = [&](const Part &part, pt::FilmPart index) {
+        for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
+            sums.plane(index, plane)[0] = 0;
         const std::uint64_t sum = std::uint64_t{part.red} << (pt::gpu::FILM_FRACTION_BITS - 32);
-        words[first + 1] = static_cast<std::uint32_t>(sum);
-        words[first + 2] = static_cast<std::uint32_t>(sum >> 32);
-        words[first + pt::gpu::FILM_ACCEPTED] = part.accepted;
-        words[first + pt::gpu::FILM_REJECTED] = part.rejected;
+        sums.plane(index, 1)[0] = static_cast<std::uint32_t>(sum);
+        sums.plane(index, 2)[0] = static_cast<std::uint32_t>(sum >> 32);
+        sums.plane(index, pt::gpu::FILM_ACCEPTED)[0] = part.accepted;
+        sums.plane(index, pt::gpu::FILM_REJECTED)[0] = part.rejected;
     };
-    set(a, 0);
-    set(b, pt::gpu::FILM_WORDS);
-    return pt::pixel_estimates(words, 1, 0.25, expected, true);
+    set(older, pt::older_part);
+    set(newer, pt::newer_part);
+    return sums;
+}
+
+// With the unit 0.25.
+pt::PixelEstimates estimates(const Part &older, const Part &newer) {
+    return one_pixel(older, newer).estimates(0.25, true);
 }
 
 TEST(Film, MeanIsOverAcceptedSamplesInRadianceUnits) {
-    const std::vector<float> mean = estimates({5, 1, 1}, {4, 2, 0}, {2, 2}).radiance;
+    const std::vector<float> mean = estimates({5, 1, 1}, {4, 2, 0}).radiance;
     EXPECT_EQ(mean, (std::vector<float>{0.75F, 0.0F, 0.0F}));
-    EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}, {2, 2}).radiance, std::vector<float>(3, 0.0F));
+    EXPECT_EQ(estimates({0, 0, 2}, {0, 0, 2}).radiance, std::vector<float>(3, 0.0F));
 }
 
 // Means of 8 and 4 units differ by one radiance unit, of which equal parts count a half.
 TEST(Film, StandardErrorIsFromTheDifferenceOfTheParts) {
-    EXPECT_EQ(estimates({16, 2, 0}, {8, 2, 0}, {2, 2}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
-    // Of 1 and 4 samples: sqrt(1 * 4) / 5. Rejected samples do not count.
-    EXPECT_EQ(estimates({8, 1, 3}, {16, 4, 0}, {4, 4}).standard_error[0], 0.4F);
+    EXPECT_EQ(estimates({80, 10, 0}, {40, 10, 0}).standard_error, (std::vector<float>{0.5F, 0.0F, 0.0F}));
+    // Of 2 and 8 samples: sqrt(2 * 8) / 10. Rejected samples do not count.
+    EXPECT_EQ(estimates({16, 2, 3}, {32, 8, 0}).standard_error[0], 0.4F);
 }
 
-TEST(Film, StandardErrorIsUnknownWithAnEmptyPart) {
+TEST(Film, StandardErrorIsUnknownWithAnEmptyPartAndWithFewSamples) {
     const std::vector<float> unknown(3, std::numeric_limits<float>::infinity());
-    EXPECT_EQ(estimates({8, 1, 0}, {0, 0, 0}, {1, 0}).standard_error, unknown);
-    EXPECT_EQ(estimates({0, 0, 1}, {8, 1, 0}, {1, 1}).standard_error, unknown);
-    EXPECT_EQ(estimates({0, 0, 1}, {0, 0, 1}, {1, 1}).standard_error, unknown);
+    EXPECT_EQ(estimates({8, 9, 0}, {0, 0, 0}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 1}, {8, 8, 0}).standard_error, unknown);
+    EXPECT_EQ(estimates({0, 0, 9}, {0, 0, 1}).standard_error, unknown);
+    EXPECT_EQ(estimates({8, 7, 0}, {8, 1, 0}).standard_error, unknown);
+    EXPECT_NE(estimates({8, 7, 0}, {8, 2, 0}).standard_error, unknown);
 }
 
 TEST(Film, LostSamplesAreAnError) {
-    const pt::Error error = error_of([] { estimates({9, 4, 0}, {9, 3, 0}, {4, 4}); });
+    const pt::Error error = error_of([] { one_pixel({9, 4, 0}, {9, 3, 0}).require_samples({4, 4}); });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
     // Not even if the other part has one too many.
-    EXPECT_EQ(error_of([] { estimates({9, 5, 0}, {9, 3, 0}, {4, 4}); }).code(), PT_ERROR_INTERNAL);
+    EXPECT_EQ(error_of([] { one_pixel({9, 5, 0}, {9, 3, 0}).require_samples({4, 4}); }).code(), PT_ERROR_INTERNAL);
+}
+
+// Carries go through all words of a sum, and parts stay apart until they are folded.
+TEST(Film, SumsAddAndFold) {
+    const auto whole = [](std::uint32_t word) {
+        pt::PixelSums sums = one_pixel({0, 1, 2}, {0, 3, 4});
+        for (std::size_t plane = 0; plane < 3; ++plane)
+            sums.plane(pt::older_part, plane)[0] = word;
+        return sums;
+    };
+    pt::PixelSums sums = whole(UINT32_MAX);
+    pt::PixelSums one = one_pixel({0, 0, 0}, {0, 0, 0});
+    one.plane(pt::older_part, 0)[0] = 1;
+    sums.add(one);
+    pt::PixelSums expected = whole(0);
+    expected.plane(pt::older_part, 3)[0] = 1;
+    EXPECT_TRUE(sums == expected);
+    sums.fold_into(pt::newer_part);
+    EXPECT_EQ(sums.plane(pt::newer_part, 3)[0], 1U);
+    sums.require_samples({0, 10});
+    sums.swap_parts();
+    sums.require_samples({10, 0});
+}
+
+TEST(Film, SumsThatNoSamplesHaveAreSeen) {
+    EXPECT_TRUE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 1}));
+    EXPECT_FALSE(one_pixel({9, 1, 0}, {0, 0, 1}).holds({1, 2}));
+    EXPECT_FALSE(one_pixel({9, 0, 1}, {0, 0, 1}).holds({1, 1})) << "light without accepted samples";
+    pt::PixelSums bright = one_pixel({0, 3, 0}, {0, 1, 0});
+    bright.plane(pt::older_part, 2)[0] = 3U << (pt::gpu::FILM_MAX_EXPONENT + pt::gpu::FILM_FRACTION_BITS - 64);
+    EXPECT_TRUE(bright.holds({3, 1}));
+    bright.plane(pt::older_part, 0)[0] = 1;
+    EXPECT_FALSE(bright.holds({3, 1}));
 }
 
 using FilmStrips = VulkanFixture;
@@ -174,21 +216,37 @@ using FilmStrips = VulkanFixture;
 // anywhere.
 TEST_F(FilmStrips, AreReadAsOne) {
     constexpr std::uint32_t film_pixels = 16;
-    pt::Film film(device(), 4, 4, 6);
+    pt::DeviceFilm film(device(), 4, 4, 6);
     ASSERT_EQ(film.strips().size(), 3U);
-    for (pt::Film::Strip &strip : film.strips()) {
+    for (pt::DeviceFilm::Strip &strip : film.strips()) {
         std::vector<std::uint32_t> words;
-        for (std::uint32_t plane = 0; plane < pt::Film::words_per_pixel; ++plane)
+        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
             for (std::uint32_t i = 0; i < strip.pixel_count; ++i)
                 words.push_back(100 * plane + strip.first_pixel + i);
         strip.words.upload(std::as_bytes(std::span(words)), 0);
     }
     for (std::uint32_t first = 0; first < film_pixels; ++first)
         for (std::uint32_t count = 1; first + count <= film_pixels; ++count) {
-            std::vector<std::uint32_t> words(count * pt::Film::words_per_pixel);
-            film.download(first, count, words);
-            for (std::uint32_t i = 0; i < words.size(); ++i)
-                ASSERT_EQ(words[i], 100 * (i / count) + first + i % count) << first << ", " << count;
+            pt::PixelSums sums;
+            sums.resize(count);
+            film.read(first, 0, sums);
+            for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+                for (std::uint32_t i = 0; i < count; ++i)
+                    ASSERT_EQ(sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i],
+                              100 * plane + first + i)
+                        << first << ", " << count;
+            // Written back, one greater, and read again.
+            for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
+                for (std::uint32_t &word : sums.plane(1, plane))
+                    ++word;
+            pt::PixelSums again = sums;
+            film.write(first, sums);
+            film.read(first, 0, again);
+            ASSERT_TRUE(again == sums);
+            for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
+                for (std::uint32_t &word : sums.plane(1, plane))
+                    --word;
+            film.write(first, sums);
         }
 }
 

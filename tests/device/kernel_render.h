@@ -2,9 +2,10 @@
 // constants that a test asks for. Used by the tests of what must not change a picture.
 #pragma once
 
-#include "lib/film/film.h"
+#include "lib/film/pixel_sums.h"
 #include "lib/kernel/gpu_scene.h"
 #include "pathtrace.spv.h"
+#include "tests/device/film_words.h"
 #include "tests/device/probe.h"
 #include "tests/device/scene_constants.h"
 #include "tests/invariance/invariance_scene.h"
@@ -57,7 +58,9 @@ public:
 
     // What the film shows. Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
-        return pt::pixel_estimates(film, width * height, film_unit_, {sample_count, 0}, false).radiance;
+        const pt::PixelSums sums = sums_of(film, width * height);
+        sums.require_samples({sample_count, 0});
+        return sums.estimates(film_unit_, false).radiance;
     }
 
 private:

@@ -1,5 +1,5 @@
 // The kernel as Renderer runs it, on a device that is used otherwise than by default: what it adds to the film.
-#include "lib/film/film.h"
+#include "lib/film/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "tests/device/vulkan_fixture.h"
@@ -19,7 +19,7 @@ constexpr std::uint32_t height = 21;
 class KernelTest : public VulkanFixture {
 protected:
     // The film after a slice of whole samples.
-    std::vector<std::uint32_t> film_words(std::uint32_t invocations, std::uint32_t sample_count) {
+    pt::PixelSums film_sums(std::uint32_t invocations, std::uint32_t sample_count) {
         pt::vulkan::Device &device = device_with({.patience = std::chrono::hours{1},
                                                   .share_memory = true,
                                                   .scene_in_constants = false,
@@ -27,15 +27,16 @@ protected:
                                                   .queue_depth = 1});
         const CourseworkScene coursework;
         pt::TracePipelines pipelines(device);
-        pt::Film film(device, width, height, pt::max_strip_pixels(device.limits()));
+        pt::DeviceFilm film(device, width, height, pt::max_strip_pixels(device.limits()));
         device.submit([&](const vk::raii::CommandBuffer &commands) { film.clear(commands, 0, film.pixel_count()); });
         pt::Kernel kernel(device, pipelines, film, pt::validated_scene(coursework.scene()),
                           pt::validated_camera(CourseworkScene::camera()),
                           pt::validated_render(render_of(width, height, 3)));
-        kernel.finish(kernel.start({0, film.pixel_count(), sample_count, true}, 5));
-        std::vector<std::uint32_t> words(film.pixel_count() * pt::Film::words_per_pixel);
-        film.download(0, film.pixel_count(), words);
-        return words;
+        kernel.finish(kernel.start({0, film.pixel_count(), sample_count, true}, 5, {}));
+        pt::PixelSums sums;
+        sums.resize(film.pixel_count());
+        film.read(0, film.parts().split(), sums);
+        return sums;
     }
 };
 
@@ -43,8 +44,8 @@ protected:
 // Some have no sample if there are few.
 TEST_F(KernelTest, InvocationsThatShareAPixelGiveTheBitsOfOne) {
     for (const std::uint32_t sample_count : {1U, 5U, 37U, 200U})
-        EXPECT_EQ(film_words(1U << 18, sample_count), film_words(0, sample_count)) << sample_count << " samples";
-    EXPECT_NE(film_words(1U << 18, 36), film_words(0, 37)) << "a missing sample must show";
+        EXPECT_TRUE(film_sums(1U << 18, sample_count) == film_sums(0, sample_count)) << sample_count << " samples";
+    EXPECT_FALSE(film_sums(1U << 18, 36) == film_sums(0, 37)) << "a missing sample must show";
 }
 
 } // namespace

@@ -8,11 +8,8 @@
 
 #include <cstdint>
 #include <map>
-#include <vector>
 
 namespace {
-
-using Words = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t width = 15;
 constexpr std::uint32_t height = 17;
@@ -39,21 +36,28 @@ protected:
                        pt::validated_render(render_of(width, height, 3)));
     }
 
-    static Words words(pt::RenderDevice &device) {
-        Words words(device.pixel_count() * pt::Film::words_per_pixel);
-        device.film().download(0, device.pixel_count(), words);
-        return words;
+    static pt::PixelSums sums(pt::RenderDevice &device) {
+        pt::DeviceFilm &film = device.film();
+        pt::PixelSums sums;
+        sums.resize(device.pixel_count());
+        film.read(0, film.parts().split(), sums);
+        return sums;
+    }
+
+    // Starts a slice of the samples up to a number of them, of which so many have been begun.
+    static std::uint32_t start(pt::RenderDevice &device, std::uint32_t begun, std::uint32_t end) {
+        return device.start({begun, end}, {0, begun});
     }
 
     // The film by the number of samples in it, taken as whole ones.
-    std::map<std::uint32_t, Words> expected_films() {
+    std::map<std::uint32_t, pt::PixelSums> expected_films() {
         pt::RenderDevice device = ready_device(60.0);
         set_up(device);
-        std::map<std::uint32_t, Words> films{{0, words(device)}};
+        std::map<std::uint32_t, pt::PixelSums> films{{0, sums(device)}};
         for (std::uint32_t taken = 0; taken < most_samples;) {
-            taken += device.start(taken, 1);
+            taken += start(device, taken, taken + 1);
             device.finish();
-            films[taken] = words(device);
+            films[taken] = sums(device);
         }
         return films;
     }
@@ -67,21 +71,21 @@ TEST_F(RenderDeviceTest, EmptyingTracingAndAddingAreCut) {
     set_up(device);
     int film_slices = 0;
     int sample_slices = 0;
-    const auto run = [&](std::uint32_t sample, std::uint32_t remaining) {
-        device.start(sample, remaining);
+    const auto run = [&](std::uint32_t sample) {
+        start(device, sample, sample + 1);
         ++(device.finish().paths == 0 ? film_slices : sample_slices);
     };
     while (device.film_is_behind())
-        run(0, 1);
+        run(0);
     EXPECT_EQ(film_slices, workgroups);
     EXPECT_EQ(sample_slices, 0);
     do
-        run(0, 1);
+        run(0);
     while (device.pass_pixels() > 0);
     EXPECT_EQ(film_slices, workgroups);
     EXPECT_EQ(sample_slices, workgroups);
     while (device.film_is_behind())
-        run(1, 1);
+        run(1);
     EXPECT_EQ(film_slices, 2 * workgroups);
     EXPECT_EQ(sample_slices, workgroups);
 }
@@ -89,7 +93,7 @@ TEST_F(RenderDeviceTest, EmptyingTracingAndAddingAreCut) {
 // The work stands still after so many slices, over and over: within the emptying of the film, within passes, within
 // their addition, and that of the pass before which the film's parts are folded.
 TEST_F(RenderDeviceTest, TheFilmHoldsWholeSamplesWhereverTheWorkStandsStill) {
-    const std::map<std::uint32_t, Words> expected = expected_films();
+    const std::map<std::uint32_t, pt::PixelSums> expected = expected_films();
     for (const int slices : {1, 2, 3, 5, 6, 7, 11}) {
         pt::RenderDevice device = ready_device(no_time);
         set_up(device);
@@ -98,29 +102,29 @@ TEST_F(RenderDeviceTest, TheFilmHoldsWholeSamplesWhereverTheWorkStandsStill) {
             for (int i = 0; i < slices; ++i) {
                 if (begun == most_samples && device.pass_pixels() == 0)
                     break;
-                begun += device.start(begun, most_samples - begun);
+                begun += start(device, begun, most_samples);
                 device.finish();
             }
             const std::uint32_t whole = begun - (device.pass_pixels() > 0 ? 1 : 0);
-            ASSERT_EQ(words(device), expected.at(whole)) << whole << " samples, " << slices << " slices at a time";
+            ASSERT_TRUE(sums(device) == expected.at(whole)) << whole << " samples, " << slices << " slices at a time";
         }
     }
-    EXPECT_NE(expected.at(most_samples), expected.at(most_samples - 1)) << "a missing sample must show";
+    EXPECT_FALSE(expected.at(most_samples) == expected.at(most_samples - 1)) << "a missing sample must show";
 }
 
 // What was begun is forgotten: the film is emptied again, wherever the work stood.
 TEST_F(RenderDeviceTest, DiscardedSamplesLeaveNothing) {
-    const std::map<std::uint32_t, Words> expected = expected_films();
+    const std::map<std::uint32_t, pt::PixelSums> expected = expected_films();
     pt::RenderDevice device = ready_device(no_time);
     set_up(device);
     for (const int slices : {2, workgroups + 1, 2 * workgroups + 1, 3 * workgroups + 1}) {
         std::uint32_t begun = 0;
         for (int i = 0; i < slices; ++i) {
-            begun += device.start(begun, 1);
+            begun += start(device, begun, begun + 1);
             device.finish();
         }
         device.discard_samples();
-        EXPECT_EQ(words(device), expected.at(0)) << slices << " slices";
+        EXPECT_TRUE(sums(device) == expected.at(0)) << slices << " slices";
         prepare(device);
     }
 }

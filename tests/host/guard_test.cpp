@@ -83,7 +83,8 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_ERROR_DEVICE_LOST), "PT_ERROR_DEVICE_LOST");
     EXPECT_STREQ(pt::result_name(PT_ERROR_SHADER), "PT_ERROR_SHADER");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INTERNAL), "PT_ERROR_INTERNAL");
-    EXPECT_STREQ(pt::result_name(-11), "unknown result");
+    EXPECT_STREQ(pt::result_name(PT_ERROR_INCOMPATIBLE), "PT_ERROR_INCOMPATIBLE");
+    EXPECT_STREQ(pt::result_name(-12), "unknown result");
     EXPECT_STREQ(pt::result_name(3), "unknown result");
 }
 

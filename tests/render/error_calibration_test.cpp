@@ -1,6 +1,6 @@
 // The error that a render states without a reference, against its error by converged references.
 #include "lib/film/error_estimate.h"
-#include "lib/film/sample_parts.h"
+#include "lib/film/film_parts.h"
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -150,7 +150,7 @@ TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
     set_up(false, 2, PT_SAMPLER_SOBOL);
     accumulate(sample_count);
     const double truth = relative_rmse(image(), read_reference("coursework_L2").radiance);
-    const uint32_t older = pt::part_counts(sample_count)[0];
+    const uint64_t older = pt::split_of({0, sample_count});
     ASSERT_EQ(2 * older, sample_count);
     const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
     const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });

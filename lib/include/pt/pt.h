@@ -68,7 +68,8 @@ enum {
     PT_ERROR_OUT_OF_DEVICE_MEMORY = -7, /**< the device has too little memory left, for this image for instance */
     PT_ERROR_DEVICE_LOST = -8,          /**< the device or its driver gave up; the context can only be destroyed */
     PT_ERROR_SHADER = -9,               /**< the driver refused to build the kernel, or its GLSL does not compile */
-    PT_ERROR_INTERNAL = -10             /**< a bug in this library or in the driver */
+    PT_ERROR_INTERNAL = -10,            /**< a bug in this library or in the driver */
+    PT_ERROR_INCOMPATIBLE = -11         /**< a film that does not belong to what is rendered (pt/film.h) */
 };
 
 /** One renderer, on one device or several. Made by pt_create and owned by its caller until pt_destroy. */

@@ -1,0 +1,34 @@
+// Digests of numbers and bytes by XXH3, which tell changes, not forgeries. Used for films.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace pt {
+
+// Of a sequence of numbers, whatever is between them in memory. Equal numbers are equal: -0 is 0.
+class Digest {
+public:
+    Digest();
+    ~Digest();
+    Digest(const Digest &) = delete;
+    Digest &operator=(const Digest &) = delete;
+
+    void add(double value);
+    void add(std::uint64_t value);
+    void add(std::span<const std::uint32_t> words);
+
+    // 128 bits as 32 hexadecimal digits.
+    std::string text() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes);
+
+} // namespace pt

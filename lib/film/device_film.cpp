@@ -1,0 +1,142 @@
+#include "lib/film/device_film.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace pt {
+
+namespace {
+
+// Pixels that a range and a strip have in common.
+struct Overlap {
+    std::uint32_t first;
+    std::uint32_t count;
+
+    Overlap(const DeviceFilm::Strip &strip, std::uint32_t first_pixel, std::size_t pixel_count) {
+        const std::uint64_t end =
+            std::min<std::uint64_t>(first_pixel + pixel_count, std::uint64_t{strip.first_pixel} + strip.pixel_count);
+        first = std::max(first_pixel, strip.first_pixel);
+        count = end > first ? static_cast<std::uint32_t>(end - first) : 0;
+    }
+};
+
+// Of a pixel's word in the buffer of a strip, in bytes.
+std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
+    const std::uint64_t words = (part * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
+    return words * sizeof(std::uint32_t);
+}
+
+} // namespace
+
+std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
+    const std::uint64_t bytes = std::min<std::uint64_t>(limits.max_storage_buffer_range, limits.max_allocation_bytes);
+    const std::uint64_t pixels = bytes / (PixelSums::words_per_pixel * sizeof(std::uint32_t));
+    const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>({pixels, dispatched, UINT32_MAX}));
+}
+
+DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height,
+                       std::uint32_t max_strip_pixels) :
+    width_(width),
+    height_(height) {
+    for (std::uint32_t first = 0; first < pixel_count();) {
+        const std::uint32_t count = std::min(max_strip_pixels, pixel_count() - first);
+        const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
+        const std::uint64_t pass_bytes = std::uint64_t{count} * sizeof(glm::vec4);
+        strips_.push_back({first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"),
+                           vulkan::Buffer(device, vulkan::BufferUse::Storage, pass_bytes, "split pass")});
+        first += count;
+    }
+}
+
+// All pixels are cleared before any is used, so it does not matter that a strip's words are plane after plane: a share of
+// its pixels stands for the same share of its bytes.
+void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count) {
+    for (const Strip &strip : strips_) {
+        const Overlap pixels(strip, first_pixel, pixel_count);
+        if (pixels.count == 0)
+            continue;
+        for (const vulkan::Buffer *buffer : {&strip.words, &strip.pass}) {
+            const std::uint64_t share = buffer->size() / strip.pixel_count; // bytes
+            buffer->clear(commands, (pixels.first - strip.first_pixel) * share, pixels.count * share);
+        }
+    }
+    parts_ = {};
+}
+
+void DeviceFilm::clear_pass(const vk::raii::CommandBuffer &commands) {
+    for (const Strip &strip : strips_)
+        strip.pass.clear(commands, 0, strip.pass.size());
+}
+
+void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums) {
+    for (Strip &strip : strips_) {
+        const Overlap pixels(strip, first_pixel, sums.pixel_count());
+        if (pixels.count == 0)
+            continue;
+        std::vector<vulkan::BufferPiece> pieces;
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane)
+                pieces.push_back(
+                    {std::as_writable_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
+                     word_offset(strip, part, plane, pixels.first)});
+        strip.words.download(pieces);
+    }
+    if (parts_.older() != older_part)
+        sums.swap_parts();
+    if (!parts_.empty() && parts_.split() != split)
+        sums.fold_into(parts_.split() < split ? older_part : newer_part);
+}
+
+void DeviceFilm::write(std::uint32_t first_pixel, const PixelSums &sums) {
+    for (Strip &strip : strips_) {
+        const Overlap pixels(strip, first_pixel, sums.pixel_count());
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
+                strip.words.upload(
+                    std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
+                    word_offset(strip, part, plane, pixels.first));
+    }
+}
+
+std::uint64_t DeviceFilm::rejected_samples() {
+    std::uint64_t total = 0;
+    std::vector<std::uint32_t> plane;
+    for (Strip &strip : strips_) {
+        plane.resize(strip.pixel_count);
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
+            strip.words.download(std::as_writable_bytes(std::span(plane)),
+                                 word_offset(strip, part, gpu::FILM_REJECTED, strip.first_pixel));
+            total = std::accumulate(plane.begin(), plane.end(), total);
+        }
+    }
+    return total;
+}
+
+void for_each_piece(std::uint32_t pixel_count, const std::function<void(std::uint32_t, std::uint32_t)> &function) {
+    // Were planes a power of two apart, the words of a pixel would contend for one set of the processor's cache.
+    constexpr std::uint32_t piece_pixels = 130'000;
+    for (std::uint32_t first = 0; first < pixel_count; first += std::min(piece_pixels, pixel_count - first))
+        function(first, std::min(piece_pixels, pixel_count - first));
+}
+
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples,
+                const std::function<void(const PixelSums &)> &receive) {
+    const std::uint64_t split = split_of(samples.hull());
+    const PartCounts expected = part_counts(samples);
+    PixelSums sums;
+    PixelSums others;
+    for_each_piece(films.front()->pixel_count(), [&](std::uint32_t first, std::uint32_t count) {
+        sums.resize(count);
+        films.front()->read(first, split, sums);
+        for (DeviceFilm *film : films.subspan(1)) {
+            others.resize(count);
+            film->read(first, split, others);
+            sums.add(others);
+        }
+        sums.require_samples(expected);
+        receive(sums);
+    });
+}
+
+} // namespace pt

@@ -1,0 +1,78 @@
+// The film in a device's memory: exact sums of samples, in strips. Owned by RenderDevice.
+#pragma once
+
+#include "lib/film/film_parts.h"
+#include "lib/film/pixel_sums.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/device.h"
+#include "shaders/gpu_layout.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class DeviceFilm {
+public:
+    // As many consecutive pixels, row by row, as fit into one binding.
+    struct Strip {
+        std::uint32_t first_pixel;
+        std::uint32_t pixel_count;
+        vulkan::Buffer words; // gpu::FILM_WORDS planes of each part
+        vulkan::Buffer pass;  // one vec4 per pixel: samples of a split pass
+    };
+
+    static constexpr std::uint64_t bytes_per_pixel =
+        PixelSums::words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
+
+    // Its memory has to be cleared before it is used. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
+    // sizes beyond the device.
+    DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
+
+    std::uint32_t pixel_count() const { return width_ * height_; }
+    std::vector<Strip> &strips() { return strips_; }
+
+    // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
+    // takes samples.
+    void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);
+
+    // Records that nothing of a split pass is left.
+    void clear_pass(const vk::raii::CommandBuffer &commands);
+
+    // Which part holds which samples. Whoever adds samples keeps it up to date.
+    const PartUse &parts() const { return parts_; }
+    void set_parts(const PartUse &parts) { parts_ = parts; }
+
+    // Sets the sums of as many consecutive pixels, in the parts of a film with this split that has these samples and
+    // others.
+    void read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums);
+
+    // Replaces the sums of consecutive pixels, part by part as in memory.
+    void write(std::uint32_t first_pixel, const PixelSums &sums);
+
+    // Over both parts and all pixels.
+    std::uint64_t rejected_samples();
+
+private:
+    std::uint32_t width_;
+    std::uint32_t height_;
+    std::vector<Strip> strips_;
+    PartUse parts_;
+};
+
+// Reads the sum of films of one size, which together hold these samples, in pieces of consecutive pixels, the first beginning
+// with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples,
+                const std::function<void(const PixelSums &)> &receive);
+
+// Calls function(first pixel, number of pixels) for the pieces of consecutive pixels in which films are read and
+// written, so that a large image is not held twice.
+void for_each_piece(std::uint32_t pixel_count, const std::function<void(std::uint32_t, std::uint32_t)> &function);
+
+// The largest strip that a device can bind, in pixels.
+std::uint32_t max_strip_pixels(const vulkan::Limits &limits);
+
+} // namespace pt

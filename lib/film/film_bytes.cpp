@@ -1,0 +1,101 @@
+#include "lib/film/film_bytes.h"
+
+#include "lib/base/digest.h"
+#include "lib/base/error.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <string_view>
+
+namespace pt {
+
+namespace {
+
+// Words are copied as they are in memory.
+static_assert(std::endian::native == std::endian::little, "the bytes of a film are little-endian");
+
+constexpr std::uint64_t checksum_bytes = sizeof(std::uint64_t);
+
+std::uint64_t part_bytes(std::uint64_t pixel_count) {
+    return gpu::FILM_WORDS * pixel_count * sizeof(std::uint32_t);
+}
+
+// The text before the sums: up to an empty line, and with it.
+std::string_view header_text(std::span<const std::byte> bytes) {
+    const std::string_view all(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+    const std::size_t end = all.find("\n\n");
+    return end == std::string_view::npos ? all : all.substr(0, end + 2);
+}
+
+std::uint64_t stored_checksum(std::span<const std::byte> bytes) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, bytes.last(checksum_bytes).data(), checksum_bytes);
+    return value;
+}
+
+} // namespace
+
+FilmLayout::FilmLayout(const FilmHeader &header) {
+    std::uint64_t offset = text_of(header).size();
+    for (const FilmTile &tile : header.tiles) {
+        tiles_.push_back({offset, tile.pixels.pixel_count(), part_counts(tile.samples)});
+        for (const std::uint64_t count : tiles_.back().counts)
+            offset += count > 0 ? part_bytes(tile.pixels.pixel_count()) : 0;
+    }
+    size_bytes_ = offset + checksum_bytes;
+}
+
+std::uint64_t FilmLayout::plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const {
+    const Tile &of = tiles_[tile];
+    const std::uint64_t first_part = part == newer_part && of.counts[older_part] > 0 ? part_bytes(of.pixel_count) : 0;
+    return of.offset + first_part + plane * of.pixel_count * sizeof(std::uint32_t);
+}
+
+FilmWriter::FilmWriter(const FilmHeader &header, std::span<std::byte> bytes) : layout_(header), bytes_(bytes) {
+    const std::string text = text_of(header);
+    std::memcpy(bytes.data(), text.data(), text.size());
+}
+
+void FilmWriter::write(std::size_t tile, std::uint64_t first_pixel, const PixelSums &sums) {
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+        for (std::size_t plane = 0; plane < gpu::FILM_WORDS && layout_.has_part(tile, part); ++plane) {
+            const auto words = std::as_bytes(sums.plane(part, plane));
+            const std::uint64_t offset = layout_.plane_offset(tile, part, plane) + first_pixel * sizeof(std::uint32_t);
+            std::memcpy(bytes_.subspan(offset, words.size()).data(), words.data(), words.size());
+        }
+}
+
+void FilmWriter::end() {
+    const std::uint64_t value = checksum(bytes_.first(layout_.size_bytes() - checksum_bytes));
+    std::memcpy(bytes_.subspan(layout_.size_bytes() - checksum_bytes).data(), &value, checksum_bytes);
+}
+
+FilmReader::FilmReader(std::span<const std::byte> bytes) :
+    bytes_(bytes),
+    header_(parsed_film_header(header_text(bytes))),
+    layout_(header_) {
+    if (bytes.size() != layout_.size_bytes())
+        throw Error(PT_ERROR_INCOMPATIBLE,
+                    "film: it has " + std::to_string(bytes.size()) + " bytes, and its header asks for " +
+                        std::to_string(layout_.size_bytes()) + ": truncated, or followed by more");
+    if (stored_checksum(bytes) != checksum(bytes.first(bytes.size() - checksum_bytes)))
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its checksum does not fit its bytes, which have been damaged");
+}
+
+void FilmReader::read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const {
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
+            const auto words = std::as_writable_bytes(sums.plane(part, plane));
+            if (!layout_.has_part(tile, part)) {
+                std::ranges::fill(words, std::byte{0});
+                continue;
+            }
+            const std::uint64_t offset = layout_.plane_offset(tile, part, plane) + first_pixel * sizeof(std::uint32_t);
+            std::memcpy(words.data(), bytes_.subspan(offset, words.size()).data(), words.size());
+        }
+    if (!sums.holds(layout_.counts(tile)))
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: sums that its samples cannot have");
+}
+
+} // namespace pt

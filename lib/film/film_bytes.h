@@ -1,0 +1,68 @@
+// A film as bytes: header, exact sums, checksum. FORMAT.md describes them.
+#pragma once
+
+#include "lib/film/film_header.h"
+#include "lib/film/pixel_sums.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pt {
+
+// Where the sums of a tile's parts are in a film's bytes.
+class FilmLayout {
+public:
+    explicit FilmLayout(const FilmHeader &header);
+
+    std::uint64_t size_bytes() const { return size_bytes_; }
+
+    // Of the first pixel's word of a plane of a part of a tile. Parts without samples are not there.
+    std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
+    bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
+    const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
+
+private:
+    struct Tile {
+        std::uint64_t offset;
+        std::uint64_t pixel_count;
+        PartCounts counts;
+    };
+
+    std::vector<Tile> tiles_;
+    std::uint64_t size_bytes_;
+};
+
+// Writes a film to memory of the layout's size: the sums of each tile in any pieces, then end().
+class FilmWriter {
+public:
+    FilmWriter(const FilmHeader &header, std::span<std::byte> bytes);
+
+    void write(std::size_t tile, std::uint64_t first_pixel, const PixelSums &sums);
+    void end();
+
+private:
+    FilmLayout layout_;
+    std::span<std::byte> bytes_;
+};
+
+// Reads a film from bytes, which must outlive it.
+class FilmReader {
+public:
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, damaged, or more or fewer than a film's.
+    explicit FilmReader(std::span<const std::byte> bytes);
+
+    const FilmHeader &header() const { return header_; }
+
+    // Sets the sums of as many consecutive pixels of a tile. Throws PT_ERROR_INCOMPATIBLE if no samples have such sums.
+    void read(std::size_t tile, std::uint64_t first_pixel, PixelSums &sums) const;
+
+private:
+    std::span<const std::byte> bytes_;
+    FilmHeader header_;
+    FilmLayout layout_;
+};
+
+} // namespace pt

@@ -1,0 +1,119 @@
+#include "lib/film/film_header.h"
+
+#include "lib/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+
+namespace pt {
+
+namespace {
+
+constexpr std::string_view first_line_start = "pt film ";
+constexpr std::string_view version = "1";
+constexpr std::string_view tile_name = "tile";
+constexpr std::string_view samples_name = "samples";
+
+[[noreturn]] void refuse(const std::string &message) {
+    throw Error(PT_ERROR_INCOMPATIBLE, "film: " + message);
+}
+
+// Takes a line off the beginning of a text.
+std::string_view take_line(std::string_view &text) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos)
+        refuse("its header has no end");
+    const std::string_view line = text.substr(0, end);
+    if (!std::ranges::all_of(line, [](char letter) { return letter >= ' ' && letter <= '~'; }))
+        refuse("its header has bytes that are no printable ASCII");
+    text.remove_prefix(end + 1);
+    return line;
+}
+
+// The numbers of a line, separated by blanks; nothing if it has another count of them or anything else.
+template <std::size_t Count>
+std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
+    std::array<std::uint64_t, Count> values{};
+    const char *place = text.data();
+    const char *const end = text.data() + text.size();
+    for (std::size_t i = 0; i < Count; ++i) {
+        if (i > 0 && (place == end || *place++ != ' '))
+            return std::nullopt;
+        const auto [next, error] = std::from_chars(place, end, values[i]);
+        if (error != std::errc{})
+            return std::nullopt;
+        place = next;
+    }
+    return place == end ? std::optional(values) : std::nullopt;
+}
+
+void read_tile(std::string_view value, FilmHeader &header) {
+    const auto sides = numbers<4>(value);
+    if (!sides)
+        refuse("tile is not four numbers");
+    const auto [x, y, width, height] = *sides;
+    if (x + width > UINT32_MAX || y + height > UINT32_MAX || width == 0 || height == 0 || width > UINT32_MAX / height)
+        refuse("tile = " + std::string(value) + ": must have from 1 to 2^32 - 1 pixels");
+    header.tiles.push_back({{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+                             static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)},
+                            {}});
+}
+
+void read_samples(std::string_view value, FilmHeader &header) {
+    const auto ends = numbers<2>(value);
+    if (!ends || header.tiles.empty())
+        refuse("samples are not two numbers after a tile");
+    const SampleRange range{(*ends)[0], (*ends)[1]};
+    SampleSet &samples = header.tiles.back().samples;
+    if (range.first >= range.end || range.end > sample_index_end || samples.overlap(range))
+        refuse("samples = " + std::string(value) + ": must be a range of indices below 2^32, apart from the others");
+    samples.add(range);
+    if (samples.count() > UINT32_MAX)
+        refuse("samples: a pixel holds at most 2^32 - 1");
+}
+
+} // namespace
+
+std::string text_of(const FilmHeader &header) {
+    std::string text = std::string(first_line_start).append(version) + '\n';
+    for (const FilmFact &fact : header.identity)
+        text += fact.name + ' ' + fact.value + '\n';
+    for (const FilmTile &tile : header.tiles) {
+        text.append(tile_name);
+        for (const std::uint32_t side : {tile.pixels.x, tile.pixels.y, tile.pixels.width, tile.pixels.height})
+            text += ' ' + std::to_string(side);
+        text += '\n';
+        for (const SampleRange &range : tile.samples.ranges())
+            text +=
+                std::string(samples_name) + ' ' + std::to_string(range.first) + ' ' + std::to_string(range.end) + '\n';
+    }
+    return text + '\n';
+}
+
+FilmHeader parsed_film_header(std::string_view text) {
+    std::string_view rest = text;
+    if (!text.starts_with(first_line_start))
+        refuse("these bytes are no film");
+    const std::string_view first = take_line(rest);
+    if (first.substr(first_line_start.size()) != version)
+        refuse("its version is not " + std::string(version) + ", which this library reads");
+    FilmHeader header;
+    for (std::string_view line = take_line(rest); !line.empty(); line = take_line(rest)) {
+        const std::size_t blank = std::min(line.find(' '), line.size());
+        const std::string_view name = line.substr(0, blank);
+        const std::string_view value = line.substr(std::min(blank + 1, line.size()));
+        if (name == tile_name)
+            read_tile(value, header);
+        else if (name == samples_name)
+            read_samples(value, header);
+        else
+            header.identity.push_back({std::string(name), std::string(value)});
+    }
+    if (text_of(header) != text)
+        refuse("its header is not written as the format asks");
+    return header;
+}
+
+} // namespace pt

@@ -1,0 +1,52 @@
+// What a film's bytes say before its sums: of which picture it is, and which samples of which pixels it has. Text, a line for
+// each fact; FORMAT.md describes it. Written and read by film_bytes.
+#pragma once
+
+#include "lib/film/sample_set.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pt {
+
+// All that decides the bits of a picture's samples, as names and values: a film adds only to one whose facts are equal.
+struct FilmFact {
+    std::string name;
+    std::string value;
+
+    bool operator==(const FilmFact &) const = default;
+};
+using FilmIdentity = std::vector<FilmFact>;
+
+// A rectangle of the image, in pixels from its top left corner.
+struct Rectangle {
+    std::uint32_t x, y, width, height;
+
+    std::uint64_t pixel_count() const { return std::uint64_t{width} * height; }
+    bool operator==(const Rectangle &) const = default;
+};
+
+// Pixels that have the same samples.
+struct FilmTile {
+    Rectangle pixels;
+    SampleSet samples;
+
+    bool operator==(const FilmTile &) const = default;
+};
+
+struct FilmHeader {
+    FilmIdentity identity;
+    std::vector<FilmTile> tiles; // their sums follow in this order
+
+    bool operator==(const FilmHeader &) const = default;
+};
+
+// Ends with an empty line.
+std::string text_of(const FilmHeader &header);
+
+// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if it is not that, letter by letter, or of another version.
+FilmHeader parsed_film_header(std::string_view text);
+
+} // namespace pt

@@ -1,0 +1,63 @@
+// Exact sums of samples in consecutive pixels, on the host: a value. Read from devices (device_film.h) and from bytes
+// (film_format.h), added, and turned into radiance and its error.
+#pragma once
+
+#include "lib/film/film_parts.h"
+#include "shaders/gpu_layout.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// What the samples say about consecutive pixels, as R, G, B per pixel.
+struct PixelEstimates {
+    std::vector<float> radiance;       // mean of all samples; black where all were rejected
+    std::vector<float> standard_error; // of that mean, from the difference of its parts; infinity where one is empty
+                                       // and with up to 8 samples; nothing if it was not asked for
+    std::uint64_t rejected = 0;        // samples left out of these pixels
+};
+
+class PixelSums {
+public:
+    static constexpr std::size_t words_per_pixel = std::size_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
+
+    std::size_t pixel_count() const { return pixel_count_; }
+
+    // The sums are to be set afterwards.
+    void resize(std::size_t pixel_count) {
+        words_.resize(pixel_count * words_per_pixel);
+        pixel_count_ = pixel_count;
+    }
+
+    // One word of every pixel: a plane of a part, as in gpu_layout.h.
+    std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index);
+    std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const;
+
+    void add(const PixelSums &other);
+
+    // Adds the one part to the other and empties it.
+    void fold_into(std::uint32_t part);
+
+    void swap_parts();
+
+    // Throws PT_ERROR_INTERNAL, which tells that a driver lost work, if a part of a pixel does not hold the expected
+    // samples, accepted or rejected.
+    void require_samples(const PartCounts &expected) const;
+
+    // Whether so many samples can have these sums: each of those accepted is below 2^FILM_MAX_EXPONENT.
+    bool holds(const PartCounts &expected) const;
+
+    // Radiance is the mean in units.
+    PixelEstimates estimates(double unit, bool with_standard_error) const;
+
+    bool operator==(const PixelSums &) const = default;
+
+private:
+    std::size_t pixel_count_ = 0;
+    std::vector<std::uint32_t> words_;
+};
+
+} // namespace pt

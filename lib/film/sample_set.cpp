@@ -1,0 +1,97 @@
+#include "lib/film/sample_set.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace pt {
+
+SampleRange hull_of(const SampleRange &a, const SampleRange &b) {
+    if (a.empty() || b.empty())
+        return a.empty() ? b : a;
+    return {std::min(a.first, b.first), std::max(a.end, b.end)};
+}
+
+std::string text_of(const SampleRange &range) {
+    return '[' + std::to_string(range.first) + ", " + std::to_string(range.end) + ')';
+}
+
+std::uint64_t SampleSet::count() const {
+    return count_below(sample_index_end);
+}
+
+std::uint64_t SampleSet::count_below(std::uint64_t index) const {
+    std::uint64_t count = 0;
+    for (const SampleRange &range : ranges_)
+        count += std::clamp(index, range.first, range.end) - range.first;
+    return count;
+}
+
+SampleRange SampleSet::hull() const {
+    return empty() ? SampleRange{} : SampleRange{ranges_.front().first, ranges_.back().end};
+}
+
+std::optional<SampleRange> SampleSet::overlap(const SampleRange &range) const {
+    for (const SampleRange &own : ranges_) {
+        const SampleRange common{std::max(own.first, range.first), std::min(own.end, range.end)};
+        if (common.first < common.end)
+            return common;
+    }
+    return std::nullopt;
+}
+
+std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
+    for (const SampleRange &range : other.ranges_)
+        if (const auto common = overlap(range))
+            return common;
+    return std::nullopt;
+}
+
+SampleRange SampleSet::next_missing(std::uint64_t from) const {
+    for (const SampleRange &range : ranges_) {
+        if (from < range.first)
+            return {from, range.first};
+        from = std::max(from, range.end);
+    }
+    return {from, std::max(from, sample_index_end)};
+}
+
+void SampleSet::add(const SampleRange &range) {
+    assert(!overlap(range));
+    if (range.empty())
+        return;
+    const auto place = std::ranges::upper_bound(ranges_, range.first, {}, &SampleRange::first);
+    const auto added = ranges_.insert(place, range);
+    if (const auto next = added + 1; next != ranges_.end() && next->first == added->end) {
+        added->end = next->end;
+        ranges_.erase(next);
+    }
+    if (added != ranges_.begin() && (added - 1)->end == added->first) {
+        (added - 1)->end = added->end;
+        ranges_.erase(added);
+    }
+}
+
+void SampleSet::add(const SampleSet &other) {
+    for (const SampleRange &range : other.ranges_)
+        add(range);
+}
+
+void SampleSet::remove(const SampleRange &range) {
+    const auto place = std::ranges::find_if(
+        ranges_, [&](const SampleRange &own) { return own.first <= range.first && range.end <= own.end; });
+    assert(place != ranges_.end());
+    const SampleRange after{range.end, place->end};
+    place->end = range.first;
+    if (place->empty())
+        ranges_.erase(place);
+    add(after);
+}
+
+std::string text_of(const SampleSet &samples) {
+    std::string text;
+    for (const SampleRange &range : samples.ranges())
+        text += (text.empty() ? "" : ", ") + text_of(range);
+    return text;
+}
+
+} // namespace pt

@@ -1,0 +1,27 @@
+// What decides the bits of a picture's samples. Made by Renderer for the films that it saves and adds.
+#pragma once
+
+#include "lib/film/film_header.h"
+#include "lib/kernel/shader_source.h"
+#include "lib/render/render_settings.h"
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+
+#include <pt/pt.h>
+
+#include <vector>
+
+namespace pt {
+
+// Raised by whoever changes the bits of any sample, in the kernel or in what the host prepares for it.
+inline constexpr std::uint32_t estimator_version = 1;
+
+// Where a picture's samples are taken, and how fast, is not part of it: rows, ranges, submissions, the number of equal
+// devices, and whether kernels have the scene's numbers as constants (trace_pipelines.h) leave every bit as it is.
+FilmIdentity identity_of(const Scene &scene, const Camera &camera, const RenderSettings &settings,
+                         const KernelCode &code, const std::vector<pt_device_info> &devices);
+
+// Throws PT_ERROR_INCOMPATIBLE with a line for each fact in which a film differs from its context.
+void require_same(const FilmIdentity &film, const FilmIdentity &context);
+
+} // namespace pt

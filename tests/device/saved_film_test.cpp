@@ -1,0 +1,286 @@
+// Films that are saved and added: the bits of renders that were never cut, and refusals that change nothing.
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/film.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Bytes = std::vector<char>;
+
+constexpr uint32_t width = 21;
+constexpr uint32_t height = 14;
+
+// What a context has to show.
+struct Picture {
+    std::vector<float> radiance, standard_error;
+    pt_stats stats;
+    Bytes film;
+
+    bool operator==(const Picture &other) const {
+        return radiance == other.radiance && standard_error == other.standard_error &&
+               stats.sample_count == other.stats.sample_count && stats.rmse == other.stats.rmse &&
+               stats.relative_rmse_high == other.stats.relative_rmse_high && film == other.film;
+    }
+};
+
+class SavedFilm : public ContextFixture {
+protected:
+    static pt_render settings(uint32_t first_sample) {
+        pt_render render = render_of(width, height, 3);
+        render.first_sample = first_sample;
+        return render;
+    }
+
+    static void set_up(pt_context *context, const pt_render &render, pt_camera camera = CourseworkScene::camera()) {
+        const CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+        ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+        ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    }
+
+    static void accumulate_on(pt_context *context, uint32_t count) {
+        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0};
+        ASSERT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
+    }
+
+    static Bytes film_of(pt_context *context) {
+        uint64_t size = 0;
+        EXPECT_EQ(pt_save_film(context, nullptr, &size), PT_OK) << pt_last_error(context);
+        Bytes bytes(size + 7, 'x');
+        size = bytes.size();
+        EXPECT_EQ(pt_save_film(context, bytes.data(), &size), PT_OK) << pt_last_error(context);
+        EXPECT_EQ(Bytes(bytes.end() - 7, bytes.end()), Bytes(7, 'x')) << "wrote beyond its size";
+        bytes.resize(size);
+        return bytes;
+    }
+
+    static pt_result add(pt_context *context, const Bytes &film) {
+        return pt_add_film(context, film.data(), film.size());
+    }
+
+    static Picture picture_of(pt_context *context, uint32_t rows = height) {
+        Picture picture;
+        const auto read = [&](std::vector<float> &values, uint32_t quantity) {
+            values.resize(std::size_t{3} * width * rows);
+            const pt_image image{sizeof image, quantity, values.data(), values.size() * sizeof(float), 0};
+            EXPECT_EQ(pt_readback(context, &image), PT_OK) << pt_last_error(context);
+        };
+        read(picture.radiance, PT_QUANTITY_RADIANCE);
+        read(picture.standard_error, PT_QUANTITY_STANDARD_ERROR);
+        picture.stats = {};
+        picture.stats.struct_size = sizeof picture.stats;
+        EXPECT_EQ(pt_get_stats(context, &picture.stats), PT_OK) << pt_last_error(context);
+        picture.film = film_of(context);
+        return picture;
+    }
+
+    // The film of the samples [first, end), rendered by themselves.
+    Bytes part(uint32_t first, uint32_t end) {
+        set_up(context(), settings(first));
+        accumulate_on(context(), end - first);
+        return film_of(context());
+    }
+
+    Picture whole(uint32_t count) {
+        set_up(context(), settings(0));
+        accumulate_on(context(), count);
+        return picture_of(context());
+    }
+};
+
+// Ends of the ranges are on either side of splits, and one range is within eight samples.
+TEST_F(SavedFilm, PartsAddUpToTheWholeInAnyOrder) {
+    const Picture expected = whole(150);
+    const uint32_t ends[] = {0, 3, 7, 30, 64, 65, 100, 128, 150};
+    std::vector<Bytes> parts;
+    for (std::size_t i = 1; i < std::size(ends); ++i)
+        parts.push_back(part(ends[i - 1], ends[i]));
+    std::mt19937 random(1);
+    for (int round = 0; round < 20; ++round) {
+        std::ranges::shuffle(parts, random);
+        set_up(context(), settings(0));
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            ASSERT_EQ(add(context(), parts[i]), PT_OK) << pt_last_error(context());
+            ASSERT_EQ(picture_of(context()) == expected, i + 1 == parts.size()) << "order " << round;
+        }
+    }
+}
+
+// Sums of parts of the sequence that are added to others, in a context that has rendered itself, and by itself again.
+TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
+    const Picture expected = whole(100);
+    const Bytes middle = part(20, 50);
+    const Bytes late = part(70, 90);
+    set_up(context(), settings(0));
+    accumulate_on(context(), 10);
+    ASSERT_EQ(add(context(), late), PT_OK) << pt_last_error(context());
+    accumulate_on(context(), 7); // 10 to 16
+    ASSERT_EQ(add(context(), middle), PT_OK) << pt_last_error(context());
+    accumulate_on(context(), 13); // 17 to 19, 50 to 59
+    EXPECT_EQ(picture_of(context()).stats.sample_count, 80U);
+    accumulate_on(context(), 20); // 60 to 69, 90 to 99
+    EXPECT_TRUE(picture_of(context()) == expected);
+    EXPECT_FALSE(whole(99) == expected);
+}
+
+// Several devices, each with a film of its own, of which one gets what is added.
+TEST_F(SavedFilm, DevicesThatShareTheWorkAddToTheSameBytes) {
+    const Picture expected = whole(200);
+    const Bytes middle = part(60, 130);
+    const auto create = [](const pt_create_info *info, pt_context **context) {
+        return create_shared(3, *info, context);
+    };
+    const Context shared = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; }, create);
+    set_up(shared.get(), settings(0));
+    accumulate_on(shared.get(), 20);
+    ASSERT_EQ(add(shared.get(), middle), PT_OK) << pt_last_error(shared.get());
+    accumulate_on(shared.get(), 110);
+    EXPECT_TRUE(picture_of(shared.get()) == expected);
+}
+
+// A call may stop while a sample has been taken in some pixels only: the film then brings that sample, or others.
+TEST_F(SavedFilm, AddsWhileASampleIsUnderWay) {
+    const Picture expected = whole(30);
+    const auto stop_at_once = [](void *, double share) -> int32_t { return share > 0.0; };
+    for (const uint32_t first : {4U, 5U}) {
+        const Bytes rest = part(first, 30);
+        const auto create = [](const pt_create_info *info, pt_context **context) {
+            return pt::guard(pt::thread_last_error, [&] {
+                pt::CreateSettings settings = pt::validated_create(*info);
+                settings.submit_milliseconds = 0; // every submission is as small as can be
+                *context = std::make_unique<pt_context>(settings).release();
+            });
+        };
+        const Context cut = create_context([](pt_create_info &) {}, create);
+        set_up(cut.get(), SavedFilm::settings(0));
+        accumulate_on(cut.get(), 4);
+        const pt_accumulate_info one{sizeof one, 1, stop_at_once, nullptr, 0};
+        ASSERT_EQ(pt_accumulate(cut.get(), &one), PT_CANCELLED) << pt_last_error(cut.get());
+        ASSERT_EQ(add(cut.get(), rest), PT_OK) << pt_last_error(cut.get());
+        if (first == 5)
+            accumulate_on(cut.get(), 1);
+        EXPECT_TRUE(picture_of(cut.get()) == expected) << first;
+    }
+}
+
+TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
+    pt_render rows = settings(0);
+    rows.first_row = 3;
+    rows.row_count = 5;
+    set_up(context(), rows);
+    accumulate_on(context(), 40);
+    const Picture expected = picture_of(context(), rows.row_count);
+    rows.first_sample = 17;
+    set_up(context(), rows);
+    accumulate_on(context(), 23);
+    const Bytes late = film_of(context());
+    rows.first_sample = 0;
+    set_up(context(), rows);
+    ASSERT_EQ(add(context(), late), PT_OK) << pt_last_error(context());
+    accumulate_on(context(), 17);
+    EXPECT_TRUE(picture_of(context(), rows.row_count) == expected);
+
+    set_up(context(), settings(0));
+    EXPECT_EQ(add(context(), late), PT_ERROR_INCOMPATIBLE);
+    EXPECT_EQ(
+        pt_last_error(context()),
+        std::string(
+            "film.tile = rows [3, 8), columns [0, 21): must be rows [0, 14), columns [0, 21), as in this context"));
+}
+
+// Whatever differs is named, and the context has what it had.
+TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
+    const auto strange_film = [&](const std::function<void(pt_render &, pt_camera &)> &change) {
+        pt_render render = settings(0);
+        pt_camera camera = CourseworkScene::camera();
+        change(render, camera);
+        set_up(context(), render, camera);
+        accumulate_on(context(), 12);
+        return film_of(context());
+    };
+    const auto edited = [](Bytes film, const std::string &from, const std::string &to) {
+        const auto place = std::search(film.begin(), film.end(), from.begin(), from.end());
+        EXPECT_NE(place, film.end());
+        std::copy(to.begin(), to.end(), place);
+        return film;
+    };
+    const Bytes good = part(12, 20);
+    Bytes truncated = good;
+    truncated.pop_back();
+    const struct {
+        Bytes film;
+        std::string message;
+    } cases[] = {
+        {strange_film([](pt_render &render, pt_camera &) { render.seed = 77; }),
+         "film.seed = 77: must be 0, as in this context"},
+        {strange_film([](pt_render &render, pt_camera &) {
+             render.sampler = PT_SAMPLER_RANDOM;
+             render.max_path_length = 4;
+         }),
+         "film.max_path_length = 4: must be 3, as in this context\nfilm.sampler = 1: must be 4, as in this context"},
+        {strange_film([](pt_render &, pt_camera &camera) { camera.vertical_fov = 0.5; }), "film.camera = "},
+        {part(19, 22), "film.samples = [19, 22): [19, 20) are in this context's film already"},
+        {good, "film.samples = [12, 20): [12, 20) are in this context's film already"},
+        {truncated, "film: it has "},
+        {edited(good, "\nkernel", "\ncernel"), "film: its checksum does not fit its bytes, which have been damaged"},
+        {Bytes{}, "film: these bytes are no film"},
+    };
+    set_up(context(), settings(0));
+    accumulate_on(context(), 12);
+    ASSERT_EQ(add(context(), good), PT_OK) << pt_last_error(context());
+    const Picture before = picture_of(context());
+    for (const auto &[film, message] : cases) {
+        EXPECT_EQ(pt_add_film(context(), film.empty() ? "" : film.data(), film.size()), PT_ERROR_INCOMPATIBLE);
+        EXPECT_EQ(std::string(pt_last_error(context())).substr(0, message.size()), message);
+        ASSERT_TRUE(picture_of(context()) == before) << message;
+    }
+}
+
+TEST_F(SavedFilm, ABitThatFlippedIsRefused) {
+    const Bytes good = part(12, 20);
+    set_up(context(), settings(0));
+    accumulate_on(context(), 12);
+    const Bytes before = film_of(context());
+    std::mt19937 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        Bytes film = good;
+        film[random() % film.size()] ^= static_cast<char>(1 << random() % 8);
+        ASSERT_EQ(add(context(), film), PT_ERROR_INCOMPATIBLE);
+    }
+    EXPECT_EQ(film_of(context()), before);
+    EXPECT_EQ(add(context(), good), PT_OK);
+}
+
+TEST_F(SavedFilm, CallsAreRefusedAsTheHeaderSays) {
+    uint64_t size = 5;
+    char byte = 'x';
+    EXPECT_EQ(pt_save_film(context(), nullptr, &size), PT_ERROR_INVALID_STATE);
+    EXPECT_EQ(pt_last_error(context()), std::string("no scene: call pt_set_scene first"));
+    EXPECT_EQ(pt_add_film(context(), &byte, 1), PT_ERROR_INVALID_STATE);
+    set_up(context(), settings(0));
+    EXPECT_EQ(pt_save_film(context(), nullptr, &size), PT_ERROR_INVALID_STATE);
+    EXPECT_EQ(pt_last_error(context()), std::string("no samples yet: call pt_accumulate or pt_add_film first"));
+    EXPECT_EQ(pt_add_film(context(), nullptr, 1), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(pt_save_film(context(), nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
+    accumulate_on(context(), 1);
+    EXPECT_EQ(pt_save_film(context(), &byte, &size), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(size, 5U);
+    EXPECT_EQ(byte, 'x');
+    uint64_t needed = 0;
+    EXPECT_EQ(pt_save_film(context(), nullptr, &needed), PT_OK);
+    EXPECT_EQ(pt_save_film(context(), &byte, &size), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(pt_last_error(context()), "film.size_bytes = 5: must be >= " + std::to_string(needed));
+}
+
+} // namespace

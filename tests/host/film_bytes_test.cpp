@@ -1,0 +1,184 @@
+// The bytes of films: what was written before stays readable, and what is not a film is refused.
+#include "lib/film/film_bytes.h"
+
+#include "lib/base/digest.h"
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// Written by another program (by the description in FORMAT.md): two tiles, of which the first has samples in both parts.
+Bytes golden_film() {
+    std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"},
+                                    {"camera", "ffeeddccbbaa99887766554433221100"},
+                                    {"width", "7"},
+                                    {"height", "5"},
+                                    {"max_path_length", "6"},
+                                    {"seed", "18446744073709551615"},
+                                    {"estimator", "5"},
+                                    {"sampler", "4"},
+                                    {"unit_exponent", "-3"},
+                                    {"estimator_version", "1"},
+                                    {"kernel", "0123456789abcdef0123456789abcdef"},
+                                    {"device", "a device, its driver 1.2"}},
+                                   {{{0, 1, 3, 2},
+                                     [] {
+                                         pt::SampleSet samples({0, 5});
+                                         samples.add(pt::SampleRange{20, 30});
+                                         return samples;
+                                     }()},
+                                    {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
+
+// The golden film's sums by its rule: with i the pixel, c the channel and s a number of each part, of n samples n - r were
+// accepted, r = (i + s) mod 2, and their sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
+void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
+    __extension__ using Wide = unsigned __int128;
+    constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;
+    for (std::uint32_t i = 0; i < sums.pixel_count(); ++i) {
+        const std::uint32_t rejected = samples > 0 ? (i + s) % 2 : 0;
+        const std::uint32_t accepted = samples - rejected;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const Wide sum = accepted * ((c + 1) * ten_to_18 * 10'000'000U + i * ten_to_18 + s * 977U);
+            for (std::size_t word = 0; word < 4; ++word)
+                sums.plane(part, 4 * c + word)[i] = static_cast<std::uint32_t>(sum >> (32 * word));
+        }
+        sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = accepted;
+        sums.plane(part, pt::gpu::FILM_REJECTED)[i] = rejected;
+    }
+}
+
+std::vector<pt::PixelSums> golden_sums() {
+    std::vector<pt::PixelSums> tiles(2);
+    tiles[0].resize(6);
+    set_part(tiles[0], pt::older_part, 5, 1);
+    set_part(tiles[0], pt::newer_part, 10, 2);
+    tiles[1].resize(4);
+    set_part(tiles[1], pt::older_part, 2, 3);
+    set_part(tiles[1], pt::newer_part, 0, 0);
+    return tiles;
+}
+
+TEST(FilmBytes, Version1StaysReadable) {
+    const Bytes bytes = golden_film();
+    const pt::FilmReader film(bytes);
+    EXPECT_TRUE(film.header() == golden_header) << pt::text_of(film.header());
+    const std::vector<pt::PixelSums> expected = golden_sums();
+    for (std::size_t tile = 0; tile < expected.size(); ++tile) {
+        pt::PixelSums sums;
+        sums.resize(expected[tile].pixel_count());
+        film.read(tile, 0, sums);
+        EXPECT_TRUE(sums == expected[tile]) << "tile " << tile;
+    }
+}
+
+// In pieces that begin anywhere.
+TEST(FilmBytes, AreWrittenAsTheyWereRead) {
+    const Bytes golden = golden_film();
+    const pt::FilmReader film(golden);
+    Bytes bytes(pt::FilmLayout(golden_header).size_bytes());
+    pt::FilmWriter writer(golden_header, bytes);
+    for (std::size_t tile = 0; tile < golden_header.tiles.size(); ++tile) {
+        const std::uint64_t pixel_count = golden_header.tiles[tile].pixels.pixel_count();
+        for (std::uint64_t first = 0; first < pixel_count; first += 3) {
+            pt::PixelSums sums;
+            sums.resize(std::min<std::uint64_t>(3, pixel_count - first));
+            film.read(tile, first, sums);
+            writer.write(tile, first, sums);
+        }
+    }
+    writer.end();
+    EXPECT_EQ(bytes, golden);
+}
+
+TEST(FilmBytes, EveryBitCounts) {
+    const Bytes golden = golden_film();
+    for (std::size_t bit = 0; bit < 8 * golden.size(); ++bit) {
+        Bytes bytes = golden;
+        bytes[bit / 8] ^= std::byte{1} << (bit % 8);
+        ASSERT_EQ(error_of([&] { const pt::FilmReader film(bytes); }).code(), PT_ERROR_INCOMPATIBLE) << "bit " << bit;
+    }
+    const pt::FilmReader unharmed(golden);
+}
+
+TEST(FilmBytes, OtherLengthsAreRefused) {
+    const Bytes golden = golden_film();
+    for (std::size_t size = 0; size < golden.size(); ++size)
+        ASSERT_EQ(error_of([&] { const pt::FilmReader film{std::span(golden).first(size)}; }).code(),
+                  PT_ERROR_INCOMPATIBLE)
+            << size << " bytes";
+    Bytes longer = golden;
+    longer.push_back({});
+    EXPECT_EQ(error_of([&] { const pt::FilmReader film(longer); }).code(), PT_ERROR_INCOMPATIBLE);
+}
+
+// Bytes with a checksum that fits.
+Bytes sealed(const std::string &header, std::size_t sum_bytes) {
+    const auto text = std::as_bytes(std::span(header));
+    Bytes bytes(text.begin(), text.end());
+    bytes.resize(text.size() + sum_bytes);
+    const std::uint64_t checksum = pt::checksum(bytes);
+    bytes.resize(bytes.size() + sizeof checksum);
+    std::memcpy(&bytes[bytes.size() - sizeof checksum], &checksum, sizeof checksum);
+    return bytes;
+}
+
+TEST(FilmBytes, HeadersHaveOneForm) {
+    constexpr std::size_t pixel_bytes = 56; // of one part
+    const struct {
+        const char *header;
+        const char *message;
+    } cases[] = {
+        {"", "film: these bytes are no film"},
+        {"pt film 1", "film: its header has no end"},
+        {"pt film 2\n\n", "film: its version is not 1, which this library reads"},
+        {"pt film 1\nseed \t1\n\n", "film: its header has bytes that are no printable ASCII"},
+        {"pt film 1\ntile 0 0 1\n\n", "film: tile is not four numbers"},
+        {"pt film 1\ntile 0 0 1 -1\n\n", "film: tile is not four numbers"},
+        {"pt film 1\ntile 0 0 1 0\n\n", "film: tile = 0 0 1 0: must have from 1 to 2^32 - 1 pixels"},
+        {"pt film 1\ntile 0 0 65536 65536\n\n", "film: tile = 0 0 65536 65536: must have from 1 to 2^32 - 1 pixels"},
+        {"pt film 1\nsamples 0 1\n\n", "film: samples are not two numbers after a tile"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n",
+         "film: samples = 1 1: must be a range of indices below 2^32, apart from the others"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n",
+         "film: samples = 0 4294967297: must be a range of indices below 2^32, apart from the others"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 2\nsamples 1 3\n\n",
+         "film: samples = 1 3: must be a range of indices below 2^32, apart from the others"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967296\n\n", "film: samples: a pixel holds at most 2^32 - 1"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 2 3\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n", "film: its header is not written as the format asks"},
+        {"pt film 1\ntile 0 0 1 01\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nseed 1\n\n", "film: its header is not written as the format asks"},
+    };
+    for (const auto &[header, message] : cases) {
+        const pt::Error error = error_of([&] {
+            const Bytes bytes = sealed(header, pixel_bytes);
+            const pt::FilmReader film(bytes);
+        });
+        EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
+        EXPECT_EQ(error.what(), std::string(message)) << header;
+    }
+    const Bytes good = sealed("pt film 1\nseed 1\ntile 0 0 1 1\nsamples 0 1\n\n", pixel_bytes);
+    const pt::FilmReader film(good);
+    pt::PixelSums sums;
+    sums.resize(1);
+    EXPECT_EQ(error_of([&] { film.read(0, 0, sums); }).code(), PT_ERROR_INCOMPATIBLE) << "a sample that is not there";
+}
+
+} // namespace
