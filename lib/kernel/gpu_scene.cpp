@@ -1,12 +1,14 @@
-// Turns a validated scene and camera into bytes for the kernel; see gpu_scene.h.
+// From a scene and a camera to bytes for the kernel; see gpu_scene.h.
 #include "lib/kernel/gpu_scene.h"
 
 #include "lib/base/mixed.h"
-#include "lib/scene/curved_plane.h"
+#include "lib/scene/ray_start.h"
+#include "lib/scene/seen_scene.h"
+#include "lib/scene/twins.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace pt {
 
@@ -14,37 +16,6 @@ namespace {
 
 float mean(const glm::vec3 &colour) {
     return (colour.r + colour.g + colour.b) / 3.0F;
-}
-
-// Surfaces in the kernel's order: lamps, skies, other spheres, planes with curvature, planes; otherwise as in the scene.
-struct KernelOrder {
-    std::vector<Sphere> spheres;
-    std::vector<CurvedPlane> planes;
-    std::vector<std::uint32_t> materials; // of all these
-};
-
-KernelOrder kernel_order(const Scene &scene, const Camera &camera) {
-    KernelOrder order;
-    std::vector<std::uint32_t> plane_materials;
-    for (const Sphere &sphere : scene.spheres) {
-        if (const auto plane = curved_plane(sphere, scene.materials[sphere.material], camera)) {
-            order.planes.push_back(*plane);
-            plane_materials.push_back(sphere.material);
-        } else {
-            order.spheres.push_back(sphere);
-        }
-    }
-    std::ranges::stable_sort(order.spheres, {}, [&](const Sphere &sphere) {
-        return sphere_role(sphere, scene.materials[sphere.material], camera);
-    });
-    for (const Plane &plane : scene.planes) {
-        order.planes.push_back(curved_plane(plane, camera));
-        plane_materials.push_back(plane.material);
-    }
-    for (const Sphere &sphere : order.spheres)
-        order.materials.push_back(sphere.material);
-    order.materials.insert(order.materials.end(), plane_materials.begin(), plane_materials.end());
-    return order;
 }
 
 // The lobes are chosen by what they can reflect, but the diffuse one with twice the weight: it gathers from the whole
@@ -76,12 +47,10 @@ public:
                 glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
     }
 
-    void sphere(std::uint32_t surface, const Sphere &sphere, const Camera &camera) {
-        const glm::dvec3 opening = sphere.center + camera.shutter_open * sphere.motion - camera.position;
-        const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
-        words_[surface] = glm::vec4(glm::vec3(opening), static_cast<float>(sphere.radius));
+    void sphere(std::uint32_t surface, const SeenSphere &sphere) {
+        words_[surface] = glm::vec4(glm::vec3(sphere.open), static_cast<float>(sphere.radius));
         if (features_.motion)
-            words_[motion_words() + surface] = glm::vec4(glm::vec3(way), 0.0F);
+            words_[motion_words() + surface] = glm::vec4(glm::vec3(sphere.way), 0.0F);
     }
 
     void plane(std::uint32_t surface, const CurvedPlane &plane) {
@@ -99,38 +68,19 @@ private:
     const Features &features_;
 };
 
-} // namespace
-
-std::vector<glm::vec4> gpu_scene(const Scene &scene, const Camera &camera, const Features &features) {
+std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const Scene &scene, const Features &features) {
     std::vector<glm::vec4> words(scene_word_count(features));
     Writer writer(words, features);
-    const KernelOrder order = kernel_order(scene, camera);
     std::uint32_t surface = 0;
-    for (const Sphere &sphere : order.spheres)
-        writer.sphere(surface++, sphere, camera);
-    for (const CurvedPlane &plane : order.planes)
+    for (const SeenSphere &sphere : surfaces.spheres) {
+        writer.material(surface, scene.materials[sphere.material]);
+        writer.sphere(surface++, sphere);
+    }
+    for (const CurvedPlane &plane : surfaces.planes) {
+        writer.material(surface, scene.materials[plane.material]);
         writer.plane(surface++, plane);
-    for (surface = 0; surface < features.surface_count(); ++surface)
-        writer.material(surface, scene.materials[order.materials[surface]]);
+    }
     return words;
-}
-
-double film_unit(const Scene &scene) {
-    float brightest = 0.0F;
-    const auto include = [&](std::uint32_t material) {
-        const glm::vec3 &emission = scene.materials[material].emission;
-        brightest = std::max({brightest, emission.r, emission.g, emission.b});
-    };
-    for (const Sphere &sphere : scene.spheres)
-        include(sphere.material);
-    for (const Plane &plane : scene.planes)
-        include(plane.material);
-    if (brightest == 0.0F)
-        return 1.0;
-    int exponent = 0; // brightest = fraction * 2^exponent with fraction in [1/2, 1)
-    std::frexp(brightest, &exponent);
-    // The kernel multiplies by 1 / unit, which must be a normal float32.
-    return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
@@ -145,6 +95,25 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     constants.height = render.height;
     constants.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
     return constants;
+}
+
+} // namespace
+
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+    SeenScene seen = seen_scene(scene.scene, camera);
+    require_held_motions(seen, scene.scene);
+    const Camera start = starting_ahead(seen, camera, settings);
+    if (start.start_distance > 0.0)
+        seen = seen_scene(scene.scene, start);
+    return gpu_scene(without_twins(std::move(seen), scene.sphere_order), scene, start, settings);
+}
+
+GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+                   const RenderSettings &settings) {
+    const KernelSurfaces surfaces = kernel_surfaces(distinct.seen);
+    const Features features = features_of(distinct, surfaces, scene, start, settings);
+    return {features, words_of(surfaces, scene.scene, features), frame_constants(start, settings, scene.film_unit),
+            scene.film_unit};
 }
 
 } // namespace pt

@@ -1,26 +1,31 @@
-// A scene as the kernel reads it: camera-relative float32, laid out as shaders/gpu_layout.h says. Renderer uploads it.
+// A scene as the kernel reads it: camera-relative float32, laid out as shaders/gpu_layout.h says. Made by Renderer when
+// scene, camera or settings have changed; the kernels of all devices share it.
 #pragma once
 
+#include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
-#include "lib/scene/scene.h"
 #include "shaders/gpu_layout.h"
 
 #include <vector>
 
 namespace pt {
 
-// The scene buffer. Positions are taken relative to the camera in double before they are rounded, so that a scene far
-// from the origin looks like one at it; motion is restricted to the time in which the shutter is open.
-std::vector<glm::vec4> gpu_scene(const Scene &scene, const Camera &camera, const Features &features);
+struct GpuScene {
+    Features features;
+    // The scene buffer. Positions are taken relative to the camera in double before they are rounded, so that a scene far
+    // from the origin looks like one at it; motion is restricted to the time in which the shutter is open.
+    std::vector<glm::vec4> words;
+    gpu::FrameConstants frame; // what does not change from slice to slice
+    double film_unit;
+};
 
-// Power of two that makes one film unit: radiance / unit is what the film sums. It puts the brightest emission into
-// [2^7, 2^8) units, so that samples 2^20 times as bright are still accepted and samples 2^-44 times as bright are
-// exact, whatever the scene's unit of light is.
-double film_unit(const Scene &scene);
+// Throws PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for it.
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
-// The push constants that do not change from slice to slice.
-gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit);
+// The same of what is left of the scene without twins, seen from where camera rays start.
+GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
+                   const RenderSettings &settings);
 
 } // namespace pt

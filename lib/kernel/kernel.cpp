@@ -3,11 +3,11 @@
 
 #include "lib/base/error.h"
 #include "lib/film/film_parts.h"
-#include "lib/kernel/gpu_scene.h"
 
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace pt {
 
@@ -50,28 +50,29 @@ std::uint32_t sharers_of_pixel(const vulkan::Device &device, std::uint32_t pixel
 
 } // namespace
 
-Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const Scene &scene,
-               const Camera &camera, const RenderSettings &settings) :
+Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film,
+               std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) :
     device_(device),
     pipelines_(pipelines),
     film_(film),
-    features_(features_of(scene, camera, settings)),
+    gpu_scene_(std::move(scene)),
+    features_(gpu_scene_->features),
     layout_(pt::point_layout(features_)),
     sampler_(settings.sampler),
     seed_(settings.seed),
     first_pixel_(settings.first_row * settings.width),
-    film_unit_(pt::film_unit(scene)),
-    frame_(frame_constants(camera, settings, film_unit_)),
+    film_unit_(gpu_scene_->film_unit),
+    frame_(gpu_scene_->frame),
     table_bytes_(device.limits().max_uniform_range),
     sharers_(sharers_of_pixel(device, film.pixel_count())),
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
-    words_(gpu_scene(scene, camera, features_)),
+    words_(gpu_scene_->words),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, words_.size()), "scene"),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice") {
-    scene_.upload(std::as_bytes(std::span(words_)), 0);
+    scene_.upload(std::as_bytes(words_), 0);
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
     for (DeviceFilm::Strip &strip : film_.strips()) {
         const std::array buffers = {&scene_, &scene_, &strip.words, &strip.pass, &points_};

@@ -3,19 +3,19 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/render_settings.h"
 #include "lib/render/schedule.h"
-#include "lib/scene/camera.h"
-#include "lib/scene/scene.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,8 +24,8 @@ namespace pt {
 class Kernel {
 public:
     // device, pipelines and film must outlive the kernel. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
-    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, const Scene &scene,
-           const Camera &camera, const RenderSettings &settings);
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, std::shared_ptr<const GpuScene> scene,
+           const RenderSettings &settings);
 
     const Features &features() const { return features_; }
     double film_unit() const { return film_unit_; }
@@ -68,6 +68,7 @@ private:
     vulkan::Device &device_;
     TracePipelines &pipelines_;
     DeviceFilm &film_;
+    std::shared_ptr<const GpuScene> gpu_scene_; // never NULL
     Features features_;
     PointLayout layout_;
     std::uint32_t sampler_;
@@ -79,7 +80,7 @@ private:
     std::uint32_t sharers_;              // invocations to a pixel
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
-    std::vector<glm::vec4> words_;       // the scene
+    std::span<const glm::vec4> words_;   // of gpu_scene_
     vulkan::Buffer scene_;
     vulkan::Buffer points_;                   // tables of the slices under way
     std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film

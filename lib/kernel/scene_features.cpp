@@ -2,60 +2,42 @@
 #include "lib/kernel/scene_features.h"
 
 #include "lib/kernel/point_sequence.h"
-#include "lib/scene/curved_plane.h"
-#include "lib/scene/twins.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
 #include <numeric>
+#include <span>
 
 namespace pt {
 
 namespace {
 
-bool emits(const Material &material) {
-    return material.emission != glm::vec3(0.0F);
-}
-
-// Where the centre of a sphere is as the shutter opens and as it closes, relative to the camera; in between on a
-// straight line.
-using Way = std::array<glm::dvec3, 2>;
-
-Way way_of(const Sphere &sphere, const Camera &camera) {
-    return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
-            sphere.center + camera.shutter_close * sphere.motion - camera.position};
-}
-
 // Whether the camera is in a sphere at any time, or so near to it that float32 cannot tell.
-bool is_at_or_in(const Way &way, double radius) {
+bool is_at_or_in(const SeenSphere &sphere) {
     constexpr double margin = 1.0 + 0x1p-16;
-    const glm::dvec3 step = way[1] - way[0];
-    const double length = glm::dot(step, step);
-    const double nearest = length > 0.0 ? std::clamp(-glm::dot(way[0], step) / length, 0.0, 1.0) : 0.0;
-    return !(glm::length(way[0] + nearest * step) > radius * margin);
-}
-
-std::vector<CurvedPlane> planes_about(const Scene &scene, const Camera &camera) {
-    std::vector<CurvedPlane> planes;
-    for (const Plane &plane : scene.planes)
-        planes.push_back(curved_plane(plane, camera));
-    return planes;
+    const double length = glm::dot(sphere.way, sphere.way);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(sphere.open, sphere.way) / length, 0.0, 1.0) : 0.0;
+    return !(glm::length(sphere.open + nearest * sphere.way) > sphere.radius * margin);
 }
 
 // Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
 // no plane comes between two points of it.
-bool is_in_region(const std::vector<CurvedPlane> &planes, const Way &way, double radius) {
+bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
+    const std::array way = {sphere.open, sphere.close()};
     return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
         return plane.offset > 0.0 && std::ranges::all_of(way, [&](const glm::dvec3 &centre) {
-                   return glm::dot(plane.normal, centre) + plane.offset > radius;
+                   return glm::dot(plane.normal, centre) + plane.offset > sphere.radius;
                });
     });
 }
 
 // Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
 // line both ends tell.
-bool holds_camera(const Way &way, double radius) {
+bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - 0x1p-16;
-    return std::ranges::all_of(way, [&](const glm::dvec3 &centre) { return glm::length(centre) < radius * margin; });
+    return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;
 }
 
 // Whether the camera is on a side of a plane that float32 can tell, as the shutter opens.
@@ -71,56 +53,54 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 
 } // namespace
 
-SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera) {
-    if (!emits(material))
-        return SphereRole::other;
-    return holds_camera(way_of(sphere, camera), sphere.radius) ? SphereRole::sky : SphereRole::lamp;
+KernelSurfaces kernel_surfaces(const SeenScene &distinct) {
+    KernelSurfaces surfaces{};
+    std::vector<SeenSphere> &spheres = surfaces.spheres;
+    spheres.reserve(distinct.spheres.size());
+    const auto add = [&](auto &&is_next) {
+        const std::size_t before = spheres.size();
+        std::ranges::copy_if(distinct.spheres, std::back_inserter(spheres),
+                             [&](const SeenSphere &sphere) { return !sphere.is_flat && is_next(sphere); });
+        return static_cast<std::uint32_t>(spheres.size() - before);
+    };
+    surfaces.lamp_count = add([](const SeenSphere &sphere) { return sphere.emits && !holds_camera(sphere); });
+    surfaces.sky_count = add([](const SeenSphere &sphere) { return sphere.emits && holds_camera(sphere); });
+    add([](const SeenSphere &sphere) { return !sphere.emits; });
+    for (const SeenSphere &sphere : distinct.spheres)
+        if (sphere.is_flat)
+            surfaces.planes.push_back(curved_plane(sphere));
+    surfaces.planes.insert(surfaces.planes.end(), distinct.planes.begin(), distinct.planes.end());
+    return surfaces;
 }
 
-Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render) {
-    const auto is_glossy = [&](const auto &surface) {
-        return scene.materials[surface.material].specular != glm::vec3(0.0F);
-    };
-    const auto moves = [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); };
-
-    const auto glows = [&](const Plane &plane) { return emits(scene.materials[plane.material]); };
-
-    const std::vector<CurvedPlane> planes = planes_about(scene, camera);
+Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
+                     const Camera &camera, const RenderSettings &render) {
+    const auto lamps = std::span(surfaces.spheres).first(surfaces.lamp_count);
+    const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
+    const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
+    const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
 
     Features features{};
-    features.plane_count = static_cast<std::uint32_t>(scene.planes.size());
-    features.planes_emit = std::ranges::any_of(scene.planes, glows);
-    features.known_sides = std::ranges::all_of(planes, has_known_side);
-    for (const Sphere &sphere : scene.spheres) {
-        const Material &material = scene.materials[sphere.material];
-        if (const auto plane = curved_plane(sphere, material, camera)) {
-            ++features.plane_count;
-            features.curvature = true;
-            features.planes_emit = features.planes_emit || emits(material);
-            features.planes_move = features.planes_move || plane->way != glm::dvec3(0.0);
-            features.known_sides = features.known_sides && has_known_side(*plane);
-        } else {
-            const Way way = way_of(sphere, camera);
-            const SphereRole role = sphere_role(sphere, material, camera);
-            const bool is_lamp = role == SphereRole::lamp;
-            ++features.sphere_count;
-            features.lamp_count += is_lamp ? 1 : 0;
-            features.sky_count += role == SphereRole::sky ? 1 : 0;
-            features.inside = features.inside || is_at_or_in(way, sphere.radius);
-            features.planes_block = features.planes_block || (is_lamp && !is_in_region(planes, way, sphere.radius));
-        }
-    }
+    features.sphere_count = static_cast<std::uint32_t>(surfaces.spheres.size());
+    features.plane_count = static_cast<std::uint32_t>(surfaces.planes.size());
+    features.lamp_count = surfaces.lamp_count;
+    features.sky_count = surfaces.sky_count;
+    features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
+    features.inside = std::ranges::any_of(surfaces.spheres, is_at_or_in);
+    features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
+    features.planes_move = std::ranges::any_of(surfaces.planes, moves);
+    // Planes with curvature may bulge towards the camera.
+    features.planes_block = features.curvature || std::ranges::any_of(lamps, is_behind_a_plane);
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
-    features.known_sides =
-        features.known_sides && (features.inside || features.curvature || has_close_planes(scene, camera));
-    features.close_lamps = features.lamp_count > 0 && has_close_lamps(scene, camera);
+    features.known_sides = (features.inside || features.curvature || distinct.close_planes) &&
+                           std::ranges::all_of(surfaces.planes, has_known_side);
+    features.close_lamps = features.lamp_count > 0 && distinct.close_lamps;
     features.starts_ahead = camera.start_distance > 0.0;
-    features.planes_block = features.planes_block || features.curvature; // some may bulge towards the camera
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
-    features.gloss = std::ranges::any_of(scene.spheres, is_glossy) || std::ranges::any_of(scene.planes, is_glossy);
-    features.motion = camera.shutter_close > camera.shutter_open && std::ranges::any_of(scene.spheres, moves);
+    features.gloss = scene.gloss;
+    features.motion = scene.moves && camera.shutter_close > camera.shutter_open;
     features.scene_in_uniform = scene_word_count(features) <= gpu::UNIFORM_SCENE_WORDS;
     return features;
 }

@@ -1,14 +1,20 @@
-// What a scene needs of the kernel: everything else is left out of it. Renderer specialises pathtrace.comp with this.
+// What a scene needs of the kernel: everything else is left out of it. Found by gpu_scene;
+// TracePipelines specialises pathtrace.comp with it.
 #pragma once
 
 #include "lib/kernel/point_sequence.h"
+#include "lib/kernel/prepared_scene.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
-#include "lib/scene/scene.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/seen_scene.h"
+#include "lib/scene/seen_sphere.h"
+#include "lib/scene/twins.h"
 #include "shaders/gpu_layout.h"
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace pt {
 
@@ -37,13 +43,20 @@ struct Features {
     std::uint32_t surface_count() const { return sphere_count + plane_count; }
 };
 
-// What a sphere that is held by centre and radius is to the kernel, which has them in this order. Paths cannot leave a
-// sphere that holds the camera: one that emits surrounds them all like a sky, which cannot be sampled from within.
-enum class SphereRole { lamp, sky, other };
+// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in the
+// scene's order. Paths cannot leave a sphere that holds the camera: one that emits surrounds them all like a sky, which
+// cannot be sampled from within.
+struct KernelSurfaces {
+    std::vector<SeenSphere> spheres; // held by centre and radius
+    std::vector<CurvedPlane> planes;
+    std::uint32_t lamp_count;
+    std::uint32_t sky_count;
+};
 
-SphereRole sphere_role(const Sphere &sphere, const Material &material, const Camera &camera);
+KernelSurfaces kernel_surfaces(const SeenScene &distinct);
 
-Features features_of(const Scene &scene, const Camera &camera, const RenderSettings &render);
+Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
+                     const Camera &camera, const RenderSettings &render);
 
 // Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30
 // surfaces.

@@ -2,7 +2,6 @@
 
 #include "lib/base/digest.h"
 #include "lib/base/rules.h"
-#include "lib/kernel/gpu_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -79,9 +78,9 @@ std::string text_of(const std::vector<pt_device_info> &devices) {
 
 } // namespace
 
-FilmIdentity identity_of(const Scene &scene, const Camera &camera, const RenderSettings &settings,
+FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices) {
-    return {{"scene", digest_of(scene)},
+    return {{"scene", digest_of(scene.scene)},
             {"camera", digest_of(camera)},
             {"width", std::to_string(settings.width)},
             {"height", std::to_string(settings.height)},
@@ -89,7 +88,7 @@ FilmIdentity identity_of(const Scene &scene, const Camera &camera, const RenderS
             {"seed", std::to_string(settings.seed)},
             {"estimator", std::to_string(settings.estimator)},
             {"sampler", std::to_string(settings.sampler)},
-            {"unit_exponent", std::to_string(std::ilogb(film_unit(scene)))},
+            {"unit_exponent", std::to_string(std::ilogb(scene.film_unit))},
             {"estimator_version", std::to_string(estimator_version)},
             {"kernel", digest_of(code)},
             {"device", text_of(devices)}};

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "lib/film/film_header.h"
+#include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
-#include "lib/scene/scene.h"
 
 #include <pt/pt.h>
 
@@ -18,7 +18,7 @@ inline constexpr std::uint32_t estimator_version = 1;
 
 // Where a picture's samples are taken, and how fast, is not part of it: rows, ranges, submissions, the number of equal
 // devices, and whether kernels have the scene's numbers as constants (trace_pipelines.h) leave every bit as it is.
-FilmIdentity identity_of(const Scene &scene, const Camera &camera, const RenderSettings &settings,
+FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 
 // Throws PT_ERROR_INCOMPATIBLE with a line for each fact in which a film differs from its context.

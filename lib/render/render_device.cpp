@@ -2,9 +2,6 @@
 #include "lib/render/render_device.h"
 
 #include "lib/base/error.h"
-#include "lib/scene/curved_plane.h"
-#include "lib/scene/ray_start.h"
-#include "lib/scene/twins.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
@@ -82,12 +79,10 @@ void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
     pipelines_ = std::move(pipelines);
 }
 
-void RenderDevice::prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
+void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     if (kernel_)
         return;
-    require_held_motions(scene, camera);
-    const Camera start = starting_ahead(scene, camera, settings);
-    kernel_.emplace(device_, *pipelines_, *film_, without_twins(scene, start), start, settings);
+    kernel_.emplace(device_, *pipelines_, *film_, scene, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/render_settings.h"
 #include "lib/render/schedule.h"
-#include "lib/scene/camera.h"
-#include "lib/scene/scene.h"
 #include "lib/vulkan/device.h"
 #include "lib/vulkan/instance.h"
 
@@ -50,7 +49,7 @@ public:
     void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
 
     // Makes the kernel, unless it is there. After set_film.
-    void prepare(const Scene &scene, const Camera &camera, const RenderSettings &settings);
+    void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
     const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
 
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.

@@ -78,13 +78,16 @@ void Renderer::discard_samples() noexcept {
 
 void Renderer::set_scene(Scene scene) {
     require_alive();
+    PreparedScene prepared(std::move(scene));
     discard_samples();
-    scene_ = std::move(scene);
+    gpu_scene_.reset();
+    scene_ = std::move(prepared);
 }
 
 void Renderer::set_camera(const Camera &camera) {
     require_alive();
     discard_samples();
+    gpu_scene_.reset();
     camera_ = camera;
 }
 
@@ -100,6 +103,7 @@ void Renderer::set_render(const RenderSettings &settings) {
             devices_[i]->set_film(std::move(films[i]));
     }
     discard_samples();
+    gpu_scene_.reset();
     settings_ = settings;
 }
 
@@ -155,7 +159,7 @@ const ErrorEstimate &Renderer::error() {
         ErrorEstimator estimator(settings_->width);
         std::uint64_t rejected = 0;
         read_films(films(), samples_, [&](const PixelSums &sums) {
-            const PixelEstimates pixels = sums.estimates(film_unit(*scene_), true);
+            const PixelEstimates pixels = sums.estimates(scene_->film_unit, true);
             estimator.add(pixels.radiance, pixels.standard_error);
             rejected += pixels.rejected;
         });
@@ -186,8 +190,10 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
 pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
     require_settings();
     require_room_for(sample_count);
+    if (!gpu_scene_)
+        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
     for (const auto &device : devices_)
-        device->prepare(*scene_, *camera_, *settings_);
+        device->prepare(gpu_scene_, *settings_);
 
     const std::uint64_t samples_wanted = samples_.count() + sample_count;
     const std::uint64_t pixel_count = devices_.front()->pixel_count();
@@ -282,7 +288,7 @@ void Renderer::readback(const Image &image) {
     const std::size_t width = settings_->width;
     std::size_t pixel = 0;
     const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
-    const double unit = film_unit(*scene_);
+    const double unit = scene_->film_unit;
     read_films(films(), samples_, [&](const PixelSums &sums) {
         const PixelEstimates pixels = sums.estimates(unit, is_error);
         const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;

@@ -6,6 +6,8 @@
 #include "lib/film/device_film.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_header.h"
+#include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
@@ -116,11 +118,12 @@ private:
     KernelCode code_;
     vulkan::Instance instance_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
-    std::optional<Scene> scene_;
+    std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_; // the devices have films if it is there
-    SampleSet samples_;                      // whole ones, in every pixel
-    std::optional<ErrorEstimate> error_;     // of them, once it has been asked for
+    std::optional<RenderSettings> settings_;    // the devices have films if it is there
+    std::shared_ptr<const GpuScene> gpu_scene_; // of the three above; NULL where one has changed
+    SampleSet samples_;                         // whole ones, in every pixel
+    std::optional<ErrorEstimate> error_;        // of them, once it has been asked for
     std::uint64_t submit_count_ = 0;
     double device_seconds_ = 0.0;
 };

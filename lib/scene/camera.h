@@ -1,4 +1,5 @@
-// A camera that obeys the rules of pt.h, with defaults applied. Made by api.cpp, held by Renderer, read by gpu_scene.
+// A camera that obeys the rules of pt.h, with defaults applied. Made by api.cpp, held by Renderer, read by seen_scene
+// and gpu_scene.
 #pragma once
 
 #include <pt/pt.h>

@@ -32,11 +32,10 @@ struct View {
 };
 
 // A plane's depth along a direction of depth 1 is -offset / (normal . direction), least at a corner.
-double nearest_depth(const Plane &plane, const Camera &camera, const View &view) {
-    const double offset = plane.offset + glm::dot(plane.normal, camera.position);
-    double nearest = offset == 0.0 ? 0.0 : out_of_view;
+double nearest_depth(const CurvedPlane &plane, const View &view) {
+    double nearest = plane.offset == 0.0 ? 0.0 : out_of_view;
     for (const glm::dvec3 &corner : view.corners) {
-        const double depth = -offset / glm::dot(plane.normal, corner);
+        const double depth = -plane.offset / glm::dot(plane.normal, corner);
         nearest = depth > 0.0 ? std::min(nearest, depth) : nearest;
     }
     return nearest;
@@ -45,16 +44,15 @@ double nearest_depth(const Plane &plane, const Camera &camera, const View &view)
 // Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it is
 // inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)), whose
 // product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about its way.
-double nearest_depth(const Sphere &sphere, const Camera &camera, const View &view) {
-    const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.motion;
-    const glm::dvec3 centre = sphere.center + camera.shutter_open * sphere.motion + 0.5 * way - camera.position;
-    const double radius = sphere.radius + 0.5 * glm::length(way);
+double nearest_depth(const SeenSphere &sphere, const View &view) {
+    const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
+    const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
     const double distance = glm::length(centre);
     const double along = glm::dot(centre, view.forward);
     const double angle = std::atan2(glm::length(centre - along * view.forward), along);
     const double power = (distance - radius) * (distance + radius); // of the camera with respect to the sphere
     if (power <= 0.0) {
-        if (way != glm::dvec3(0.0))
+        if (sphere.way != glm::dvec3(0.0))
             return 0.0;
         const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
         const double across = distance * std::sin(farthest);
@@ -72,15 +70,15 @@ double nearest_depth(const Sphere &sphere, const Camera &camera, const View &vie
 
 } // namespace
 
-Camera starting_ahead(const Scene &scene, const Camera &camera, const RenderSettings &settings) {
+Camera starting_ahead(const SeenScene &seen, const Camera &camera, const RenderSettings &settings) {
     if (2.0 * camera.tan_half_fov / settings.height > narrow_pixel)
         return camera;
     const View view(camera, settings);
     double depth = out_of_view;
-    for (const Sphere &sphere : scene.spheres)
-        depth = std::min(depth, nearest_depth(sphere, camera, view));
-    for (const Plane &plane : scene.planes)
-        depth = std::min(depth, nearest_depth(plane, camera, view));
+    for (const SeenSphere &sphere : seen.spheres)
+        depth = std::min(depth, nearest_depth(sphere, view));
+    for (const CurvedPlane &plane : seen.planes)
+        depth = std::min(depth, nearest_depth(plane, view));
     if (depth == out_of_view)
         return camera;
     // As far before the first surface as the view is wide there, so that rounding puts no start behind it.

@@ -1,4 +1,4 @@
-// A scene that obeys the rules of pt.h, owned. Made by api.cpp, held by Renderer, read by features and gpu_scene.
+// A scene that obeys the rules of pt.h, owned. Made by api.cpp, held by PreparedScene.
 #pragma once
 
 #include <pt/pt.h>
@@ -16,6 +16,14 @@ struct Material {
     glm::vec3 emission;
     float glossiness;
 };
+
+inline bool emits(const Material &material) {
+    return material.emission != glm::vec3(0.0F);
+}
+
+inline bool is_glossy(const Material &material) {
+    return material.specular != glm::vec3(0.0F);
+}
 
 struct Sphere {
     glm::dvec3 center;

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <vector>
+#include <cstddef>
+#include <numeric>
+#include <utility>
 
 namespace pt {
 
@@ -26,34 +26,20 @@ constexpr double two_planes = 0x1p-8;
 // Spheres on a lattice have different places along a line in this direction, whose components are incommensurable.
 const glm::dvec3 generic_direction = glm::normalize(glm::dvec3(1.0, std::sqrt(2.0), std::sqrt(3.0)));
 
-// A sphere as the camera sees it: where its centre is as the shutter opens and closes, and as a plane, if it is held so.
-struct SeenSphere {
-    glm::dvec3 open;
-    glm::dvec3 close;
-    double radius;
-    std::optional<CurvedPlane> plane;
+// By how much the centre of a twin may be elsewhere.
+double tolerance(const SeenSphere &sphere) {
+    return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
+}
 
-    SeenSphere(const Sphere &sphere, const Scene &scene, const Camera &camera) :
-        open(sphere.center + camera.shutter_open * sphere.motion - camera.position),
-        close(sphere.center + camera.shutter_close * sphere.motion - camera.position),
-        radius(sphere.radius),
-        plane(curved_plane(sphere, scene.materials[sphere.material], camera)) {}
-
-    double place() const { return glm::dot(open, generic_direction); }
-
-    // By how much the centre of a twin may be elsewhere.
-    double tolerance() const {
-        return std::min(same_size * radius + same_place * glm::length(open), two_spheres * radius);
-    }
-
-    // The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature
-    // have centres and radii that agree to three times that, where the offset is small against the radius.
-    double reach() const { return plane ? 4.0 * same_size * radius : tolerance(); }
-};
+// The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature have centres and
+// radii that agree to three times that, where the offset is small against the radius.
+double reach(const SeenSphere &sphere) {
+    return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
+}
 
 // The largest distance of a point of one sphere from the other.
 double difference(const SeenSphere &a, const SeenSphere &b) {
-    return std::max(glm::length(a.open - b.open), glm::length(a.close - b.close)) + std::abs(a.radius - b.radius);
+    return std::max(glm::length(a.open - b.open), glm::length(a.close() - b.close())) + std::abs(a.radius - b.radius);
 }
 
 bool are_alike(const CurvedPlane &a, const CurvedPlane &b, double tolerance) {
@@ -65,93 +51,147 @@ bool are_alike(const CurvedPlane &a, const CurvedPlane &b, double tolerance) {
 }
 
 bool are_twins(const SeenSphere &a, const SeenSphere &b) {
-    if (a.plane && b.plane)
-        return are_alike(*a.plane, *b.plane, same_size);
-    const double tolerance = std::min(a.tolerance(), b.tolerance());
-    return glm::length(a.open - b.open) <= tolerance && glm::length(a.close - b.close) <= tolerance &&
+    if (a.is_flat && b.is_flat)
+        return are_alike(curved_plane(a), curved_plane(b), same_size);
+    const double apart = std::min(tolerance(a), tolerance(b));
+    return glm::length(a.open - b.open) <= apart && glm::length(a.close() - b.close()) <= apart &&
            std::abs(a.radius - b.radius) <= same_size * std::min(a.radius, b.radius);
 }
 
-// Elements by a number, which those alike have nearly alike.
-template <typename Element>
+bool are_twins(const CurvedPlane &a, const CurvedPlane &b) {
+    return are_alike(a, b, same_size);
+}
+
+double place_of(const SeenSphere &sphere) {
+    return glm::dot(sphere.open, generic_direction);
+}
+
+double place_of(const CurvedPlane &plane) {
+    return glm::dot(plane.normal, generic_direction);
+}
+
+double reach(const CurvedPlane &) {
+    return same_size;
+}
+
+// Indices of elements in the order of their places, which those alike have nearly alike.
 class Line {
 public:
-    void add(double place, Element element) { elements_.emplace(place, std::move(element)); }
+    // From any order of the indices, best nearly the right one.
+    template <typename Element>
+    Line(const std::vector<Element> &elements, const std::vector<std::uint32_t> &order) {
+        points_.reserve(order.size());
+        for (const std::uint32_t index : order)
+            points_.push_back({place_of(elements[index]), index});
+        if (!std::ranges::is_sorted(points_, {}, &Point::place))
+            std::ranges::sort(points_, {}, &Point::place);
+    }
 
-    // Whether one within reach of a place has a property.
+    std::size_t size() const { return points_.size(); }
+    std::uint32_t index(std::size_t i) const { return points_[i].index; }
+
+    // Whether one of those within reach of the i-th, other than that, has a property.
     template <typename Property>
-    bool any(double place, double reach, Property &&property) const {
-        const auto end = elements_.upper_bound(place + reach);
-        return std::any_of(elements_.lower_bound(place - reach), end,
-                           [&](const auto &entry) { return property(entry.second); });
+    bool any_near(std::size_t i, double reach, Property &&property) const {
+        for (std::size_t k = i; k > 0 && points_[i].place - points_[k - 1].place <= reach; --k)
+            if (property(points_[k - 1].index))
+                return true;
+        for (std::size_t k = i + 1; k < size() && points_[k].place - points_[i].place <= reach; ++k)
+            if (property(points_[k].index))
+                return true;
+        return false;
     }
 
 private:
-    std::multimap<double, Element> elements_;
+    struct Point {
+        double place;
+        std::uint32_t index;
+    };
+    std::vector<Point> points_;
 };
 
-std::vector<Sphere> distinct_spheres(const Scene &scene, const Camera &camera) {
-    std::vector<Sphere> distinct;
-    Line<SeenSphere> line;
-    for (const Sphere &sphere : scene.spheres) {
-        const SeenSphere seen(sphere, scene, camera);
-        if (line.any(seen.place(), seen.reach(), [&](const SeenSphere &other) { return are_twins(seen, other); }))
-            continue;
-        line.add(seen.place(), seen);
-        distinct.push_back(sphere);
+// Marks the elements that are twins of an earlier one that is not. Few have any other within reach.
+template <typename Element>
+std::vector<bool> twins_of_earlier(const std::vector<Element> &elements, const Line &line) {
+    std::vector<std::pair<std::uint32_t, std::size_t>> crowded; // their indices, and where on the line they are
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (line.any_near(i, reach(elements[line.index(i)]), [](std::uint32_t) { return true; }))
+            crowded.emplace_back(line.index(i), i);
+    std::ranges::sort(crowded);
+    std::vector<bool> is_twin(elements.size());
+    for (const auto &[index, i] : crowded) {
+        const Element &element = elements[index];
+        const auto is_twin_of = [&, index = index](std::uint32_t other) {
+            return other < index && !is_twin[other] && are_twins(element, elements[other]);
+        };
+        is_twin[index] = line.any_near(i, reach(element), is_twin_of);
     }
-    return distinct;
+    return is_twin;
 }
 
-std::vector<Plane> distinct_planes(const Scene &scene, const Camera &camera) {
-    std::vector<Plane> distinct;
-    Line<CurvedPlane> line;
-    for (const Plane &plane : scene.planes) {
-        const CurvedPlane seen = curved_plane(plane, camera);
-        const double place = glm::dot(seen.normal, generic_direction);
-        if (line.any(place, same_size, [&](const CurvedPlane &other) { return are_alike(seen, other, same_size); }))
-            continue;
-        line.add(place, seen);
-        distinct.push_back(plane);
+bool has_close_lamps(const std::vector<SeenSphere> &spheres, const Line &line, const std::vector<bool> &is_twin) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const SeenSphere &lamp = spheres[line.index(i)];
+        const auto is_close = [&](std::uint32_t other) {
+            const double apart = two_spheres * std::min(lamp.radius, spheres[other].radius);
+            return !is_twin[other] && difference(lamp, spheres[other]) < apart;
+        };
+        if (lamp.emits && !is_twin[line.index(i)] && line.any_near(i, two_spheres * lamp.radius, is_close))
+            return true;
     }
-    return distinct;
+    return false;
+}
+
+bool has_close_planes(const std::vector<CurvedPlane> &planes, const Line &line, const std::vector<bool> &is_twin) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const std::uint32_t plane = line.index(i);
+        const auto is_close = [&](std::uint32_t other) {
+            return !is_twin[other] && are_alike(planes[plane], planes[other], two_planes);
+        };
+        if (!is_twin[plane] && line.any_near(i, two_planes, is_close))
+            return true;
+    }
+    return false;
+}
+
+template <typename Element>
+void erase(std::vector<Element> &elements, const std::vector<bool> &is_twin) {
+    std::size_t index = 0;
+    std::erase_if(elements, [&](const Element &) { return is_twin[index++]; });
+}
+
+std::vector<std::uint32_t> order_of_array(std::size_t size) {
+    std::vector<std::uint32_t> order(size);
+    std::iota(order.begin(), order.end(), 0U);
+    return order;
 }
 
 } // namespace
 
-Scene without_twins(const Scene &scene, const Camera &camera) {
-    return {scene.materials, distinct_spheres(scene, camera), distinct_planes(scene, camera)};
+std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres) {
+    std::vector<double> places;
+    places.reserve(spheres.size());
+    for (const Sphere &sphere : spheres)
+        places.push_back(glm::dot(sphere.center, generic_direction));
+    std::vector<std::uint32_t> order = order_of_array(spheres.size());
+    std::ranges::sort(order, {}, [&](std::uint32_t index) { return places[index]; });
+    return order;
 }
 
-bool has_close_lamps(const Scene &scene, const Camera &camera) {
-    Line<const SeenSphere *> line;
-    std::vector<SeenSphere> spheres;
-    spheres.reserve(scene.spheres.size());
-    for (const Sphere &sphere : scene.spheres) {
-        spheres.emplace_back(sphere, scene, camera);
-        line.add(spheres.back().place(), &spheres.back());
-    }
-    const auto is_close_lamp = [&](const SeenSphere &lamp) {
-        return line.any(lamp.place(), two_spheres * lamp.radius, [&](const SeenSphere *other) {
-            return other != &lamp && difference(lamp, *other) < two_spheres * std::min(lamp.radius, other->radius);
-        });
-    };
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-        if (scene.materials[scene.spheres[i].material].emission != glm::vec3(0.0F) && is_close_lamp(spheres[i]))
-            return true;
-    return false;
-}
+DistinctScene without_twins(SeenScene seen, const std::vector<std::uint32_t> &order) {
+    DistinctScene distinct{std::move(seen), false, false};
+    std::vector<SeenSphere> &spheres = distinct.seen.spheres;
+    const Line sphere_line(spheres, order);
+    const std::vector<bool> sphere_twins = twins_of_earlier(spheres, sphere_line);
+    distinct.close_lamps = has_close_lamps(spheres, sphere_line, sphere_twins);
+    erase(spheres, sphere_twins);
 
-bool has_close_planes(const Scene &scene, const Camera &camera) {
-    Line<CurvedPlane> line;
-    for (const Plane &plane : scene.planes) {
-        const CurvedPlane seen = curved_plane(plane, camera);
-        const double place = glm::dot(seen.normal, generic_direction);
-        if (line.any(place, two_planes, [&](const CurvedPlane &other) { return are_alike(seen, other, two_planes); }))
-            return true;
-        line.add(place, seen);
-    }
-    return false;
+    std::vector<CurvedPlane> &planes = distinct.seen.planes;
+    const Line plane_line(planes, order_of_array(planes.size()));
+    const std::vector<bool> plane_twins = twins_of_earlier(planes, plane_line);
+    distinct.close_planes = has_close_planes(planes, plane_line, plane_twins);
+    erase(planes, plane_twins);
+    return distinct;
 }
 
 } // namespace pt

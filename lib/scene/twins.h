@@ -1,22 +1,29 @@
 // Surfaces so near to each other that float32 cannot tell, or all but cannot tell, which of them a ray meets first. Used
-// by RenderDevice and scene_features.
+// by gpu_scene.
 #pragma once
 
-#include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
+#include "lib/scene/seen_scene.h"
+
+#include <cstdint>
+#include <vector>
 
 namespace pt {
 
-// The scene with twins taken for one surface: of spheres, or of planes, that float32 cannot tell apart as the camera sees
+// Indices of spheres in the order of their places along the line by which near ones are found. Sorting is most of the
+// work, and what the camera sees has nearly the same order, whatever the camera.
+std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres);
+
+// A scene with twins taken for one surface: of spheres, or of planes, that float32 cannot tell apart as the camera sees
 // them the first of the array stands for all. Otherwise rounding would choose among them, differently for the rays of one
 // path, and count light twice or never.
-Scene without_twins(const Scene &scene, const Camera &camera);
+struct DistinctScene {
+    SeenScene seen;
+    bool close_lamps;  // some emitting sphere and another one differ by less than a quarter of their radii
+    bool close_planes; // some planes differ by less than a 2^8th in direction and distance
+};
 
-// Whether some emitting sphere and another one differ by less than a quarter of their radii. Twins are not meant: such
-// scenes have none.
-bool has_close_lamps(const Scene &scene, const Camera &camera);
-
-// Whether some planes differ by less than a 2^8th in direction and distance. Again twins are not meant.
-bool has_close_planes(const Scene &scene, const Camera &camera);
+// order: by order_along_line, of the spheres seen.
+DistinctScene without_twins(SeenScene seen, const std::vector<std::uint32_t> &order);
 
 } // namespace pt

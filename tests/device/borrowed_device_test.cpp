@@ -6,6 +6,7 @@
 #include "lib/vulkan/compute_pipeline.h"
 #include "recurrence.spv.h"
 #include "tests/device/caller_vulkan.h"
+#include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/gate.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/expected_error.h"
@@ -89,11 +90,9 @@ protected:
         pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(),
                                 0.05);
         const QueueSpy spy(device.device().handle());
-        const CourseworkScene coursework;
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
         device.set_film(device.make_film(settings));
-        device.prepare(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
-                       settings);
+        device.prepare(coursework_gpu_scene(settings), settings);
         for (std::uint32_t sample = 0; sample < 4;) {
             sample += device.start({sample, 4}, {0, sample});
             device.finish();

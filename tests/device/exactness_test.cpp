@@ -1,6 +1,6 @@
 // The film's promise: the same samples give the same bits, however they are split over calls and submissions.
 #include "lib/film/error_estimate.h"
-#include "lib/kernel/scene_features.h"
+#include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/probe.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
@@ -87,10 +87,8 @@ protected:
 
     // Samples that a dispatch can take at most.
     uint32_t most_of_a_dispatch(const Paths &paths) {
-        CourseworkScene coursework;
         const pt::Features features =
-            pt::features_of(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
-                            {3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1});
+            coursework_gpu_scene({3, 1, paths.max_length, 0, 0, PT_ESTIMATOR_MIS, paths.sampler, 0, 1})->features;
         const uint32_t row_blocks = pt::point_layout(features).row_blocks();
         const pt::vulkan::Limits &limits = probe_device().limits();
         uint64_t most = std::min<uint64_t>(pt::gpu::FILM_MAX_GATHERED,

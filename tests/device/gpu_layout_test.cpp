@@ -1,6 +1,6 @@
 // Host and kernel agree on the bytes between them: push constants, and the scene buffer word by word.
 #include "lib/kernel/gpu_scene.h"
-#include "lib/scene/curved_plane.h"
+#include "lib/scene/seen_sphere.h"
 #include "push_layout.spv.h"
 #include "tests/device/probe.h"
 
@@ -46,11 +46,15 @@ pt::Scene small_scene() {
     return scene;
 }
 
+pt::GpuScene gpu_scene_of(const pt::Scene &scene, const pt::Camera &camera) {
+    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+}
+
 TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
     const pt::Camera camera = camera_at({0, 0, 1});
     const pt::Scene scene = small_scene();
-    const pt::Features features =
-        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
+    const pt::Features &features = gpu_scene.features;
     EXPECT_EQ(features.sphere_count, 2U);
     EXPECT_EQ(features.plane_count, 1U);
     EXPECT_EQ(features.lamp_count, 1U);
@@ -76,7 +80,7 @@ TEST(GpuLayout, SceneWordsAreWhereTheLayoutSays) {
         {0, 0, 0, 0}, // ways while the shutter is open
         {2, 0, 0, 0},
     };
-    EXPECT_EQ(pt::gpu_scene(scene, camera, features), expected);
+    EXPECT_EQ(gpu_scene.words, expected);
     EXPECT_EQ(pt::scene_word_count(features), expected.size());
 }
 
@@ -84,8 +88,7 @@ TEST(GpuLayout, WhatTheSceneDoesNotUseIsNotInTheBuffer) {
     pt::Scene scene = small_scene();
     scene.materials[1].specular = {0, 0, 0};
     scene.spheres[0].motion = {0, 0, 0};
-    const pt::Features features =
-        pt::features_of(scene, camera_at({0, 0, 1}), {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const pt::Features features = gpu_scene_of(scene, camera_at({0, 0, 1})).features;
     EXPECT_FALSE(features.gloss);
     EXPECT_FALSE(features.motion);
     EXPECT_EQ(pt::scene_word_count(features), 9U);
@@ -97,13 +100,11 @@ TEST(GpuLayout, PositionsAreRelativeToTheCameraBeforeTheyAreRounded) {
     const glm::dvec3 shift{0x1p30, -0x1p30, 0x1p29};
     pt::Scene scene = small_scene();
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Features features =
-        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
-    const auto expected = pt::gpu_scene(scene, camera, features);
+    const auto expected = gpu_scene_of(scene, camera).words;
     for (pt::Sphere &sphere : scene.spheres)
         sphere.center += shift;
     scene.planes[0].offset -= glm::dot(scene.planes[0].normal, shift);
-    EXPECT_EQ(pt::gpu_scene(scene, camera_at(camera.position + shift), features), expected);
+    EXPECT_EQ(gpu_scene_of(scene, camera_at(camera.position + shift)).words, expected);
 }
 
 // A floor sphere, as seen from 2 above it, becomes a plane with a curvature, ahead of the flat ones; so does a lamp
@@ -113,15 +114,15 @@ TEST(GpuLayout, HugeSpheresArePlanesWithACurvature) {
     scene.spheres.push_back({{0, -1026, 1}, 1024, {0, 0, 0}, 0});
     scene.spheres.push_back({{0, 0, 262147}, 262144, {0, 0, 0}, 2});
     const pt::Camera camera = camera_at({0, 0, 1});
-    const pt::Features features =
-        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const pt::GpuScene gpu_scene = gpu_scene_of(scene, camera);
+    const pt::Features &features = gpu_scene.features;
     EXPECT_EQ(features.sphere_count, 2U);
     EXPECT_EQ(features.plane_count, 3U);
     EXPECT_EQ(features.lamp_count, 1U);
     EXPECT_TRUE(features.curvature);
     EXPECT_EQ(pt::specialization_constants(features)[pt::gpu::ID_CURVATURE], 1U);
 
-    const std::vector<glm::vec4> words = pt::gpu_scene(scene, camera, features);
+    const std::vector<glm::vec4> &words = gpu_scene.words;
     ASSERT_EQ(words.size(), 5U * 4 + 2 + 3);
     EXPECT_EQ(words[2], glm::vec4(0, 1, 0, 2));
     EXPECT_EQ(words[3], glm::vec4(0, 0, -1, 2));
@@ -141,27 +142,30 @@ TEST(GpuLayout, OtherSpheresKeepTheirCentre) {
     const auto below = [](double radius, double height, double motion) {
         return pt::Sphere{{0, -radius - height, 0}, radius, {motion, 0, 0}, 0};
     };
-    EXPECT_TRUE(pt::curved_plane(below(33, 1, 0), diffuse, camera));
-    EXPECT_TRUE(pt::curved_plane(below(33, -1, 0), diffuse, camera));
-    EXPECT_TRUE(pt::curved_plane(below(33, 0, 0), diffuse, camera));
-    EXPECT_FALSE(pt::curved_plane(below(31, 1, 0), diffuse, camera));
-    EXPECT_FALSE(pt::curved_plane(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
-    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, camera));
-    EXPECT_FALSE(pt::curved_plane(below(33, 1, 3), diffuse, camera));
-    EXPECT_TRUE(pt::curved_plane(below(65537, 1, 0), lamp, camera));
-    EXPECT_FALSE(pt::curved_plane(below(65535, 1, 0), lamp, camera));
+    const auto is_flat = [](const pt::Sphere &sphere, const pt::Material &material, const pt::Camera &seen_from) {
+        return pt::SeenSphere(sphere, material, seen_from).is_flat;
+    };
+    EXPECT_TRUE(is_flat(below(33, 1, 0), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(33, -1, 0), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(33, 0, 0), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(31, 1, 0), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(33, -33, 0), diffuse, camera)) << "the camera at its centre";
+    EXPECT_TRUE(is_flat(below(33, 1, 1), diffuse, camera));
+    EXPECT_FALSE(is_flat(below(33, 1, 3), diffuse, camera));
+    EXPECT_TRUE(is_flat(below(65537, 1, 0), lamp, camera));
+    EXPECT_FALSE(is_flat(below(65535, 1, 0), lamp, camera));
     pt::Camera closed = camera;
     closed.shutter_close = closed.shutter_open;
-    EXPECT_TRUE(pt::curved_plane(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
+    EXPECT_TRUE(is_flat(below(33, 1, 1), diffuse, closed)) << "nothing moves while the shutter is shut";
 }
 
 TEST(GpuLayout, TheFilmUnitFollowsTheBrightestLampInUse) {
     pt::Scene scene = small_scene();
-    EXPECT_EQ(pt::film_unit(scene), 0.5); // 90 is in [2^6, 2^7) and goes to [2^7, 2^8)
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0.5); // 90 is in [2^6, 2^7) and goes to [2^7, 2^8)
     scene.materials[2].emission = {1e14F, 0, 0};
-    EXPECT_EQ(pt::film_unit(scene), 0x1p39); // 1e14 is in [2^46, 2^47)
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 0x1p39); // 1e14 is in [2^46, 2^47)
     scene.spheres.pop_back();
-    EXPECT_EQ(pt::film_unit(scene), 1.0); // unused materials do not count
+    EXPECT_EQ(pt::PreparedScene(scene).film_unit, 1.0); // unused materials do not count
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 class KernelRender {
@@ -24,20 +25,23 @@ public:
     static constexpr std::uint32_t width = 16;
     static constexpr std::uint32_t height = 12;
     static constexpr std::uint32_t sample_count = 16;
+    static constexpr std::uint64_t seed = 7;
 
     KernelRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
-        settings_{width, height, max_path_length, 7, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height},
-        features_(pt::features_of(scene, camera, settings_)),
-        words_(pt::gpu_scene(scene, camera, features_)),
-        film_unit_(pt::film_unit(scene)),
-        frame_(pt::frame_constants(camera, settings_, film_unit_)) {
+        KernelRender(pt::gpu_scene(pt::PreparedScene(scene), camera, settings(max_path_length))) {}
+
+    explicit KernelRender(pt::GpuScene scene) : scene_(std::move(scene)), frame_(scene_.frame) {
         frame_.strip_pixel_count = frame_.pixel_count = width * height;
         frame_.sample_count = sample_count;
     }
 
-    const pt::Features &features() const { return features_; }
-    const std::vector<glm::vec4> &words() const { return words_; }
-    Constants constants() const { return pt::specialization_constants(features_); }
+    static pt::RenderSettings settings(std::uint32_t max_path_length) {
+        return {width, height, max_path_length, seed, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height};
+    }
+
+    const pt::Features &features() const { return scene_.features; }
+    const std::vector<glm::vec4> &words() const { return scene_.words; }
+    Constants constants() const { return pt::specialization_constants(scene_.features); }
 
     // The film of the words of a scene that the kernel finds where source says.
     FilmWords film(std::uint32_t source, const std::vector<glm::vec4> &words) const {
@@ -51,7 +55,7 @@ public:
         set_scene_for(probe, source, words);
         std::vector<std::uint32_t> indices(sample_count);
         std::iota(indices.begin(), indices.end(), 0U);
-        probe.set_points(pt::point_table(settings_.sampler, settings_.seed, indices, pt::point_layout(features_)));
+        probe.set_points(pt::point_table(PT_SAMPLER_SOBOL, seed, indices, pt::point_layout(scene_.features)));
         return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height,
                                         frame_, width * height);
     }
@@ -60,14 +64,11 @@ public:
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
         sums.require_samples({sample_count, 0});
-        return sums.estimates(film_unit_, false).radiance;
+        return sums.estimates(scene_.film_unit, false).radiance;
     }
 
 private:
-    pt::RenderSettings settings_;
-    pt::Features features_;
-    std::vector<glm::vec4> words_;
-    double film_unit_;
+    pt::GpuScene scene_;
     pt::gpu::FrameConstants frame_;
 };
 

@@ -2,6 +2,7 @@
 #include "lib/film/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"
+#include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/vulkan_fixture.h"
 #include "tests/support/coursework_scene.h"
 
@@ -25,13 +26,11 @@ protected:
                                                   .scene_in_constants = false,
                                                   .invocations = invocations,
                                                   .queue_depth = 1});
-        const CourseworkScene coursework;
         pt::TracePipelines pipelines(device);
         pt::DeviceFilm film(device, width, height, pt::max_strip_pixels(device.limits()));
         device.submit([&](const vk::raii::CommandBuffer &commands) { film.clear(commands, 0, film.pixel_count()); });
-        pt::Kernel kernel(device, pipelines, film, pt::validated_scene(coursework.scene()),
-                          pt::validated_camera(CourseworkScene::camera()),
-                          pt::validated_render(render_of(width, height, 3)));
+        const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
+        pt::Kernel kernel(device, pipelines, film, coursework_gpu_scene(settings), settings);
         kernel.finish(kernel.start({0, film.pixel_count(), sample_count, true}, 5, {}));
         pt::PixelSums sums;
         sums.resize(film.pixel_count());

@@ -1,6 +1,7 @@
 // Slices of a device as Renderer asks for them: every kind of work is cut, and the film holds whole samples wherever the
 // work stands still.
 #include "lib/render/render_device.h"
+#include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/vulkan_fixture.h"
 #include "tests/support/coursework_scene.h"
 
@@ -24,16 +25,14 @@ protected:
     }
 
     static void set_up(pt::RenderDevice &device) {
-        const CourseworkScene coursework;
         const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
         device.set_film(device.make_film(settings));
         prepare(device);
     }
 
     static void prepare(pt::RenderDevice &device) {
-        const CourseworkScene coursework;
-        device.prepare(pt::validated_scene(coursework.scene()), pt::validated_camera(CourseworkScene::camera()),
-                       pt::validated_render(render_of(width, height, 3)));
+        const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
+        device.prepare(coursework_gpu_scene(settings), settings);
     }
 
     static pt::PixelSums sums(pt::RenderDevice &device) {

@@ -115,10 +115,17 @@ double mean_light(const KernelRender &render, const KernelRender::Constants &con
     return std::accumulate(image.begin(), image.end(), 0.0) / static_cast<double>(image.size());
 }
 
+KernelRender render_with_twins(const InvarianceScene &named) {
+    const pt::PreparedScene scene(pt::validated_scene(named.scene()));
+    const pt::Camera camera = pt::validated_camera(named.camera);
+    return KernelRender(
+        pt::gpu_scene({pt::seen_scene(scene.scene, camera), false, false}, scene, camera, KernelRender::settings(2)));
+}
+
 // Negative control: without what is done about twins they send too much, or lose it.
 TEST_F(RenderedTwins, WouldOtherwiseBeSeenTwiceOrNever) {
     const auto light = [](std::initializer_list<Named> surfaces, std::uint32_t known_sides, std::uint32_t close_lamps) {
-        const KernelRender render = render_of_scene(scene_of_named(surfaces), 2);
+        const KernelRender render = render_with_twins(scene_of_named(surfaces));
         KernelRender::Constants constants = render.constants();
         EXPECT_EQ(constants[pt::gpu::ID_KNOWN_SIDES], 1U);
         constants[pt::gpu::ID_KNOWN_SIDES] = known_sides;

@@ -3,7 +3,7 @@
 #include "tests/fuzz/examine.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/scene_features.h"
+#include "lib/kernel/gpu_scene.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
@@ -145,8 +145,9 @@ void examine_one(const Input &input) {
 // What the kernel is built for; nothing if the input is refused.
 std::optional<pt::Features> features(const Input &input) {
     try {
-        return pt::features_of(pt::validated_scene(input.scene()), pt::validated_camera(input.camera),
-                               pt::validated_render(input.render));
+        return pt::gpu_scene(pt::PreparedScene(pt::validated_scene(input.scene())), pt::validated_camera(input.camera),
+                             pt::validated_render(input.render))
+            .features;
     } catch (const pt::Error &) {
         return std::nullopt;
     }

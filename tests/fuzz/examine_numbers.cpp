@@ -110,7 +110,7 @@ void require_settings(const pt::RenderSettings &settings) {
 }
 
 void require_features(const pt::Features &features, const pt::Scene &scene) {
-    require(features.surface_count() == scene.spheres.size() + scene.planes.size(), "no surface is lost");
+    require(features.surface_count() <= scene.spheres.size() + scene.planes.size(), "no surface is added");
     require(features.lamp_count <= features.sphere_count, "lamps are spheres");
     require(features.gloss || !(pt::feature_bits(features) & PT_FEATURE_GLOSS), "gloss is said where it is");
     require(pt::branch_count(features) >= 1, "a path leaves its first vertex");
@@ -152,11 +152,9 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
             "probabilities lie in [0, 1]");
 }
 
-void require_frame(const pt::Scene &scene, const pt::Camera &camera, const pt::RenderSettings &settings) {
-    const double unit = pt::film_unit(scene);
+void require_frame(const pt::gpu::FrameConstants &frame, double unit) {
     int exponent = 0;
     require(std::frexp(unit, &exponent) == 0.5 && std::abs(exponent) <= 121, "the film's unit is a power of two");
-    const pt::gpu::FrameConstants frame = pt::frame_constants(camera, settings, unit);
     require(std::isnormal(frame.film_scale), "the film's scale is a normal number");
     const float distance = glm::length(frame.camera_forward);
     require(distance > 0.0F && distance <= 1e18F, "the distance of the image plane is a length");
@@ -179,10 +177,12 @@ void examine_one(const Input &input) {
         require_settings(*settings);
     if (!scene || !camera || !settings)
         return;
-    const pt::Features features = pt::features_of(*scene, *camera, *settings);
-    require_features(features, *scene);
-    require_words(pt::gpu_scene(*scene, *camera, features), features);
-    require_frame(*scene, *camera, *settings);
+    const auto gpu_scene = accepted([&] { return pt::gpu_scene(pt::PreparedScene(*scene), *camera, *settings); });
+    if (!gpu_scene)
+        return;
+    require_features(gpu_scene->features, *scene);
+    require_words(gpu_scene->words, gpu_scene->features);
+    require_frame(gpu_scene->frame, gpu_scene->film_unit);
 }
 
 } // namespace

@@ -28,7 +28,7 @@ double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Pl
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
     scene.spheres = spheres;
     scene.planes = planes;
-    const pt::Camera ahead = pt::starting_ahead(scene, camera, square);
+    const pt::Camera ahead = pt::starting_ahead(pt::seen_scene(scene, camera), camera, square);
     EXPECT_LT(glm::length(ahead.position - camera.position - ahead.start_distance * camera.forward),
               1e-15 * ahead.start_distance + 1e-15);
     return ahead.start_distance;

@@ -1,4 +1,5 @@
 // What the kernel may leave out of a scene, by geometry: insides of spheres, planes between surfaces and lamps.
+#include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_features.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,8 @@ pt::Features features_of(const std::vector<pt::Sphere> &spheres, const std::vect
     scene.planes = planes;
     const pt::Camera camera{eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, shutter.open, shutter.close};
     const pt::Features features =
-        pt::features_of(scene, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+        pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
+            .features;
     const auto constants = pt::specialization_constants(features);
     EXPECT_EQ(constants[pt::gpu::ID_INSIDE], features.inside ? 1U : 0U);
     EXPECT_EQ(constants[pt::gpu::ID_PLANES_BLOCK], features.planes_block ? 1U : 0U);
@@ -118,7 +120,7 @@ pt::Plane floor_at(double height, bool upwards = true) {
 
 // Lamps are sampled and found by their index; what else emits is a plane, or a sphere that is held as one.
 TEST(FeaturePlanesEmit, IsWhetherAnythingButALampEmits) {
-    pt::Plane glowing = floor_at(-4);
+    pt::Plane glowing = floor_at(-5);
     glowing.material = shining;
     const pt::Sphere huge_lamp = lamp_at({0, 0, -262145}, 262144);
     EXPECT_FALSE(features_of({}).planes_emit);

@@ -28,10 +28,14 @@ pt::Scene scene_of(const std::vector<Sphere> &spheres, const std::vector<Plane> 
     return scene;
 }
 
+pt::DistinctScene without_twins(const pt::Scene &scene) {
+    return pt::without_twins(pt::seen_scene(scene, camera()), pt::order_along_line(scene.spheres));
+}
+
 // The radii of the spheres that are left.
 std::vector<double> distinct(const std::vector<Sphere> &spheres) {
     std::vector<double> radii;
-    for (const Sphere &sphere : pt::without_twins(scene_of(spheres, {}), camera()).spheres)
+    for (const pt::SeenSphere &sphere : without_twins(scene_of(spheres, {})).seen.spheres)
         radii.push_back(sphere.radius);
     return radii;
 }
@@ -39,7 +43,7 @@ std::vector<double> distinct(const std::vector<Sphere> &spheres) {
 // The materials of the planes that are left; planes are given with unit normals.
 std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
     std::vector<std::uint32_t> materials;
-    for (const Plane &plane : pt::without_twins(scene_of({}, planes), camera()).planes)
+    for (const pt::CurvedPlane &plane : without_twins(scene_of({}, planes)).seen.planes)
         materials.push_back(plane.material);
     return materials;
 }
@@ -128,7 +132,7 @@ TEST(Twins, AreNoneOnALattice) {
 
 TEST(ClosePlanes, DifferByLessThanA256th) {
     const auto close = [](const Plane &second) {
-        return pt::has_close_planes(scene_of({}, {plane({0.3, 1, 0.2}, 1.5, 0), second}), camera());
+        return without_twins(scene_of({}, {plane({0.3, 1, 0.2}, 1.5, 0), second})).close_planes;
     };
     EXPECT_TRUE(close(plane({0.3, 1, 0.2}, 1.5 * 1.003, 0)));
     EXPECT_TRUE(close(plane({-0.3, -1, -0.2}, -1.5 * 1.003, 0)));
@@ -142,7 +146,7 @@ bool close_lamps(const glm::dvec3 &shift, double radius, std::uint32_t first, st
                                    ball({5, 0, -5}, 1)};
     spheres[0].material = first;
     spheres[1].material = second;
-    return pt::has_close_lamps(scene_of(spheres, {}), camera());
+    return without_twins(scene_of(spheres, {})).close_lamps;
 }
 
 TEST(CloseLamps, AreLessThanAQuarterOfTheirRadiiApart) {

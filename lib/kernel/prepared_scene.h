@@ -1,0 +1,24 @@
+// A scene with what is known of it wherever the camera is: made once by pt_set_scene, held by Renderer, read by gpu_scene.
+#pragma once
+
+#include "lib/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+struct PreparedScene {
+    Scene scene;
+    // Power of two that makes one film unit: radiance / unit is what the film sums. It puts the brightest emission into
+    // [2^7, 2^8) units, so that samples 2^20 times as bright are still accepted and samples 2^-44 times as bright are
+    // exact, whatever the scene's unit of light is.
+    double film_unit;
+    bool gloss;                              // some material in use has a specular lobe
+    bool moves;                              // some sphere does
+    std::vector<std::uint32_t> sphere_order; // along the line of twins.h
+
+    explicit PreparedScene(Scene of);
+};
+
+} // namespace pt

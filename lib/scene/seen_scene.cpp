@@ -1,0 +1,33 @@
+// Looks at a scene; see seen_scene.h.
+#include "lib/scene/seen_scene.h"
+
+#include "lib/base/error.h"
+#include "lib/base/rules.h"
+
+#include <string>
+
+namespace pt {
+
+SeenScene seen_scene(const Scene &scene, const Camera &camera) {
+    SeenScene seen;
+    seen.spheres.reserve(scene.spheres.size());
+    for (const Sphere &sphere : scene.spheres)
+        seen.spheres.emplace_back(sphere, scene.materials[sphere.material], camera);
+    seen.planes.reserve(scene.planes.size());
+    for (const Plane &plane : scene.planes)
+        seen.planes.push_back(curved_plane(plane, camera));
+    return seen;
+}
+
+void require_held_motions(const SeenScene &seen, const Scene &scene) {
+    for (std::size_t i = 0; i < seen.spheres.size(); ++i)
+        if (moves_too_far(seen.spheres[i]))
+            throw Error(PT_ERROR_UNSUPPORTED, "spheres[" + std::to_string(i) +
+                                                  "].motion = " + number_text(scene.spheres[i].motion) +
+                                                  ": a sphere whose surface, as the shutter opens, is nearer to the "
+                                                  "camera than a 65536th of its radius (" +
+                                                  number_text(scene.spheres[i].radius) +
+                                                  ") must move less than a 32nd of it while the shutter is open");
+}
+
+} // namespace pt

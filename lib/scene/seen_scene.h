@@ -1,0 +1,25 @@
+// A scene as the camera sees it: every sphere and plane relative to it. Made by gpu_scene, used by twins and ray_start.
+#pragma once
+
+#include "lib/scene/camera.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/scene.h"
+#include "lib/scene/seen_sphere.h"
+
+#include <vector>
+
+namespace pt {
+
+// In the scene's order.
+struct SeenScene {
+    std::vector<SeenSphere> spheres;
+    std::vector<CurvedPlane> planes; // flat ones
+};
+
+SeenScene seen_scene(const Scene &scene, const Camera &camera);
+
+// Throws PT_ERROR_UNSUPPORTED if some sphere would have to be held as a plane but moves too far for it. The scene: what
+// is seen.
+void require_held_motions(const SeenScene &seen, const Scene &scene);
+
+} // namespace pt

@@ -1,0 +1,45 @@
+// Decides which spheres are seen as planes with a curvature; see seen_sphere.h.
+#include "lib/scene/seen_sphere.h"
+
+#include <cmath>
+
+namespace pt {
+
+namespace {
+
+// A sphere counts as nearly flat if its radius is this many times its distance from the camera: below, its centre and
+// radius cost at most 5 of the 24 bits that a hit near the camera has.
+constexpr double nearly_flat = 32.0;
+
+// A lamp that is held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions
+// alone. That serves as well where it fills half of the view, but few directions find its rim, so noise rises there. So
+// it begins where the centre's precision ends: here its surface is off by 2^-24 R, 1/256 of the distance.
+constexpr double nearly_flat_lamp = 65536.0;
+
+bool is_large(const SeenSphere &sphere, double ratio) {
+    return sphere.radius > ratio * std::abs(sphere.height());
+}
+
+// One that moves is seen as if the camera moved the other way, so what it moves counts like a distance.
+bool moves_little(const SeenSphere &sphere) {
+    return sphere.radius > nearly_flat * glm::length(sphere.way);
+}
+
+} // namespace
+
+SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera) :
+    open(sphere.center + camera.shutter_open * sphere.motion - camera.position),
+    way((camera.shutter_close - camera.shutter_open) * sphere.motion),
+    radius(sphere.radius),
+    distance(glm::length(open)),
+    material(sphere.material),
+    emits(pt::emits(of_sphere)),
+    is_flat(is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
+
+// Held by its centre, its surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, as for
+// lamps, the picture would be wrong while it is so near.
+bool moves_too_far(const SeenSphere &sphere) {
+    return is_large(sphere, nearly_flat_lamp) && !moves_little(sphere);
+}
+
+} // namespace pt

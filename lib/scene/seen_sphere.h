@@ -1,0 +1,32 @@
+// A sphere as the camera sees it while the shutter is open. Part of SeenScene, used by all that asks where spheres are.
+#pragma once
+
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+
+#include <cstdint>
+
+namespace pt {
+
+// Places are relative to the camera.
+struct SeenSphere {
+    glm::dvec3 open; // the centre as the shutter opens
+    glm::dvec3 way;  // of the centre while the shutter is open, on a straight line
+    double radius;
+    double distance;        // of the centre as the shutter opens
+    std::uint32_t material; // index into Scene::materials
+    bool emits;
+    bool is_flat; // so large that it is held better as a plane with a curvature (curved_plane.h)
+
+    SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera);
+
+    glm::dvec3 close() const { return open + way; }
+
+    // Of the camera above the surface as the shutter opens, negative inside.
+    double height() const { return distance - radius; }
+};
+
+// Whether its surface is so near to the camera that it has to be held as a plane, and yet it moves too far for that.
+bool moves_too_far(const SeenSphere &sphere);
+
+} // namespace pt

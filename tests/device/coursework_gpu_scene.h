@@ -1,0 +1,14 @@
+// The coursework scene as kernels read it. Used by the tests of kernels and of their devices.
+#pragma once
+
+#include "lib/kernel/gpu_scene.h"
+#include "tests/support/coursework_scene.h"
+
+#include <memory>
+
+inline std::shared_ptr<const pt::GpuScene> coursework_gpu_scene(const pt::RenderSettings &settings) {
+    const CourseworkScene coursework;
+    return std::make_shared<const pt::GpuScene>(
+        pt::gpu_scene(pt::PreparedScene(pt::validated_scene(coursework.scene())),
+                      pt::validated_camera(CourseworkScene::camera()), settings));
+}
