@@ -13,6 +13,10 @@ namespace {
 
 constexpr double out_of_view = std::numeric_limits<double>::infinity();
 
+// Farther than any sphere may be, whose centre, way and camera have components up to 1e18; planes that are all but along
+// the view are met farther still. From a start beyond it the squares of distances would not be numbers of float32.
+constexpr double farthest_start = 6e18;
+
 // Components of a direction are off by 2^-24: from here on, by more than 1/1024 of a pixel.
 constexpr double narrow_pixel = 0x1p-14; // its side at distance 1
 
@@ -79,7 +83,7 @@ Camera starting_ahead(const SeenScene &seen, const Camera &camera, const RenderS
         depth = std::min(depth, nearest_depth(sphere, view));
     for (const CurvedPlane &plane : seen.planes)
         depth = std::min(depth, nearest_depth(plane, view));
-    if (depth == out_of_view)
+    if (depth > farthest_start)
         return camera;
     // As far before the first surface as the view is wide there, so that rounding puts no start behind it.
     Camera ahead = camera;
