@@ -1,4 +1,4 @@
-# Installs the library: a shared and a static one, the header, and how to find them by CMake and by pkg-config. Nothing
+# Installs the library: a shared and a static one, the headers, and how to find them by CMake and by pkg-config. Nothing
 # that is installed names the prefix, so that an installed tree can be moved. Included by lib/.
 include(CMakePackageConfigHelpers)
 set(pt_cmake_directory ${CMAKE_INSTALL_LIBDIR}/cmake/pt)
@@ -14,9 +14,11 @@ install(
   ARCHIVE COMPONENT pt_development
 )
 install(
-  FILES include/pt/film.h include/pt/pt.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pt
+  DIRECTORY include/pt
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT pt_development
+  FILES_MATCHING
+  PATTERN "*.h"
 )
 
 foreach(export pt-targets pt-static-targets)

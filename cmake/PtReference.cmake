@@ -1,4 +1,4 @@
-# The reference of pt.h as HTML, by Doxygen: target pt_reference, built on demand into reference/html of the build
+# The reference of the headers as HTML, by Doxygen: target pt_reference, built on demand into reference/html of the build
 # folder. What is undocumented or wrongly documented is an error.
 find_package(Doxygen QUIET)
 if(DOXYGEN_FOUND)

@@ -8,6 +8,7 @@
 #include "lib/kernel/accuracy.h"
 #include "lib/render/renderer.h"
 
+#include <pt/errors.h>
 #include <pt/film.h>
 
 #include <algorithm>
@@ -20,11 +21,6 @@
 namespace pt {
 
 namespace {
-
-void require_not_null(const void *pointer, const char *name) {
-    if (!pointer)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
-}
 
 // The last call on a context that this thread made, if it was refused because the context was in use. It has a message
 // of its own, since the context's belongs to the call that is under way.
@@ -66,6 +62,34 @@ void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
         });
 }
 
+// Calls read() with the error that pt_last_error speaks of; with NULL and a fixed message where the calling thread may
+// not look at the context's, or was refused.
+template <typename Read>
+auto read_last_error(const pt_context *context, Read &&read) noexcept {
+    if (!context)
+        return read(&thread_last_error, nullptr);
+    if (refusal.context == context)
+        return read(nullptr, refusal.message);
+    if (context->in_use.by_this_thread())
+        return read(&context->last_error, nullptr);
+    if (const char *reason = context->in_use.take())
+        return read(nullptr, reason);
+    const auto result = read(&context->last_error, nullptr);
+    context->in_use.release();
+    return result;
+}
+
+pt_broken_rule shown(const BrokenRule &rule) noexcept {
+    return {.struct_size = sizeof(pt_broken_rule),
+            .component = rule.component,
+            .index = rule.index,
+            .subject = rule.subject.c_str(),
+            .member = rule.member.c_str(),
+            .with = rule.with.c_str(),
+            .value = rule.value.c_str(),
+            .rule = rule.rule.c_str()};
+}
+
 } // namespace
 
 } // namespace pt
@@ -99,17 +123,18 @@ pt_result pt_create(const pt_create_info *info, pt_context **context) {
 }
 
 const char *pt_last_error(const pt_context *context) {
-    if (!context)
-        return pt::thread_last_error.c_str();
-    if (pt::refusal.context == context)
-        return pt::refusal.message;
-    if (context->in_use.by_this_thread())
-        return context->last_error.c_str();
-    if (const char *reason = context->in_use.take())
-        return reason;
-    const char *message = context->last_error.c_str();
-    context->in_use.release();
-    return message;
+    return pt::read_last_error(
+        context, [](const pt::LastError *error, const char *reason) { return error ? error->c_str() : reason; });
+}
+
+uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule) {
+    return pt::read_last_error(context, [&](const pt::LastError *error, const char *) -> std::uint64_t {
+        const pt::BrokenRules *rules = error ? error->broken_rules() : nullptr;
+        const bool known = rules && index < rules->first().size();
+        if (rule && pt::is_struct_size(rule->struct_size))
+            pt::copy_known(known ? pt::shown(rules->first()[index]) : pt_broken_rule{}, rule, rule->struct_size);
+        return rules ? rules->count() : 0;
+    });
 }
 
 void pt_destroy(pt_context *context) {

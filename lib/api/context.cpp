@@ -21,8 +21,7 @@ CreateSettings validated_create(const pt_create_info &info) {
     create.require(!info.vulkan || info.flags == 0, "flags", info.flags,
                    "must be 0 with vulkan, whose instance has its own layers");
     if (info.vulkan && info.device)
-        violations.add("create.device", std::string("\"") + info.device + '"',
-                       "must be NULL with vulkan, which has one");
+        create.refuse("device", std::string("\"") + info.device + '"', "must be NULL with vulkan, which has one");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     CreateSettings settings;
     settings.validation = (info.flags & PT_CREATE_VALIDATION) != 0;

@@ -1,35 +1,44 @@
-// Where exceptions end: turns them into a pt_result and a message that pt_last_error can return. Used by api.cpp alone.
+// Where exceptions end: turns them into a pt_result, with a message for pt_last_error and the broken rules for
+// pt_get_broken_rule. Used by api.cpp alone.
 #pragma once
 
 #include "lib/api/default_rounding.h"
 #include "lib/base/error.h"
 
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 namespace pt {
 
-// Message of the last call that failed.
+// Message of the last call that failed, and the rules that it is about.
 class LastError {
 public:
-    // Never throws: where there is no memory for the message, a fixed one stands in for it.
-    void store(std::string_view message) noexcept {
+    // Never throws: where there is no memory for the message, a fixed one stands in for it, without rules.
+    void store(std::string_view message, std::shared_ptr<const BrokenRules> broken_rules = nullptr) noexcept {
         try {
             text_.assign(message);
             shown_ = nullptr;
+            broken_rules_ = std::move(broken_rules);
         } catch (...) {
             shown_ = "the call failed, and there was no memory left for the reason";
+            broken_rules_.reset();
         }
     }
 
     const char *c_str() const noexcept { return shown_ ? shown_ : text_.c_str(); }
 
+    // NULL if it is about none.
+    const BrokenRules *broken_rules() const noexcept { return broken_rules_.get(); }
+
 private:
     std::string text_;
     const char *shown_ = nullptr; // instead of text_
+    std::shared_ptr<const BrokenRules> broken_rules_;
 };
 
 // Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. What a caller's callback
@@ -50,7 +59,8 @@ pt_result guard(LastError &last_error, Call &&call) noexcept {
             return call();
         }
     } catch (const Error &error) {
-        return failed(error.code(), error.what());
+        last_error.store(error.what(), error.broken_rules());
+        return error.code();
     } catch (const std::bad_alloc &) {
         return failed(PT_ERROR_OUT_OF_HOST_MEMORY, "out of host memory");
     } catch (const std::exception &error) {

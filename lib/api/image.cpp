@@ -15,7 +15,7 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
     image.require(source.quantity <= PT_QUANTITY_STANDARD_ERROR, "quantity", source.quantity,
                   "must be a PT_QUANTITY_* of pt.h");
     if (!source.data)
-        violations.add("image.data", "NULL", "must not be NULL");
+        image.refuse("data", "NULL", "must not be NULL");
     image.require(reinterpret_cast<std::uintptr_t>(source.data) % alignof(float) == 0, "data",
                   std::uint64_t{reinterpret_cast<std::uintptr_t>(source.data)}, "must be a multiple of 4");
     image.require(row_bytes % sizeof(float) == 0, "row_bytes", row_bytes, "must be a multiple of 4");

@@ -16,17 +16,30 @@ namespace pt {
 // mean to read memory that is not the caller's.
 constexpr std::uint32_t max_struct_size = 65536;
 
+constexpr bool is_struct_size(std::uint32_t size) {
+    return size >= sizeof size && size <= max_struct_size;
+}
+
+inline void require_not_null(const void *pointer, const char *name) {
+    if (!pointer)
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    BrokenRule{.subject = name, .value = "NULL", .rule = "must not be NULL"});
+}
+
+inline BrokenRule wrong_size(const char *name, std::uint32_t size, const std::string &rule) {
+    return {.subject = name, .member = "struct_size", .value = std::to_string(size), .rule = rule};
+}
+
 // The struct_size of the caller's struct, which is called name in messages.
 inline std::uint32_t struct_size_of(const void *user, const char *name) {
-    if (!user)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, std::string(name) + " = NULL: must not be NULL");
+    require_not_null(user, name);
     std::uint32_t size = 0;
     std::memcpy(&size, user, sizeof size);
-    const std::string field = std::string(name) + ".struct_size = " + std::to_string(size);
     if (size < sizeof size)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, field + ": must be the size of the struct, which holds this field");
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    wrong_size(name, size, "must be the size of the struct, which holds this field"));
     if (size > max_struct_size)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, field + ": must be the size of the struct (<= 65536)");
+        throw Error(PT_ERROR_INVALID_ARGUMENT, wrong_size(name, size, "must be the size of the struct (<= 65536)"));
     return size;
 }
 
@@ -39,24 +52,29 @@ T copy_in(const T *user, const char *name) {
     const auto *bytes = reinterpret_cast<const unsigned char *>(user);
     for (std::size_t i = sizeof(T); i < size; ++i)
         if (bytes[i] != 0)
-            throw Error(PT_ERROR_UNSUPPORTED, std::string(name) + ".struct_size = " + std::to_string(size) + ": byte " +
-                                                  std::to_string(i) +
-                                                  " is set, but this library knows only the first " +
-                                                  std::to_string(sizeof(T)) + " bytes of the struct");
+            throw Error(PT_ERROR_UNSUPPORTED,
+                        wrong_size(name, size,
+                                   "byte " + std::to_string(i) + " is set, but this library knows only the first " +
+                                       std::to_string(sizeof(T)) + " bytes of the struct"));
     T copy{};
     std::memcpy(&copy, bytes, std::min<std::size_t>(size, sizeof(T)));
     copy.struct_size = sizeof(T);
     return copy;
 }
 
-// Writes a result into as much of the caller's struct as both sides know. The caller's struct_size stays.
+// Writes a result into as much of the caller's struct, of size bytes, as both sides know. The caller's struct_size stays.
 template <typename T>
-void copy_out(const T &result, T *user, const char *name) {
-    const std::uint32_t size = struct_size_of(user, name);
+void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;
     const std::size_t end = std::min<std::size_t>(size, sizeof(T));
     std::memcpy(reinterpret_cast<unsigned char *>(user) + first,
                 reinterpret_cast<const unsigned char *>(&result) + first, end - first);
+}
+
+// The same, checked.
+template <typename T>
+void copy_out(const T &result, T *user, const char *name) {
+    copy_known(result, user, struct_size_of(user, name));
 }
 
 } // namespace pt

@@ -1,9 +1,28 @@
 // The library's exception and the names of results; see error.h.
 #include "lib/base/error.h"
 
+#include <utility>
+
 namespace pt {
 
+namespace {
+
+BrokenRules only(BrokenRule rule) {
+    BrokenRules rules;
+    rules.add(std::move(rule));
+    return rules;
+}
+
+} // namespace
+
 Error::Error(pt_result code, const std::string &message) : std::runtime_error(message), code_(code) {}
+
+Error::Error(pt_result code, BrokenRules rules) :
+    std::runtime_error(rules.text()),
+    code_(code),
+    broken_rules_(std::make_shared<const BrokenRules>(std::move(rules))) {}
+
+Error::Error(pt_result code, BrokenRule rule) : Error(code, only(std::move(rule))) {}
 
 const char *result_name(pt_result result) noexcept {
     switch (result) {

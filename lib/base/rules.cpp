@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace pt {
 
@@ -66,26 +67,24 @@ const char *positive_length_rule(double value) {
     return value >= min_length && value <= max_length ? nullptr : "must lie in [1e-18, 1e18]";
 }
 
-void Violations::add(const std::string &field, const std::string &value, std::string_view rule) {
-    if (++count_ > max_lines)
-        return;
-    if (!lines_.empty())
-        lines_ += '\n';
-    lines_.append(field).append(" = ").append(value).append(": ").append(rule);
+void Violations::add(BrokenRule rule) {
+    broken_.add(std::move(rule));
 }
 
 void Violations::throw_if_any(pt_result code) const {
-    if (count_ > max_lines)
-        throw Error(code, lines_ + "\n... and " + std::to_string(count_ - max_lines) + " more");
-    if (count_ > 0)
-        throw Error(code, lines_);
+    if (broken_.count() > 0)
+        throw Error(code, broken_);
 }
 
-std::string Subject::field(std::string_view member) const {
-    std::string text(name_);
-    if (index_)
-        text += '[' + std::to_string(*index_) + ']';
-    return text.append(".").append(member);
+void Subject::refuse_component(const Member &member, std::int32_t component, const std::string &value,
+                               const std::string &rule) const {
+    violations_.add({.subject = name_,
+                     .index = index_,
+                     .member = member.name,
+                     .component = component,
+                     .with = member.with,
+                     .value = value,
+                     .rule = rule});
 }
 
 } // namespace pt

@@ -2,13 +2,14 @@
 // image and api.cpp.
 #pragma once
 
+#include "lib/base/broken_rule.h"
+
 #include <pt/pt.h>
 
 #include <glm/glm.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,55 +34,68 @@ const char *finite_rule(double value);
 const char *length_rule(double value);
 const char *positive_length_rule(double value);
 
-// The broken rules of what one call was given, as one message with a line for each of the first few.
+// The broken rules of what one call was given.
 class Violations {
 public:
-    static constexpr std::size_t max_lines = 8;
-
-    void add(const std::string &field, const std::string &value, std::string_view rule);
+    void add(BrokenRule rule);
 
     // Throws Error if a rule was broken.
     void throw_if_any(pt_result code) const;
 
 private:
-    std::size_t count_ = 0;
-    std::string lines_;
+    BrokenRules broken_;
+};
+
+// A field of a struct, or the one of several that enter the value by which the others can be found: {"width", "* height"}.
+struct Member {
+    Member(const char *field, const char *others = "") : name(field), with(others) {} // so that a name alone is one
+
+    const char *name;
+    const char *with;
 };
 
 // A struct whose fields are checked: "camera", or "spheres[3]".
 class Subject {
 public:
-    Subject(Violations &violations, std::string_view name, std::optional<std::size_t> index = std::nullopt) :
+    Subject(Violations &violations, const char *name) : violations_(violations), name_(name) {}
+    Subject(Violations &violations, const char *name, std::size_t index) :
         violations_(violations),
         name_(name),
-        index_(index) {}
+        index_(static_cast<std::int64_t>(index)) {}
 
-    template <typename Value>
-    void require(bool holds, std::string_view member, const Value &value, std::string_view rule) const {
-        if (!holds)
-            violations_.add(field(member), number_text(value), rule);
+    void refuse(const Member &member, const std::string &value, const std::string &rule) const {
+        refuse_component(member, no_component, value, rule);
     }
 
     template <typename Value>
-    void check(std::string_view member, Value value, Rule rule) const {
+    void require(bool holds, const Member &member, const Value &value, std::string_view rule) const {
+        if (!holds)
+            refuse(member, number_text(value), std::string(rule));
+    }
+
+    template <typename Value>
+    void check(const Member &member, Value value, Rule rule) const {
         if (const char *broken = rule(value))
-            violations_.add(field(member), number_text(value), broken);
+            refuse(member, number_text(value), broken);
     }
 
     // Every component of an array, which is named in the message.
     template <typename Value, std::size_t N>
-    void check_each(std::string_view member, const Value (&values)[N], Rule rule) const {
+    void check_each(const Member &member, const Value (&values)[N], Rule rule) const {
         for (std::size_t i = 0; i < N; ++i)
             if (const char *broken = rule(values[i]))
-                violations_.add(field(member) + '[' + std::to_string(i) + ']', number_text(values[i]), broken);
+                refuse_component(member, static_cast<std::int32_t>(i), number_text(values[i]), broken);
     }
 
 private:
-    std::string field(std::string_view member) const;
+    static constexpr std::int32_t no_component = -1;
+
+    void refuse_component(const Member &member, std::int32_t component, const std::string &value,
+                          const std::string &rule) const;
 
     Violations &violations_;
-    std::string_view name_;
-    std::optional<std::size_t> index_;
+    const char *name_;
+    std::int64_t index_ = -1;
 };
 
 } // namespace pt

@@ -33,10 +33,13 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     const std::uint64_t trips = loop_trips_per_sample(features);
     const std::uint64_t budget = device.limits().loop_trip_budget;
     if (trips > budget)
-        throw Error(PT_ERROR_UNSUPPORTED, "a sample of this scene takes up to " + std::to_string(trips) +
-                                              " loop trips, and this driver stops a kernel after " +
-                                              std::to_string(budget) +
-                                              ": fewer surfaces or a smaller max_path_length would do");
+        throw Error(PT_ERROR_UNSUPPORTED,
+                    BrokenRule{.subject = "render",
+                               .member = "max_path_length",
+                               .value = std::to_string(features.max_path_length),
+                               .rule = "a sample of this scene takes up to " + std::to_string(trips) +
+                                       " loop trips, and this driver stops a kernel after " + std::to_string(budget) +
+                                       ": shorter paths or fewer surfaces would do"});
     const std::uint64_t rows =
         layout.row_blocks() > 0 ? table_bytes / sizeof(PointBlock) / layout.row_blocks() : gpu::FILM_MAX_GATHERED;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));

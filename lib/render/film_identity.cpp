@@ -102,10 +102,13 @@ void require_same(const FilmIdentity &film, const FilmIdentity &context) {
     };
     for (const FilmFact &fact : context)
         if (const std::string value = value_in(film, fact.name); value != fact.value)
-            violations.add("film." + fact.name, value, "must be " + fact.value + ", as in this context");
+            violations.add({.subject = "film",
+                            .member = fact.name,
+                            .value = value,
+                            .rule = "must be " + fact.value + ", as in this context"});
     for (const FilmFact &fact : film)
         if (std::ranges::find(context, fact.name, &FilmFact::name) == context.end())
-            violations.add("film." + fact.name, fact.value, "must not be there");
+            violations.add({.subject = "film", .member = fact.name, .value = fact.value, .rule = "must not be there"});
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
 }
 

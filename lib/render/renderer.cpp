@@ -24,6 +24,13 @@ std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
     return devices;
 }
 
+Error too_many_samples(std::uint32_t sample_count, const std::string &reason, std::uint64_t number) {
+    return {PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "accumulate",
+                                                  .member = "sample_count",
+                                                  .value = std::to_string(sample_count),
+                                                  .rule = reason + std::to_string(number) + ")"}};
+}
+
 } // namespace
 
 std::vector<pt_device_info> list_devices() {
@@ -178,13 +185,10 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
     const std::uint64_t missing = sample_index_end - first - (samples_.count() - samples_.count_below(first));
     if (sample_count > missing)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
-                                                   ": sample indices would pass 2^32 (the next is " +
-                                                   std::to_string(samples_.next_missing(first).first) + ")");
+        throw too_many_samples(sample_count, "sample indices would pass 2^32 (the next is ",
+                               samples_.next_missing(first).first);
     if (sample_count > UINT32_MAX - samples_.count())
-        throw Error(PT_ERROR_INVALID_ARGUMENT, "accumulate.sample_count = " + std::to_string(sample_count) +
-                                                   ": a pixel holds at most 2^32 - 1 samples (it has " +
-                                                   std::to_string(samples_.count()) + ")");
+        throw too_many_samples(sample_count, "a pixel holds at most 2^32 - 1 samples (it has ", samples_.count());
 }
 
 pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {

@@ -10,7 +10,7 @@ namespace {
 
 void refuse(const std::string &field, const std::string &value, const std::string &rule) {
     Violations violations;
-    violations.add("film." + field, value, rule);
+    violations.add({.subject = "film", .member = field, .value = value, .rule = rule});
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
 }
 

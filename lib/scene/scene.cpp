@@ -122,8 +122,10 @@ std::span<const Element> elements(const Element *array, std::uint32_t count, con
                                   Violations &violations) {
     if (array || count == 0)
         return {array, count};
-    violations.add("scene." + name + "s", "NULL",
-                   "must not be NULL, as " + name + "_count is " + std::to_string(count));
+    violations.add({.subject = "scene",
+                    .member = name + "s",
+                    .value = "NULL",
+                    .rule = "must not be NULL, as " + name + "_count is " + std::to_string(count)});
     return {};
 }
 
@@ -147,7 +149,8 @@ Scene validated_scene(const pt_scene &scene) {
     Violations violations;
     const std::uint64_t surface_count = std::uint64_t{scene.sphere_count} + scene.plane_count;
     const Subject whole(violations, "scene");
-    whole.require(surface_count < max_surface_count, "sphere_count + plane_count", surface_count, "must be < 2^30");
+    whole.require(surface_count < max_surface_count, {"sphere_count", "+ plane_count"}, surface_count,
+                  "must be < 2^30");
     // With such counts it is not believable that the arrays are there.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 

@@ -23,7 +23,8 @@ std::string pointer_text(const void *pointer) {
 }
 
 [[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
-    throw Error(PT_ERROR_INVALID_ARGUMENT, "vulkan." + field + " = " + value + ": " + rule);
+    throw Error(PT_ERROR_INVALID_ARGUMENT,
+                BrokenRule{.subject = "vulkan", .member = field, .value = value, .rule = rule});
 }
 
 // Nothing tells an instance's version. But drivers offer no functions beyond it, if they do as the specification
@@ -36,9 +37,10 @@ bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
 
 CallerVulkan validated_vulkan(const pt_vulkan &vulkan) {
     Violations violations;
+    const Subject subject(violations, "vulkan");
     const auto require = [&](bool holds, const char *field, const char *rule) {
         if (!holds)
-            violations.add(std::string("vulkan.") + field, "NULL", rule);
+            subject.refuse(field, "NULL", rule);
     };
     constexpr const char *not_null = "must not be NULL";
     require(vulkan.instance, "instance", not_null);
@@ -84,8 +86,10 @@ void require_compute(std::span<const vk::QueueFamilyProperties> families, std::u
 
 void require_suitable(const pt_device_info &physical_device) {
     if (!physical_device.suitable)
-        throw Error(PT_ERROR_UNSUPPORTED, std::string("vulkan.physical_device (") + physical_device.name +
-                                              ") does not fit: " + physical_device.reason);
+        throw Error(PT_ERROR_UNSUPPORTED, BrokenRule{.subject = "vulkan",
+                                                     .member = "physical_device",
+                                                     .value = physical_device.name,
+                                                     .rule = std::string("does not fit: ") + physical_device.reason});
 }
 
 } // namespace pt::vulkan

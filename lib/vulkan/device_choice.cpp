@@ -93,8 +93,11 @@ std::size_t indexed_device(std::span<const pt_device_info> devices, const std::s
     std::uint64_t index = UINT64_MAX;
     std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
     if (index >= devices.size())
-        throw Error(PT_ERROR_NO_DEVICE, "device = " + wanted + ": must be an index below " +
-                                            std::to_string(devices.size()) + ", the number of devices");
+        throw Error(PT_ERROR_NO_DEVICE, BrokenRule{.subject = "create",
+                                                   .member = "device",
+                                                   .value = wanted,
+                                                   .rule = "must be an index below " + std::to_string(devices.size()) +
+                                                           ", the number of devices"});
     const pt_device_info &device = devices[index];
     if (!device.suitable)
         throw Error(PT_ERROR_NO_DEVICE, "device " + wanted + " (" + device.name + ") does not fit: " + device.reason);
@@ -205,8 +208,12 @@ std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices,
         const std::size_t index = choose_device(devices, item);
         if (const std::optional<std::size_t> same = same_device_among(devices, chosen, index))
             throw Error(PT_ERROR_INVALID_ARGUMENT,
-                        "create.device = \"" + wanted + "\": must not name a device twice: " + item + " is device " +
-                            std::to_string(*same) + " (" + devices[*same].name + "), which is in the list already");
+                        BrokenRule{.subject = "create",
+                                   .member = "device",
+                                   .value = '"' + wanted + '"',
+                                   .rule = "must not name a device twice: " + item + " is device " +
+                                           std::to_string(*same) + " (" + devices[*same].name +
+                                           "), which is in the list already"});
         chosen.push_back(index);
     }
     return chosen.empty() ? std::vector{choose_device(devices, wanted)} : chosen;

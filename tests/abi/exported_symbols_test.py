@@ -1,5 +1,5 @@
 """The symbols that libpt gives to programs, and its soname. Called by CTest as
-exported_symbols_test.py LIBRARY ARCHIVE HEADER LIST C_COMPILER.
+exported_symbols_test.py LIBRARY ARCHIVE HEADERS LIST C_COMPILER, where HEADERS is a folder.
 
 The list is the contract: a symbol that is gone breaks programs, one that is new is a promise to keep."""
 
@@ -22,8 +22,9 @@ def symbols_of(path, *options):
     return {line.split()[0] for line in lines if len(line.split()) > 2}
 
 
-def declared_in(header):
-    return set(re.findall(r"^PT_API\b[^;(]*?\b(pt_\w+)\(", header.read_text(), re.MULTILINE))
+def declared_in(headers):
+    return {name for header in headers.glob("*.h")
+            for name in re.findall(r"^PT_API\b[^;(]*?\b(pt_\w+)\(", header.read_text(), re.MULTILINE)}
 
 
 def soname_of(library):
@@ -34,30 +35,33 @@ def differences(what, found, listed):
     return [f"{what}: {name} is {'not in the list' if name in found else 'missing'}" for name in sorted(found ^ listed)]
 
 
-def complaints(library, archive, header, listed):
+def complaints(library, archive, headers, listed):
     found = differences("shared library", symbols_of(library, "--dynamic"), listed)
     found += differences("static library", symbols_of(archive, "--extern-only"), listed)
-    found += differences("pt.h", declared_in(header), listed)
+    found += differences("headers", declared_in(headers), listed)
     if soname_of(library) != SONAME:
         found.append(f"the soname is {soname_of(library)}, not {SONAME}")
     return found
 
 
 def build(folder, compiler, source, soname):
-    """A library, an archive and a header like pt's, of the functions in source."""
+    """A library, an archive and a folder of headers like pt's, of the functions in source, each with a header."""
     (folder / "f.c").write_text(source)
-    (folder / "f.h").write_text(re.sub(r"^int (\w+).*$", r"PT_API int \1(void);", source, flags=re.MULTILINE))
+    for old in folder.glob("*.h"):
+        old.unlink()
+    for function in re.findall(r"^int (\w+)", source, re.MULTILINE):
+        (folder / f"{function}.h").write_text(f"PT_API int {function}(void);\n")
     output(compiler, "-fPIC", "-c", folder / "f.c", "-o", folder / "f.o")
     output(compiler, "-shared", f"-Wl,-soname,{soname}", folder / "f.o", "-o", folder / "f.so")
     (folder / "f.a").unlink(missing_ok=True)
     output("ar", "rc", folder / "f.a", folder / "f.o")
-    return folder / "f.so", folder / "f.a", folder / "f.h"
+    return folder / "f.so", folder / "f.a", folder
 
 
 def check_the_check(compiler):
     """What is added, missing or named otherwise is found."""
     one, two = "int pt_one(void) { return 1; }\n", "int pt_two(void) { return 2; }\n"
-    everywhere = ("pt.h", "shared library", "static library")
+    everywhere = ("headers", "shared library", "static library")
     with tempfile.TemporaryDirectory() as name:
         for source, soname, wanted in (
             (one + two, SONAME, []),
@@ -72,9 +76,9 @@ def check_the_check(compiler):
 
 
 def main():
-    library, archive, header, listed, compiler = sys.argv[1:]
+    library, archive, headers, listed, compiler = sys.argv[1:]
     check_the_check(compiler)
-    found = complaints(library, archive, pathlib.Path(header), set(pathlib.Path(listed).read_text().split()))
+    found = complaints(library, archive, pathlib.Path(headers), set(pathlib.Path(listed).read_text().split()))
     if found:
         sys.exit("\n".join(found))
 

@@ -1,5 +1,5 @@
-"""Sizes and offsets of the structs in pt.h, against a table. Called by CTest as
-struct_layout_test.py HEADER TABLE EXAMPLES C_COMPILER; with the first and the last argument alone it prints the table.
+"""Sizes and offsets of the structs in the headers of a folder, against a table. Called by CTest as
+struct_layout_test.py HEADERS TABLE EXAMPLES C_COMPILER; with the first and the last argument alone it prints the table.
 
 A struct may grow at its tail, which adds lines to the table and changes the struct's size; whatever else differs breaks
 programs that were compiled before. The structs in the example smallest.py are held by the same table."""
@@ -23,16 +23,16 @@ def members_of(body):
         yield re.search(r"(\w+)(\[\d+\])*$", declaration).group(1)
 
 
-def structs_of(header):
-    """Name and member names of each struct that the header defines."""
-    text = without_comments(header)
-    return [(name, list(members_of(body)))
-            for body, name in re.findall(r"typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL)]
+def structs_of(headers):
+    """Name and member names of each struct that the headers define."""
+    return [(name, list(members_of(body))) for text in headers.values()
+            for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", without_comments(text), re.DOTALL)]
 
 
-def program_for(structs, include):
+def program_for(structs, includes):
     """C that prints "struct size" and "struct.member offset size"."""
-    lines = ["#include <stddef.h>", "#include <stdio.h>", f'#include "{include}"', "int main(void) {"]
+    lines = ["#include <stddef.h>", "#include <stdio.h>", *(f"#include <pt/{name}>" for name in includes),
+             "int main(void) {"]
     for struct, members in structs:
         lines.append(f'printf("{struct} %zu\\n", sizeof({struct}));')
         for member in members:
@@ -41,13 +41,15 @@ def program_for(structs, include):
     return "\n".join(lines + ["return 0; }"])
 
 
-def layout_of(header, compiler):
-    """The table that a header's text has, line by line, as the compiler lays its structs out."""
+def layout_of(headers, compiler):
+    """The table that headers, text by name, have, line by line, as the compiler lays their structs out."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "pt.h").write_text(header)
-        (folder / "layout.c").write_text(program_for(structs_of(header), "pt.h"))
-        subprocess.run([compiler, "-std=c99", folder / "layout.c", "-o", folder / "layout"], check=True)
+        (folder / "pt").mkdir()
+        for header, text in headers.items():
+            (folder / "pt" / header).write_text(text)
+        (folder / "layout.c").write_text(program_for(structs_of(headers), headers))
+        subprocess.run([compiler, "-std=c99", "-I", folder, folder / "layout.c", "-o", folder / "layout"], check=True)
         return subprocess.run([folder / "layout"], check=True, capture_output=True, text=True).stdout.splitlines()
 
 
@@ -70,7 +72,7 @@ def differences(found, table):
     return [f"{'+' if line in found else '-'} {line}" for line in sorted(set(found) ^ set(table))]
 
 
-def check_the_check(header, table, compiler):
+def check_the_check(headers, table, compiler):
     """What programs would notice is found: a member at the tail, in the middle, of another type, renamed, gone."""
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", "+ pt_render.more 48 8"),
@@ -78,25 +80,28 @@ def check_the_check(header, table, compiler):
         ("float glossiness;", "double glossiness;", "+ pt_material.glossiness 40 8"),
         ("double shutter_open;", "double shutter;", "- pt_camera.shutter_open 88 8"),
         ("double rmse_low;", "", "- pt_stats.rmse_low 56 8"),
+        ("int64_t index;", "int32_t index;", "- pt_broken_rule.index 8 8"),
     ):
-        assert header.count(old) == 1, old
-        found = differences(layout_of(header.replace(old, new), compiler), table)
+        assert sum(text.count(old) for text in headers.values()) == 1, old
+        changed = {name: text.replace(old, new) for name, text in headers.items()}
+        found = differences(layout_of(changed, compiler), table)
         if wanted not in found:
             sys.exit(f"after {old} -> {new} the check found {found}")
 
 
 def main():
-    header = pathlib.Path(sys.argv[1]).read_text()
+    headers = {path.name: path.read_text() for path in sorted(pathlib.Path(sys.argv[1]).glob("*.h"))}
     if len(sys.argv) == 3:
-        print("\n".join(layout_of(header, sys.argv[2])))
+        print("\n".join(layout_of(headers, sys.argv[2])))
         return
     table = pathlib.Path(sys.argv[2]).read_text().splitlines()
     examples, compiler = pathlib.Path(sys.argv[3]), sys.argv[4]
-    check_the_check(header, table, compiler)
+    check_the_check(headers, table, compiler)
     python = python_layout(examples / "smallest.py")
-    if not python or len(structs_of(header)) != header.count("typedef struct") - 1:  # pt_context is opaque
+    if not python or len(structs_of(headers)) != sum(
+            len(re.findall(r"\bstruct\b.*\{$", text, re.MULTILINE)) for text in headers.values()):
         sys.exit("not all structs were found")
-    found = differences(layout_of(header, compiler), table)
+    found = differences(layout_of(headers, compiler), table)
     found += [f"smallest.py: {line}" for line in python if line not in table]
     if found:
         sys.exit("\n".join(found))

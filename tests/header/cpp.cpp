@@ -1,5 +1,6 @@
-// pt.h as C++, and its binary interface: numbers and types that programs were compiled with must never change. Sizes
+// The headers as C++, and their binary interface: numbers and types that programs were compiled with must never change. Sizes
 // and offsets are in abi/struct_layout.txt.
+#include <pt/errors.h>
 #include <pt/pt.h>
 
 #include <type_traits>
@@ -10,6 +11,7 @@ template <typename... Struct>
 constexpr bool are_plain = (... && (std::is_trivial_v<Struct> && std::is_standard_layout_v<Struct>));
 static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_scene, pt_camera, pt_render>);
 static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_function_accuracy, pt_vulkan, pt_create_info>);
+static_assert(are_plain<pt_broken_rule>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2);
@@ -42,5 +44,7 @@ static_assert(std::is_same_v<decltype(&pt_readback), pt_result (*)(pt_context *,
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
 static_assert(
     std::is_same_v<decltype(&pt_get_accuracy), pt_result (*)(pt_context *, pt_function_accuracy *, uint32_t *)>);
+static_assert(
+    std::is_same_v<decltype(&pt_get_broken_rule), uint64_t (*)(const pt_context *, uint32_t, pt_broken_rule *)>);
 
 } // namespace

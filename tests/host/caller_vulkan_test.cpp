@@ -42,7 +42,7 @@ TEST(CallerVulkan, APhysicalDeviceMustBeSuitable) {
     std::ranges::copy(std::string("Vulkan 1.2 is needed, it has 1.1"), device.reason);
     const pt::Error error = error_of([&] { pt::vulkan::require_suitable(device); });
     EXPECT_EQ(error.code(), PT_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(error.what(), "vulkan.physical_device (Antique) does not fit: Vulkan 1.2 is needed, it has 1.1");
+    EXPECT_STREQ(error.what(), "vulkan.physical_device = Antique: does not fit: Vulkan 1.2 is needed, it has 1.1");
     device.suitable = 1;
     EXPECT_NO_THROW(pt::vulkan::require_suitable(device));
 }

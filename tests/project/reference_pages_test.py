@@ -1,5 +1,6 @@
-"""Whether pt.h documents everything, by Doxygen with warnings as errors; and, which Doxygen does not look at, whether each
-value of an enumeration has a comment and each function says which threads may call it. Called by CTest as reference_pages_test.py DOXYGEN DOXYFILE HEADER."""
+"""Whether the headers document everything, by Doxygen with warnings as errors; and, which Doxygen does not look at, whether
+each value of an enumeration has a comment and each function says which threads may call it. Called by CTest as
+reference_pages_test.py DOXYGEN DOXYFILE HEADERS, where HEADERS is a folder; between its functions, headers is text by name."""
 
 import pathlib
 import re
@@ -8,12 +9,14 @@ import sys
 import tempfile
 
 
-def doxygen_complaints(doxygen, settings, header):
-    """What Doxygen says of a header's text; nothing if it accepts it."""
+def doxygen_complaints(doxygen, settings, headers):
+    """What Doxygen says of headers; nothing if it accepts them."""
     with tempfile.TemporaryDirectory() as name:
-        path = pathlib.Path(name) / "pt.h"
-        path.write_text(header)
-        settings += f"\nINPUT = {path}\nSTRIP_FROM_PATH = {name}\nSTRIP_FROM_INC_PATH = {name}\nOUTPUT_DIRECTORY = {name}\n"
+        folder = pathlib.Path(name) / "pt"
+        folder.mkdir()
+        for header, text in headers.items():
+            (folder / header).write_text(text)
+        settings += f"\nINPUT = {folder}\nSTRIP_FROM_PATH = {name}\nSTRIP_FROM_INC_PATH = {name}\nOUTPUT_DIRECTORY = {name}\n"
         done = subprocess.run([doxygen, "-"], input=settings, capture_output=True, text=True)
         return "" if done.returncode == 0 else done.stderr or "no reason was given"
 
@@ -32,16 +35,17 @@ def silent_values(header):
     return [name for before, name, behind in values if not before and not behind]
 
 
-def check_the_check(doxygen, settings, header):
+def check_the_check(doxygen, settings, headers):
     """Whatever lacks its comment is found, and so is a comment that names what is not there."""
+    header = headers["pt.h"]
     for old, new, wanted in (
         ("PT_API uint32_t pt_version(void);", "PT_API uint32_t pt_version(void);\nPT_API int pt_new(int x);", "pt_new"),
         ("uint32_t width;", "uint32_t more; uint32_t width;", "more"),
         ("/** Makes a context.", "/** @param nothing Makes a context.", "nothing"),
     ):
         if header.count(old) != 1:
-            sys.exit(f"{old} is not in the header once")
-        found = doxygen_complaints(doxygen, settings, header.replace(old, new))
+            sys.exit(f"{old} is not in pt.h once")
+        found = doxygen_complaints(doxygen, settings, {**headers, "pt.h": header.replace(old, new)})
         if wanted not in found:
             sys.exit(f"after {old} -> {new} Doxygen says: {found or 'nothing'}")
     found = silent_functions(header + "/** Something new. */\nPT_API int pt_new(int x);\n")
@@ -54,13 +58,15 @@ def check_the_check(doxygen, settings, header):
 
 
 def main():
-    doxygen, settings, header = sys.argv[1], pathlib.Path(sys.argv[2]).read_text(), pathlib.Path(sys.argv[3]).read_text()
-    check_the_check(doxygen, settings, header)
-    found = doxygen_complaints(doxygen, settings, header)
+    doxygen, settings = sys.argv[1], pathlib.Path(sys.argv[2]).read_text()
+    headers = {path.name: path.read_text() for path in sorted(pathlib.Path(sys.argv[3]).glob("*.h"))}
+    check_the_check(doxygen, settings, headers)
+    found = doxygen_complaints(doxygen, settings, headers)
     if found:
         sys.exit(found)
-    if silent_functions(header) or silent_values(header):
-        sys.exit(f"without their words: {silent_functions(header)}, {silent_values(header)}")
+    for name, text in headers.items():
+        if silent_functions(text) or silent_values(text):
+            sys.exit(f"{name}, without their words: {silent_functions(text)}, {silent_values(text)}")
 
 
 main()
