@@ -4,6 +4,7 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/field_names.h"
+#include "cli/base/library_error.h"
 
 #include <pt/pt.h>
 
@@ -19,7 +20,7 @@ public:
     explicit Context(const pt_create_info &info) : has_given_shaders_(info.shader_dir != nullptr) {
         const pt_result result = pt_create(&info, &context_);
         if (result < 0) {
-            throw Failure(code_of(result), in_words_of_options(pt_last_error(nullptr)));
+            throw Failure(code_of(result), in_words_of_options(cli::last_error(nullptr)));
         }
     }
     Context(const Context &) = delete;
@@ -27,12 +28,12 @@ public:
     ~Context() { pt_destroy(context_); }
 
     pt_context *get() const { return context_; }
-    std::string last_error() const { return pt_last_error(context_); }
+    LibraryError last_error() const { return cli::last_error(context_); }
 
     // For calls whose arguments the user has no part in, or named on the command line.
     void require(pt_result result) const {
         if (result < 0) {
-            throw Failure(code_of(result), last_error());
+            throw Failure(code_of(result), in_words_of_options(last_error()));
         }
     }
 

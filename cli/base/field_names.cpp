@@ -5,21 +5,21 @@
 
 namespace cli {
 
-const FieldName *find_field_name(std::string_view line) {
-    const auto speaks_of = [line](const FieldName &name) {
-        const std::string_view rest = line.substr(std::min(name.field.size(), line.size()));
-        return line.starts_with(name.field) && (rest.empty() || rest.front() == ' ' || rest.front() == '[');
-    };
-    const auto found = std::find_if(field_names.begin(), field_names.end(), speaks_of);
+const FieldName *find_field_name(const BrokenRule &rule) {
+    const auto found = std::find_if(field_names.begin(), field_names.end(), [&rule](const FieldName &name) {
+        return rule.subject == name.subject && rule.member == name.member;
+    });
     return found == field_names.end() ? nullptr : &*found;
 }
 
-std::string in_words_of_options(std::string_view line) {
-    const FieldName *name = find_field_name(line);
-    if (name == nullptr || name->option.empty()) {
-        return std::string(line);
-    }
-    return std::string(name->option).append(line.substr(name->field.size()));
+std::string in_words_of_options(const BrokenRule &rule) {
+    const FieldName *name = find_field_name(rule);
+    const bool is_option = name != nullptr && !name->option.empty();
+    return rule_text(is_option ? std::string(name->option) : field_text(rule), rule);
+}
+
+std::string in_words_of_options(const LibraryError &error) {
+    return error.in_words([](const BrokenRule &rule) { return in_words_of_options(rule); });
 }
 
 } // namespace cli

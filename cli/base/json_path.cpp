@@ -1,8 +1,6 @@
 // Paths to values in JSON text, and their lines; see json_path.h.
 #include "cli/base/json_path.h"
 
-#include "cli/base/number.h"
-
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -147,37 +145,6 @@ std::string path_text(const JsonPath &path) {
         }
     }
     return text;
-}
-
-JsonPath take_path(std::string_view &text) {
-    JsonPath path;
-    for (std::string_view rest = text; !rest.empty();) {
-        if (rest.front() == '[') {
-            const std::size_t close = rest.find(']');
-            const auto index = parse_number<std::size_t>(rest.substr(1, std::min(close, rest.size()) - 1));
-            if (path.empty() || close == std::string_view::npos || !index) {
-                break;
-            }
-            path.push_back({{}, *index, true});
-            rest.remove_prefix(close + 1);
-        } else {
-            if (!path.empty() && rest.front() != '.') {
-                break;
-            }
-            rest.remove_prefix(path.empty() ? 0 : 1);
-            std::size_t length = 0;
-            while (length < rest.size() && is_identifier_letter(rest[length])) {
-                ++length;
-            }
-            if (length == 0) {
-                break;
-            }
-            path.push_back({std::string(rest.substr(0, length)), 0, false});
-            rest.remove_prefix(length);
-        }
-        text = rest;
-    }
-    return path;
 }
 
 std::optional<std::size_t> find_line(std::string_view text, const JsonPath &path, std::size_t occurrence) {

@@ -24,9 +24,6 @@ using JsonPath = std::vector<JsonStep>; // from the root
 // spheres[3].radius, materials["blue ball"].diffuse[0]: a key that is no identifier is quoted.
 std::string path_text(const JsonPath &path);
 
-// Takes a path of identifiers and indices, as path_text writes it, from the beginning of the text.
-JsonPath take_path(std::string_view &text);
-
 // The line, from 1, of the member's key or of the element, or of the innermost value around it that the text has;
 // nothing if it has not even the first step. Where a key is given several times, occurrence says which one counts.
 std::optional<std::size_t> find_line(std::string_view text, const JsonPath &path, std::size_t occurrence = 1);

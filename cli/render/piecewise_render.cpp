@@ -58,8 +58,8 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
     }
 }
 
-PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
-                             bool with_standard_error, const Stop &stop, Progress &progress) {
+PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress) {
     const pt_render &render = settings.render;
     const std::size_t row_values = std::size_t{3} * render.width;
     PiecewiseImage image{};
@@ -73,7 +73,7 @@ PiecewiseImage render_pieces(const Context &context, const RenderSettings &setti
         }
         const double height = render.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        take_samples(context, settings, stop, progress);
+        take_samples(context, file, settings, stop, progress);
 
         const pt_stats stats = context.read_stats();
         if (stats.sample_count == 0) {

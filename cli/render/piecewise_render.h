@@ -27,7 +27,7 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
                          std::uint32_t wanted_rows);
 
 // After fit_pieces. Ends early, between or within pieces, once it is to stop.
-PiecewiseImage render_pieces(const Context &context, const RenderSettings &settings, std::uint32_t rows,
-                             bool with_standard_error, const Stop &stop, Progress &progress);
+PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress);
 
 } // namespace cli

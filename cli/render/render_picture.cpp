@@ -33,12 +33,12 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options,
+PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                                     const RenderSettings &settings, std::uint32_t rows, const Stop &stop) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
     Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
                       pixel_count, settings.sample_count, Clock::now());
-    return render_pieces(context, settings, rows, !options.standard_error.empty(), stop, progress);
+    return render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress);
 }
 
 // What an image in pieces takes of memory, before it is rendered.
@@ -127,7 +127,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     }
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const PiecewiseImage image = render_with_progress(context, options, settings, rows, stop);
+    const PiecewiseImage image = render_with_progress(context, options, file, settings, rows, stop);
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
 

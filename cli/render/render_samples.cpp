@@ -3,6 +3,7 @@
 #include "cli/render/render_samples.h"
 
 #include "cli/render/sample_forecast.h"
+#include "cli/scene/scene_setup.h"
 
 #include <algorithm>
 
@@ -13,6 +14,7 @@ namespace {
 struct Watch {
     Progress &progress;
     const Stop &stop;
+    const SceneFile &file;
     std::uint32_t before;
     std::uint32_t within;
 
@@ -23,15 +25,15 @@ struct Watch {
     }
 };
 
-pt_result accumulate(const Context &context, Watch &watch, double target_error) {
+pt_result accumulate(const Context &context, const RenderSettings &settings, Watch &watch) {
     pt_accumulate_info info{};
     info.struct_size = sizeof(pt_accumulate_info);
     info.sample_count = watch.within;
-    info.target_error = target_error;
+    info.target_error = settings.target_error;
     info.progress = &Watch::receive;
     info.progress_user = &watch;
     const pt_result result = pt_accumulate(context.get(), &info);
-    context.require(result);
+    require_samples(context, watch.file, settings, result);
     return result;
 }
 
@@ -41,7 +43,7 @@ void reach_target(const Context &context, const RenderSettings &settings, Watch 
     while (watch.before < settings.sample_count) {
         watch.within = std::min(samples_to_next_look(watch.before), settings.sample_count - watch.before);
         watch.progress.expect(forecast_sample_count(watch.before, error, settings.target_error, settings.sample_count));
-        const pt_result result = accumulate(context, watch, settings.target_error);
+        const pt_result result = accumulate(context, settings, watch);
         const pt_stats stats = context.read_stats();
         watch.before = stats.sample_count;
         error = stats.relative_rmse_high;
@@ -57,15 +59,16 @@ void reach_target(const Context &context, const RenderSettings &settings, Watch 
 
 } // namespace
 
-void take_samples(const Context &context, const RenderSettings &settings, const Stop &stop, Progress &progress) {
-    Watch watch{progress, stop, 0, settings.sample_count};
+void take_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
+                  Progress &progress) {
+    Watch watch{progress, stop, file, 0, settings.sample_count};
     if (stop()) {
         return;
     }
     if (settings.target_error > 0.0) {
         reach_target(context, settings, watch);
     } else {
-        accumulate(context, watch, 0.0);
+        accumulate(context, settings, watch);
     }
 }
 

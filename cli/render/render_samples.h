@@ -13,6 +13,7 @@ namespace cli {
 // Says that no more samples are to be taken: a signal has come, or nothing would become of them. True for good then.
 using Stop = std::function<bool()>;
 
-void take_samples(const Context &context, const RenderSettings &settings, const Stop &stop, Progress &progress);
+void take_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
+                  Progress &progress);
 
 } // namespace cli

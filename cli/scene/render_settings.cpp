@@ -2,8 +2,9 @@
 // Called by render_command.
 #include "cli/scene/render_settings.h"
 
+#include "cli/base/field_names.h"
+
 #include <algorithm>
-#include <sstream>
 
 namespace cli {
 namespace {
@@ -35,27 +36,30 @@ void limit_samples(RenderSettings &settings) {
 
 } // namespace
 
-// A rule about no setting, and a message that names none, is about the scene.
-bool RenderSettings::is_from_scene(const FieldName *name) const {
-    return name == nullptr || name->option.empty() ||
-           std::find(scene_keys.begin(), scene_keys.end(), name->key) != scene_keys.end();
+bool RenderSettings::gives(std::string_view member) const {
+    return std::find(scene_members.begin(), scene_members.end(), member) != scene_members.end();
+}
+
+// A rule about no setting is about the scene.
+bool RenderSettings::is_from_scene(const BrokenRule &rule) const {
+    const FieldName *name = find_field_name(rule);
+    return name == nullptr || name->option.empty() || gives(rule.member);
 }
 
 bool RenderSettings::is_size_from_scene() const {
-    return std::any_of(scene_keys.begin(), scene_keys.end(),
-                       [](std::string_view key) { return key == "film.width" || key == "film.height"; });
+    return gives("width") || gives("height");
 }
 
-Failure RenderSettings::explain(const std::string &message, const SceneFile &scene) const {
-    ExitCode code = ExitCode::scene;
-    std::string explained;
-    std::istringstream lines(message); // one for each broken rule
-    for (std::string line; std::getline(lines, line);) {
-        const bool from_scene = is_from_scene(find_field_name(line));
-        code = from_scene ? code : ExitCode::usage;
-        explained.append(explained.empty() ? "" : "\n");
-        explained.append(from_scene ? scene.explain(line) : in_words_of_options(line));
+Failure RenderSettings::explain(const LibraryError &error, const SceneFile &scene) const {
+    if (error.rules.empty()) {
+        return {ExitCode::scene, scene.explain(error)};
     }
+    ExitCode code = ExitCode::scene;
+    const std::string explained = error.in_words([&](const BrokenRule &rule) {
+        const bool from_scene = is_from_scene(rule);
+        code = from_scene ? code : ExitCode::usage;
+        return from_scene ? scene.explain(rule) : in_words_of_options(rule);
+    });
     return {code, explained};
 }
 
@@ -78,10 +82,13 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     settings.tone_curve = first_given(options.tone_curve, scene.tone_curve, ToneCurve::none);
     settings.gamma = options.gamma ? options.gamma : scene.gamma;
     if (!options.size && (scene.width || scene.height)) {
-        settings.scene_keys.insert(settings.scene_keys.end(), {"film.width", "film.height"});
+        settings.scene_members.insert(settings.scene_members.end(), {"width", "height"});
     }
     if (!options.max_path_length && scene.max_path_length) {
-        settings.scene_keys.emplace_back("render.max_path_length");
+        settings.scene_members.emplace_back("max_path_length");
+    }
+    if (!options.sample_count && scene.sample_count) {
+        settings.scene_members.emplace_back("sample_count");
     }
     return settings;
 }

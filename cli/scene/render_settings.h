@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cli/base/exit_code.h"
-#include "cli/base/field_names.h"
+#include "cli/base/library_error.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 
@@ -24,17 +24,18 @@ struct RenderSettings {
     Exposure exposure;
     ToneCurve tone_curve;
     std::optional<double> gamma;
-    std::vector<std::string_view> scene_keys; // whose values these are, as in field_names.h
+    std::vector<std::string_view> scene_members; // of pt_render and pt_accumulate_info: what the scene file gave
 
     // What the library refuses, in the words of whoever gave the value: the command line (ExitCode::usage) or the scene
     // file (ExitCode::scene).
-    Failure explain(const std::string &message, const SceneFile &scene) const;
+    Failure explain(const LibraryError &error, const SceneFile &scene) const;
 
     // Whether the scene file says how large the image is, or a side of it.
     bool is_size_from_scene() const;
 
 private:
-    bool is_from_scene(const FieldName *name) const;
+    bool is_from_scene(const BrokenRule &rule) const;
+    bool gives(std::string_view member) const;
 };
 
 RenderSettings merge_settings(const RenderOptions &options, const SceneFile &scene);

@@ -19,7 +19,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <sstream>
 #include <system_error>
 #include <unordered_map>
 
@@ -318,22 +317,48 @@ std::optional<std::string> read_again(const SceneFile &scene) {
     }
 }
 
-std::string in_words_of_keys(const std::string &line) {
-    const FieldName *name = find_field_name(line);
-    return name == nullptr ? line : std::string(name->key).append(line, name->field.size());
+// Of what the file calls otherwise; empty if the file does not have it.
+JsonPath renamed_path(const FieldName &name) {
+    if (name.section.empty()) {
+        return {};
+    }
+    JsonPath path{{std::string(name.section), 0, false}, {std::string(name.key), 0, false}};
+    if (name.element) {
+        path.push_back({{}, *name.element, true});
+    }
+    return path;
+}
+
+// Of what the file calls as pt.h does, but for materials, which have names there; empty if it is none of the file's.
+JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
+    static constexpr std::array<std::string_view, 5> sections{"camera", "render", "materials", "spheres", "planes"};
+    if (std::find(sections.begin(), sections.end(), rule.subject) == sections.end()) {
+        return {};
+    }
+    JsonPath path{{rule.subject, 0, false}};
+    if (rule.index) {
+        const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
+        path.push_back(is_named ? JsonStep{scene.material_names[*rule.index], 0, false}
+                                : JsonStep{{}, *rule.index, true});
+    }
+    path.push_back({rule.member, 0, false});
+    return path;
+}
+
+JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
+    const FieldName *name = find_field_name(rule);
+    JsonPath path = name != nullptr ? renamed_path(*name) : path_of_member(scene, rule);
+    if (!path.empty() && rule.component) {
+        path.push_back({{}, *rule.component, true});
+    }
+    return path;
 }
 
 // text: of the file, if it is known.
-std::string explain_line(const SceneFile &scene, const std::optional<std::string> &text, const std::string &line) {
-    const std::string words = in_words_of_keys(line);
-    std::string_view rest = words;
-    JsonPath path = take_path(rest);
-    const bool is_material = path.size() >= 2 && path[0].key == "materials" && path[1].in_array;
-    if (is_material && path[1].index < scene.material_names.size()) {
-        path[1] = {scene.material_names[path[1].index], 0, false}; // members of an object in the file
-    }
+std::string explain_rule(const SceneFile &scene, const std::optional<std::string> &text, const BrokenRule &rule) {
+    const JsonPath path = path_of(scene, rule);
     const auto number = text && !path.empty() ? find_line(*text, path) : std::nullopt;
-    return place_text(scene.path, number, path_text(path)).append(path.empty() ? ": " : "").append(rest);
+    return rule_text(place_text(scene.path, number, path.empty() ? field_text(rule) : path_text(path)), rule);
 }
 
 } // namespace
@@ -350,17 +375,16 @@ pt_scene SceneFile::scene() const {
     return scene;
 }
 
-std::string SceneFile::explain(const std::string &message) const {
-    const std::optional<std::string> text = read_again(*this);
-    std::istringstream lines(message); // one for each broken rule
-    std::string explained;
-    for (std::string line; std::getline(lines, line);) {
-        if (!explained.empty()) {
-            explained += '\n';
-        }
-        explained += explain_line(*this, text, line);
+std::string SceneFile::explain(const BrokenRule &rule) const {
+    return explain_rule(*this, read_again(*this), rule);
+}
+
+std::string SceneFile::explain(const LibraryError &error) const {
+    if (error.rules.empty()) {
+        return path + ": " + error.message;
     }
-    return explained;
+    const std::optional<std::string> text = read_again(*this);
+    return error.in_words([&](const BrokenRule &rule) { return explain_rule(*this, text, rule); });
 }
 
 SceneFile parse_scene(std::string_view text, const std::string &path) {

@@ -2,6 +2,7 @@
 // the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
 #pragma once
 
+#include "cli/base/library_error.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 
@@ -39,9 +40,10 @@ struct SceneFile {
     pt_scene scene() const; // points into this object
     std::size_t surface_count() const { return spheres.size() + planes.size(); }
 
-    // The library's lines "materials[1].glossiness = -1: must be >= 0" in the file's words, with the line of the file
-    // where that can be read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
-    std::string explain(const std::string &message) const;
+    // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
+    // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
+    std::string explain(const BrokenRule &rule) const;
+    std::string explain(const LibraryError &error) const;
 };
 
 // The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not

@@ -24,6 +24,14 @@ void require_render(const Context &context, const SceneFile &file, const RenderS
     context.require(result);
 }
 
+void require_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
+    const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
+    if (!error.rules.empty()) {
+        throw Failure(exit_code_of(result), settings.explain(error, file).what());
+    }
+    context.require(result);
+}
+
 void describe_scene(const Context &context, const SceneFile &file) {
     const pt_scene scene = file.scene();
     require_scene(context, file, pt_set_scene(context.get(), &scene));

@@ -11,6 +11,7 @@ namespace cli {
 // All throw Failure: a rule that the scene file breaks is explained in the file's words.
 void describe_scene(const Context &context, const SceneFile &file); // and camera
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
+void require_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
 
 // Scene, camera and render settings.
 void describe(const Context &context, const SceneFile &file, const RenderSettings &settings);

@@ -130,15 +130,26 @@ class SceneErrors(CommandLineTest):
         for function in ("set_scene", "set_camera"):
             for result in ("INVALID_SCENE", "INVALID_ARGUMENT"):
                 self.expect(3, "render", COURSEWORK, "-o", "a.png", FAKE_PT_FAIL=f"{function}:{RESULT[result]}",
-                            FAKE_PT_MESSAGE="materials[2].glossiness = -1: must be >= 0",
+                            FAKE_PT_RULE="materials,2,glossiness,-1,,-1,must be >= 0",
                             error=COURSEWORK + ':8: materials["blue ball"].glossiness = -1: must be >= 0')
 
     def test_settings_are_blamed_on_their_origin(self):
         for result in ("INVALID_ARGUMENT", "UNSUPPORTED"):
-            fault = {"FAKE_PT_FAIL": f"set_render:{RESULT[result]}", "FAKE_PT_MESSAGE": "render.width = 0: must be >= 1"}
+            fault = {"FAKE_PT_FAIL": f"set_render:{RESULT[result]}", "FAKE_PT_RULE": "render,-1,width,-1,,0,must be >= 1"}
             self.expect(3, "render", COURSEWORK, "-o", "a.png", **fault, error=COURSEWORK + ":3: film.width = 0")
             self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "9x9", **fault,
                         error="pt: --size: width = 0: must be >= 1")
+
+    def test_what_no_sample_can_be_taken_of_leads_back_too(self):
+        fault = {"FAKE_PT_FAIL": f"accumulate:{RESULT['UNSUPPORTED']}"}
+        length = {"FAKE_PT_RULE": "render,-1,max_path_length,-1,,6,too long", **fault}
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", **fault,
+                    FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
+                    error=COURSEWORK + ":15: spheres[0].motion = (1; 2; 3): too far")
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", **length, error="pt: --max-path-length = 6: too long")
+        self.expect(4, "bench", COURSEWORK, **length, error="pt: --max-path-length = 6: too long")
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7", FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}",
+                    FAKE_PT_RULE="create,-1,device,-1,,7,too large", error="pt: --device = 7: too large")
 
 
 class DeviceErrors(CommandLineTest):

@@ -3,7 +3,9 @@
 // in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one
 // sample; FAKE_PT_SIGNAL=number:submission makes the program get a signal in that submission, of which a sample takes
 // four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
-// FAKE_PT_LOG=function makes a function send a line to the log.
+// FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of failures, and
+// FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about.
+#include <pt/errors.h>
 #include <pt/pt.h>
 
 #include <chrono>
@@ -12,15 +14,17 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 struct pt_context {
     pt_create_info info{};
     pt_render render{};
     std::uint32_t sample_count = 0;
     std::uint32_t call_count = 0; // of pt_accumulate since pt_set_render
-    std::string error;
+    std::string error;            // a failure's message; the rule that it is about is FAKE_PT_RULE's
 };
 
 namespace {
@@ -47,6 +51,16 @@ pt_result call(pt_context *context, const std::string &function) {
         context->error = setting("FAKE_PT_MESSAGE");
     }
     return result;
+}
+
+// The parts between commas.
+std::vector<std::string> split(const std::string &text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');) {
+        parts.push_back(part);
+    }
+    return parts;
 }
 
 pt_device_info fake_device() {
@@ -119,6 +133,24 @@ pt_result pt_create(const pt_create_info *info, pt_context **context) {
 
 const char *pt_last_error(const pt_context *context) {
     return context == nullptr ? creation_error.c_str() : context->error.c_str();
+}
+
+uint64_t pt_get_broken_rule(const pt_context *, std::uint32_t index, pt_broken_rule *rule) {
+    static const std::vector<std::string> parts = split(setting("FAKE_PT_RULE"));
+    if (parts.size() != 7) {
+        return 0;
+    }
+    if (index == 0 && rule != nullptr) {
+        *rule = {sizeof(pt_broken_rule),
+                 std::atoi(parts[3].c_str()),
+                 std::atoi(parts[1].c_str()),
+                 parts[0].c_str(),
+                 parts[2].c_str(),
+                 parts[4].c_str(),
+                 parts[5].c_str(),
+                 parts[6].c_str()};
+    }
+    return 1;
 }
 
 void pt_destroy(pt_context *context) {

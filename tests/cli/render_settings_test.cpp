@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -107,29 +109,33 @@ TEST(RenderSettings, AZeroSeedOnTheCommandLineCounts) {
 }
 
 TEST(RenderSettings, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
-    constexpr const char *size = "render.width = 0: must be >= 1";
-    constexpr const char *length = "render.max_path_length = 2000: must be <= 1024";
+    constexpr std::nullopt_t none = std::nullopt;
+    const cli::BrokenRule size{"render", none, "width", none, "", "0", "must be >= 1"};
+    const cli::BrokenRule length{"render", none, "max_path_length", none, "", "2000", "must be <= 1024"};
     SceneFile scene = full_scene();
     scene.path = "s.json";
-    const auto explained = [&](const RenderOptions &options, const std::string &message, const SceneFile &file) {
-        const cli::Failure failure = merge_settings(options, file).explain(message, file);
+    const auto explained = [&](const RenderOptions &options, std::vector<cli::BrokenRule> rules,
+                               const SceneFile &file) {
+        const cli::LibraryError error{"a message", std::move(rules)};
+        const cli::Failure failure = merge_settings(options, file).explain(error, file);
         return std::pair(failure.code(), std::string(failure.what()));
     };
-    EXPECT_EQ(explained({}, size, scene),
+    EXPECT_EQ(explained({}, {size}, scene),
               std::pair(ExitCode::scene, std::string("s.json: film.width = 0: must be >= 1")));
-    EXPECT_EQ(explained({}, length, scene),
+    EXPECT_EQ(explained({}, {length}, scene),
               std::pair(ExitCode::scene, std::string("s.json: render.max_path_length = 2000: must be <= 1024")));
-    EXPECT_EQ(explained(full_options(), size, scene),
+    EXPECT_EQ(explained(full_options(), {size}, scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1")));
-    EXPECT_EQ(explained(full_options(), length, scene),
+    EXPECT_EQ(explained(full_options(), {length}, scene),
               std::pair(ExitCode::usage, std::string("--max-path-length = 2000: must be <= 1024")));
     RenderOptions size_only;
     size_only.size = cli::ImageSize{1, 1};
-    EXPECT_EQ(explained(size_only, std::string(size) + "\n" + length, scene),
+    EXPECT_EQ(explained(size_only, {size, length}, scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json: render.max_path_length = 2000: must be <= 1024")));
+    EXPECT_EQ(explained({}, {}, scene), std::pair(ExitCode::scene, std::string("s.json: a message")));
     // Neither gave it.
-    EXPECT_EQ(explained({}, "render.width * rows = 512 * 1: too many", {}),
+    EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, {}),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
 }
 

@@ -264,37 +264,60 @@ TEST(SceneFile, ZerosAreNotDefaults) {
     EXPECT_NE(refusal(R"({"render":{"spp":0}})"), "");
 }
 
-TEST(SceneFile, ExplainsTheLibrarysMessages) {
+using cli::BrokenRule;
+constexpr std::nullopt_t none = std::nullopt;
+
+TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
     const SceneFile scene = parse_scene(small, "s.json"); // no such file: the line is not known
-    EXPECT_EQ(scene.explain("spheres[3].radius = -1: must be > 0"), "s.json: spheres[3].radius = -1: must be > 0");
-    EXPECT_EQ(scene.explain("materials[1].glossiness = -1: must be >= 0\nmaterials[2].diffuse[0] = -1: must be >= 0"),
-              "s.json: materials.b.glossiness = -1: must be >= 0\n"
-              "s.json: materials.a.diffuse[0] = -1: must be >= 0");
-    EXPECT_EQ(scene.explain("camera.target[1] = inf: must be finite"),
+    const auto explained = [&](const BrokenRule &rule) { return scene.explain(rule); };
+    EXPECT_EQ(explained({"spheres", 3, "radius", none, "", "-1", "must be > 0"}),
+              "s.json: spheres[3].radius = -1: must be > 0");
+    EXPECT_EQ(explained({"materials", 1, "glossiness", none, "", "-1", "must be >= 0"}),
+              "s.json: materials.b.glossiness = -1: must be >= 0");
+    EXPECT_EQ(explained({"camera", none, "target", 1, "", "inf", "must be finite"}),
               "s.json: camera.look_at[1] = inf: must be finite");
-    EXPECT_EQ(scene.explain("render.width * height = 5: must be <= 4"),
+    EXPECT_EQ(explained({"camera", none, "position", 2, "", "inf", "x"}), "s.json: camera.position[2] = inf: x");
+    EXPECT_EQ(explained({"render", none, "width", none, "* height", "5", "must be <= 4"}),
               "s.json: film.width * height = 5: must be <= 4");
-    EXPECT_EQ(scene.explain("camera.shutter_close = 2: must be <= 1"), "s.json: camera.shutter[1] = 2: must be <= 1");
-    EXPECT_EQ(scene.explain("materials[99].x = 0: y"), "s.json: materials[99].x = 0: y");
-    EXPECT_EQ(scene.explain("materials[x"), "s.json: materials[x");
-    EXPECT_EQ(scene.explain("... and 3 more"), "s.json: ... and 3 more");
+    EXPECT_EQ(explained({"camera", none, "shutter_close", none, "", "2", "must be <= 1"}),
+              "s.json: camera.shutter[1] = 2: must be <= 1");
+    EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json: render.spp = 0: y");
+    EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json: materials[99].x = 0: y");
+    // None of the file's: as the library calls it.
+    EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "s.json: create.device = 7: y");
+    EXPECT_EQ(explained({"scene", none, "", none, "", "NULL", "y"}), "s.json: scene = NULL: y");
 }
 
-TEST(SceneFile, TheLibrarysMessagesGetTheLineOfTheValue) {
+TEST(SceneFile, ExplainsWholeErrors) {
+    const SceneFile scene = parse_scene(small, "s.json");
+    EXPECT_EQ(scene.explain(cli::LibraryError{"out of everything", {}}), "s.json: out of everything");
+    const cli::LibraryError error{"not read",
+                                  {{"spheres", 3, "radius", none, "", "-1", "must be > 0"},
+                                   {"materials", 2, "diffuse", 0, "", "-1", "must be >= 0"}},
+                                  3};
+    EXPECT_EQ(scene.explain(error), "s.json: spheres[3].radius = -1: must be > 0\n"
+                                    "s.json: materials.a.diffuse[0] = -1: must be >= 0\n"
+                                    "... and 3 more");
+}
+
+TEST(SceneFile, WhatIsRefusedGetsTheLineOfTheValue) {
     const TemporaryFolder folder;
     const std::string path = folder.file("s.json");
     folder.write("s.json", small);
     const SceneFile scene = cli::read_scene_file(path);
-    EXPECT_EQ(scene.explain("spheres[1].radius = -1: must be > 0"), path + ":4: spheres[1].radius = -1: must be > 0");
-    EXPECT_EQ(scene.explain("materials[1].glossiness = -1: x"), path + ":6: materials.b.glossiness = -1: x");
-    EXPECT_EQ(scene.explain("materials[2].emission[1] = -1: x"),
+    const auto explained = [&](const BrokenRule &rule) { return scene.explain(rule); };
+    EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "must be > 0"}),
+              path + ":4: spheres[1].radius = -1: must be > 0");
+    EXPECT_EQ(explained({"materials", 1, "glossiness", none, "", "-1", "x"}),
+              path + ":6: materials.b.glossiness = -1: x");
+    EXPECT_EQ(explained({"materials", 2, "emission", 1, "", "-1", "x"}),
               path + ":7: materials.a.emission[1] = -1: x"); // a grey
-    EXPECT_EQ(scene.explain("render.height = 0: x"), path + ":9: film.height = 0: x");
-    EXPECT_EQ(scene.explain("render.max_path_length = 0: x"), path + ":10: render.max_path_length = 0: x");
-    EXPECT_EQ(scene.explain("render.estimator = 9: x"), path + ":11: render.estimator = 9: x");
-    EXPECT_EQ(scene.explain("out of everything"), path + ": out of everything");
+    EXPECT_EQ(explained({"render", none, "height", none, "", "0", "x"}), path + ":9: film.height = 0: x");
+    EXPECT_EQ(explained({"render", none, "max_path_length", none, "", "0", "x"}),
+              path + ":10: render.max_path_length = 0: x");
+    EXPECT_EQ(explained({"render", none, "estimator", none, "", "9", "x"}), path + ":11: render.estimator = 9: x");
     folder.write("s.json", std::string("\n").append(small)); // edited meanwhile: the lines would be others
-    EXPECT_EQ(scene.explain("spheres[1].radius = -1: x"), path + ": spheres[1].radius = -1: x");
+    EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "x"}), path + ": spheres[1].radius = -1: x");
 }
 
 // In two bytes a character, with the lower or the upper one first.

@@ -77,7 +77,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     const std::string text(data, data + size);
     try {
         const cli::SceneFile scene = cli::parse_scene(text, path);
-        fuzz::require(scene.explain("materials[" + text).starts_with(path), "messages are led back to the file");
+        fuzz::require(scene.explain(cli::BrokenRule{text, size, text, size, text, text, text}).starts_with(path),
+                      "messages are led back to the file");
         examine_scene(scene, {data, size});
     } catch (const cli::Failure &failure) {
         fuzz::require(failure.code() == cli::ExitCode::scene, "what is refused is the scene file's fault");
