@@ -142,7 +142,8 @@ void examine_one(const Input &input) {
             "the bits do not depend on how samples are split over calls");
 }
 
-// What the kernel is built for; nothing if the input is refused.
+// What the kernel is built for; nothing if the input is refused. A scene that has a
+// surface many times over gets the kernel of one, and a neighbour in which one of them has moved the kernel of two.
 std::optional<pt::Features> features(const Input &input) {
     try {
         return pt::gpu_scene(pt::PreparedScene(pt::validated_scene(input.scene())), pt::validated_camera(input.camera),
