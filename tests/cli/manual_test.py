@@ -1,18 +1,62 @@
-"""Tests that cli/README.md says what the program does. Arguments: see command_line.py."""
+"""Tests that cli/README.md says what the program does: its examples run, its tables have every command, option, key and
+exit code, and the ranges that it names are those that are kept. Arguments: see command_line.py."""
 
+import json
 import os
 import re
+import shutil
 
 from command_line import PT, SCENES, CommandLineTest, main, read_png
 
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
 
+SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
+            "planes": "[{%s}]"}
+# What a section has to have beside the key that is looked at.
+REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
+            "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
+            "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
 
-def table_keys(section):
-    """The names in the first column of the table below "**`section`**"."""
-    table = re.search(rf"\*\*`{section}`\*\*.*?\n\|[- |]+\|\n((?:\|[^\n]*\n)+)", MANUAL, re.DOTALL)[1]
-    return [name for row in table.splitlines() for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+
+def rows_after(heading):
+    """The cells of the first table below a heading, without its own headings."""
+    table = re.search(rf"{re.escape(heading)}.*?\n\|[-| ]+\|\n((?:\|[^\n]*\n)+)", MANUAL, re.DOTALL)[1]
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()]
+
+
+def names_in(cell):
+    return re.findall(r"`([\w-]+)`", cell)
+
+
+def section_rows(section):
+    return rows_after(f"\n**`{section}`**")
+
+
+def number_of(text):
+    """Of "1e18", "-64" or "2^64 - 1"."""
+    base, _, minus = text.replace("2^64", str(2**64)).partition(" - ")
+    number = float(base) if re.search(r"[.e]", base) else int(base)
+    return number - int(minus or 0)
+
+
+def range_of(cell):
+    """The least and the largest number of "from 0.1 to 10"; None if the cell names none of this kind."""
+    found = re.search(r"from (-?[\d.e^-]+) to (-?[\d.e^-]+(?: - 1)?)(?:,|$)", cell)
+    return found and (number_of(found[1]), number_of(found[2]))
+
+
+def beyond(least, largest):
+    """Numbers just outside of a range: whole ones next to it where its ends are."""
+    step = 1 if isinstance(least, int) and isinstance(largest, int) else abs(largest) * 1e-3
+    return least - step, largest + step
+
+
+def scene_with(section, values):
+    """A scene file whose section has these values, by key, and no more than it has to have beside them."""
+    members = json.dumps({**REQUIRED.get(section, {}), **values})
+    materials = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
+    return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], materials)
 
 
 class SceneFile(CommandLineTest):
@@ -24,36 +68,101 @@ class SceneFile(CommandLineTest):
 
     def test_every_key_is_described(self):
         unknown = '"zzzzzzzzz": 1'
-        sections = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
-                    "planes": "[{%s}]"}
-        self.assertEqual(sorted(self.known_keys("{%s}" % unknown)), sorted(sections))
-        for section, value in sections.items():
+        self.assertEqual(sorted(self.known_keys("{%s}" % unknown)), sorted(SECTIONS))
+        for section, value in SECTIONS.items():
             known = self.known_keys('{"%s": %s}' % (section, value % unknown))
-            self.assertEqual(sorted(known), sorted(table_keys(section)), section)
+            described = [name for row in section_rows(section) for name in names_in(row[0])]
+            self.assertEqual(sorted(known), sorted(described), section)
 
     def test_names_are_all_of_them(self):
         for section, key, kind in (("film", "tonemap", "tone map"), ("render", "sampler", "sampler"),
                                    ("render", "estimator", "estimator")):
             self.write("s.json", '{"%s": {"%s": "zzzzzzzzz"}}' % (section, key))
             self.expect(3, "render", "s.json", "-o", "a.png", error=f'unknown {kind} "zzzzzzzzz", known: ')
-            row = re.search(rf"\n\| `{key}` \|.*\n", MANUAL)[0]
-            self.assertEqual(re.findall(r"`([\w-]+)`", row.split("|")[3]),
-                             self.errors.strip().split("known: ")[1].split(", "))
+            row, = (row for row in section_rows(section) if names_in(row[0]) == [key])
+            self.assertEqual(names_in(row[2]), self.errors.strip().split("known: ")[1].split(", "))
+
+    def test_samplers_and_estimators_are_explained(self):
+        for kind in "sampler", "estimator":
+            chosen, = (row for row in section_rows("render") if names_in(row[0]) == [kind])
+            explained = [name for row in rows_after(f"\n| {kind} |") for name in names_in(row[0])]
+            self.assertEqual(explained, [name for name in names_in(chosen[2]) if name != "best"])
 
 
 class RealDevice(CommandLineTest):
     program = PT
+    small = "-o", "a.png", "--size", "4x2", "--spp", "1", "-q"
 
-    def test_examples(self):
-        examples = re.findall(r"```json\n(.*?)```", MANUAL, re.DOTALL)
-        self.assertGreater(len(examples), 0)
-        for example in examples:
-            self.write("s.json", example)
-            self.expect(0, "render", "s.json", "-o", "a.png", "--spp", "4")
-            self.assertEqual(self.errors, "")
-            width, height, lines = read_png(self.path("a.png"))
-            self.assertEqual((width, height), (320, 180))
-            self.assertGreater(len({value for line in lines for value in line}), 100)  # it shows something
+    def setUp(self):
+        super().setUp()
+        shutil.copy(os.path.join(SCENES, "first.json"), self.path("scene.json"))
+
+    def test_the_scene_is_the_shipped_one(self):
+        example, = re.findall(r"```json\n(.*?)```", MANUAL, re.DOTALL)
+        with open(os.path.join(SCENES, "first.json"), encoding="utf-8") as shipped:
+            self.assertEqual(example, shipped.read())
+
+    def test_the_scene_renders_without_warnings(self):
+        self.expect(0, "render", "scene.json", "-o", "a.png", "--spp", "4")
+        self.assertEqual(self.errors, "")
+        width, height, lines = read_png(self.path("a.png"))
+        self.assertEqual((width, height), (480, 240))
+        self.assertGreater(len({value for line in lines for value in line}), 100)  # it shows something
+
+    def test_commands_of_the_manual_run(self):
+        commands = [line.split() for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
+                    for line in block.splitlines() if line.startswith("pt ")]
+        self.assertGreater(len(commands), 5)
+        for command in commands:
+            if "--watch" not in command:  # which does not end by itself
+                self.expect(0, *command[1:])
+        for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg", "bench.json":
+            self.assertIn(name, self.files())
+
+    def render_scene(self, code, section, values):
+        self.write("s.json", scene_with(section, values))
+        self.expect(code, "render", "s.json", *self.small)
+
+    def test_examples_of_keys(self):
+        for section in SECTIONS:
+            self.render_scene(0, section, {names_in(row[0])[0]: json.loads(row[4].strip("`"))
+                                           for row in section_rows(section)})
+
+    def test_ranges_of_keys(self):
+        found = 0
+        for section in SECTIONS:
+            limits = {names_in(row[0])[0]: (0.0, 1e18) if "colour" in row[2] else range_of(row[2])
+                      for row in section_rows(section)}
+            limits = {key: ends for key, ends in limits.items() if ends}
+            found += len(limits)
+            for end in 0, 1:
+                self.render_scene(0, section, {key: ends[end] for key, ends in limits.items()})
+            for key, ends in limits.items():
+                for number in beyond(*ends):
+                    self.render_scene(3, section, {key: number})
+                    self.assertIn(key, self.errors)
+        self.assertEqual(found, 9)
+
+    def test_ranges_of_options(self):
+        found = 0
+        for command in "render", "bench":
+            for row in rows_after(f"\n## `pt {command}`\n"):
+                limits = range_of(row[2])
+                if limits:
+                    found += 1
+                    for number in beyond(*limits):
+                        outputs = ["-o", "a.png"] if command == "render" else []
+                        option = f"{row[0].strip('`')}={number}"
+                        self.expect(2, command, "scene.json", *outputs, option, error=row[0].strip("`"))
+        self.assertEqual(found, 12)
+
+    def test_reports_have_the_keys_that_are_told(self):
+        self.expect(0, "render", "scene.json", *self.small, "--stats", "s.json", "--progress", "json")
+        self.expect(0, "render", "scene.json", "-o", "a.png", "--spp", "1", "--size", "4x2", "--progress", "json")
+        told = [[name for row in rows_after(heading) for name in names_in(row[0])]
+                for heading in ("## Reports", "`--progress json` prints")]
+        self.assertEqual(told[0], list(json.loads(self.read("s.json"))))
+        self.assertEqual(told[1], list(json.loads(self.errors.splitlines()[0])))
 
     def test_exit_codes(self):
         self.expect(0, "--help")
@@ -61,9 +170,16 @@ class RealDevice(CommandLineTest):
         table = re.findall(r"^\| (\d+) \| (.*) \|$", MANUAL, re.MULTILINE)
         self.assertEqual([(code, text.replace("`", "").replace(" (--error)", "")) for code, text in table], told)
 
-    def test_commands(self):
-        for command in re.findall(r"\n\| `pt (\w+)", MANUAL):
+    def test_every_command_and_option_is_described(self):
+        self.expect(0, "--help")
+        commands = re.findall(r"^  (\w+) ", self.output.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
+        self.assertEqual(re.findall(r"\n\| \[`pt (\w+)", MANUAL), commands)
+        for command in commands:
             self.expect(0, command, "--help")
+            known = re.findall(r"^  (?:(-\w),)?(--[\w-]+)", self.output, re.MULTILINE)
+            described = [re.findall(r"`(-[\w-]+)`", row[0]) for row in rows_after(f"\n## `pt {command}`\n")]
+            self.assertEqual(sorted(described), sorted([name for name in names if name] for names in known
+                                                       if names != ("-h", "--help")), command)
 
 
 if __name__ == "__main__":
