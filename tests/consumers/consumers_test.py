@@ -7,6 +7,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -95,7 +96,7 @@ class Steps:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
     def c99(self):
-        """pkg-config, with the shared and with the static library; and the example in C."""
+        """pkg-config, with the shared and with the static library; the example in C, and the README's program."""
         folder = self.folder("c99")
         strict = [self.options.c_compiler, "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror"]
         enclosure = HERE / "c99" / "enclosure.c"
@@ -111,6 +112,12 @@ class Steps:
 
         run(*strict, EXAMPLES / "smallest.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "smallest")
         run(folder / "smallest", cwd=folder, LD_LIBRARY_PATH=str(self.library))
+        program, = re.findall(r"```c\n(.*?)```", (SOURCE / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+        (folder / "ball.c").write_text(program)
+        run(*strict, folder / "ball.c", *self.pkg_config("--cflags", "--libs"), "-o", folder / "ball")
+        said = run(folder / "ball", LD_LIBRARY_PATH=str(self.library))
+        require(said == "radiance in the middle: 1\n", f"the README's program says {said}")
+
         require(self.pkg_config("--modversion") == [self.options.version], "pt.pc has another version")
 
     def package(self):
