@@ -145,15 +145,18 @@ class RealDevice(CommandLineTest):
 
     def test_ranges_of_options(self):
         found = 0
-        for command in "render", "bench":
-            for row in rows_after(f"\n## `pt {command}`\n"):
-                limits = range_of(row[2])
-                if limits:
-                    found += 1
-                    for number in beyond(*limits):
-                        outputs = ["-o", "a.png"] if command == "render" else []
-                        option = f"{row[0].strip('`')}={number}"
-                        self.expect(2, command, "scene.json", *outputs, option, error=row[0].strip("`"))
+        for command, needed in ("render", ["-o", "a.png"]), ("bench", []):
+            ranges = {row[0].strip("`"): range_of(row[2]) for row in rows_after(f"\n## `pt {command}`\n")}
+            ranges = {option: ends for option, ends in ranges.items() if ends}
+            found += len(ranges)
+            for option, ends in ranges.items():
+                for number in beyond(*ends):
+                    self.expect(2, command, "scene.json", *needed, f"{option}={number}", error=option)
+            if command == "render":
+                ranges["--spp"] = (1, 1)  # the most would take a while
+                for end in 0, 1:
+                    options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
+                    self.expect(0, command, "scene.json", *needed, "--size", "4x2", *options)
         self.assertEqual(found, 12)
 
     def test_reports_have_the_keys_that_are_told(self):
