@@ -1,5 +1,5 @@
 // Lamps: emitting spheres, chosen by what they can contribute and sampled by the solid angle they subtend. Used by
-// path.glsl.
+// path.glsl, which takes lamps by choose() and choice_of() and knows nothing of how they are chosen.
 #ifndef LIGHTS_GLSL
 #define LIGHTS_GLSL
 
@@ -36,18 +36,23 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
-// The lamps as seen from a vertex. The views of a few are kept, many are looked at again where one is asked for.
+// The lamps as seen from a vertex: found once, asked by choose() and choice_of(). The views of a few are kept, many are
+// looked at again where one is asked for.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
+    Vertex vertex;
+    float time;
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
     float in_sight; // lamps with a weight above 0
 };
 
-Lamps view_lamps(Vertex vertex, float time)
+Lamps lamps_from(Vertex vertex, float time)
 {
     Lamps lamps;
+    lamps.vertex = vertex;
+    lamps.time = time;
     lamps.total_weight = 0.0;
     lamps.in_sight = 0.0;
     uint lamp = 0u;
@@ -63,10 +68,10 @@ Lamps view_lamps(Vertex vertex, float time)
 }
 
 // One of the lamps, which may differ between invocations.
-LampView lamp_among(Lamps lamps, Vertex vertex, uint lamp, float time)
+LampView lamp_among(Lamps lamps, uint lamp)
 {
     if (!KEEP_VIEWS)
-        return view_lamp(vertex, lamp, time);
+        return view_lamp(lamps.vertex, lamp, lamps.time);
     LampView view = lamps.views[0];
     uint i = 1u;
     while (i < LAMP_COUNT) {
@@ -86,6 +91,40 @@ float lamp_probability(Lamps lamps, float weight)
 {
     float probability = (1.0 - UNIFORM_SHARE) * (weight / lamps.total_weight) + UNIFORM_SHARE / lamps.in_sight;
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
+}
+
+// A lamp, and the probability with which choose() takes it.
+struct LampChoice {
+    uint lamp;
+    LampView view;
+    float probability;
+};
+
+// Of any lamp, which may differ between invocations.
+LampChoice choice_of(Lamps lamps, uint lamp)
+{
+    LampView view = lamp_among(lamps, lamp);
+    return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
+}
+
+// The lamp that a random number chooses. Its low end chooses uniformly among the lamps in sight, the rest by weight:
+// each part walks over its own numbers in the order in which they were summed, so that no small probability is lost to
+// rounding. Where rounding leaves the walk short, the last lamp in sight stands.
+LampChoice choose(Lamps lamps, float u)
+{
+    bool uniformly = u < UNIFORM_SHARE;
+    float target = uniformly ? u / UNIFORM_SHARE * lamps.in_sight
+                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
+    uint chosen = 0u;
+    float cumulated = 0.0;
+    uint lamp = 0u;
+    do {
+        float weight = KEEP_VIEWS ? lamps.views[lamp].weight : view_lamp(lamps.vertex, lamp, lamps.time).weight;
+        chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
+        cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
+        ++lamp;
+    } while (lamp < LAMP_COUNT);
+    return choice_of(lamps, chosen);
 }
 
 // 1 - cos of half the angle that a lamp subtends, as sin^2 / (1 + cos): no cancellation for small or far lamps.
@@ -108,34 +147,15 @@ struct LampSample {
 // Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. That is not found
 // by intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the
 // near root is d cos - sqrt(r^2 - d^2 sin^2).
-LampSample sample_lamp(LampView view, uint lamp, vec2 u)
+LampSample sample_lamp(LampChoice choice, vec2 u)
 {
+    LampView view = choice.view;
     float h = u.x * one_minus_cos(view);
     vec3 direction = direction_about(view.to_centre * view.inverse_distance, narrow_cos_sin(h), u.y);
     float half_chord = sqrt(max(view.squared_radius - view.squared_distance * (h * (2.0 - h)), 0.0));
     float distance = view.squared_distance * view.inverse_distance * (1.0 - h) - half_chord;
     float density = cone_density(view);
-    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, lamp), density);
-}
-
-// Index of the lamp that a random number chooses with lamp_probability. Its low end chooses uniformly among the lamps
-// in sight, the rest by weight: each part walks over its own numbers in the order in which they were summed, so that
-// no small probability is lost to rounding. Where rounding leaves the walk short, the last lamp in sight stands.
-uint choose_lamp(Lamps lamps, Vertex vertex, float time, float u)
-{
-    bool uniformly = u < UNIFORM_SHARE;
-    float target = uniformly ? u / UNIFORM_SHARE * lamps.in_sight
-                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
-    uint chosen = 0u;
-    float cumulated = 0.0;
-    uint lamp = 0u;
-    do {
-        float weight = KEEP_VIEWS ? lamps.views[lamp].weight : view_lamp(vertex, lamp, time).weight;
-        chosen = cumulated <= target && weight > 0.0 ? lamp : chosen;
-        cumulated += uniformly ? (weight > 0.0 ? 1.0 : 0.0) : weight;
-        ++lamp;
-    } while (lamp < LAMP_COUNT);
-    return chosen;
+    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, choice.lamp), density);
 }
 
 #endif

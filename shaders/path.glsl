@@ -51,31 +51,30 @@ LampLight no_lamp_light()
 }
 
 // Light of a lamp of which a vertex takes a number of samples, directions being taken so often at the same vertex.
-LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampView view, uint lamp, vec2 place,
+LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {
-    LampSample found = sample_lamp(view, lamp, place);
+    LampSample found = sample_lamp(choice, place);
     float density = found.density * samples;
     Reflection towards = reflection(material, vertex, found.shadow.direction);
     float weight = lamp_weight_against(density, towards.density * directions) / density;
-    vec3 light = throughput * towards.f * emission_of_lamp(lamp).rgb;
+    vec3 light = throughput * towards.f * emission_of_lamp(choice.lamp).rgb;
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }
 
 // How often a vertex samples a lamp: each of a few once, else as often as it chooses it.
-float lamp_samples(Lamps lamps, LampView view, bool every_lamp, float directions)
+float lamp_samples(LampChoice choice, bool every_lamp, float directions)
 {
-    return every_lamp ? 1.0 : lamp_probability(lamps, view.weight) * directions;
+    return every_lamp ? 1.0 : choice.probability * directions;
 }
 
 // Light of one lamp, chosen by what it can contribute, once for each direction that the vertex takes.
-LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps, float time,
-                               vec3 numbers, float directions)
+LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps, vec3 numbers,
+                               float directions)
 {
-    uint chosen = choose_lamp(lamps, vertex, time, numbers.z);
-    LampView view = lamp_among(lamps, vertex, chosen, time);
-    float samples = lamp_samples(lamps, view, false, directions);
-    return light_of_lamp(throughput, vertex, material, view, chosen, numbers.xy, samples, directions);
+    LampChoice choice = choose(lamps, numbers.z);
+    float samples = lamp_samples(choice, false, directions);
+    return light_of_lamp(throughput, vertex, material, choice, numbers.xy, samples, directions);
 }
 
 // Takes the path from a vertex to the next in one of the directions in which it is left, with the light of a lamp.
@@ -100,9 +99,9 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
         if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT) {
-            LampView view = lamp_among(lamps, vertex, hit.surface, time);
-            float samples = lamp_samples(lamps, view, every_lamp, directions);
-            weight = direction_weight_against(density, cone_density(view) * samples);
+            LampChoice choice = choice_of(lamps, hit.surface);
+            float samples = lamp_samples(choice, every_lamp, directions);
+            weight = direction_weight_against(density, cone_density(choice.view) * samples);
         }
         path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
     }
@@ -137,9 +136,9 @@ void extend(inout Path path, SampleKey key, float time)
     Lamps lamps;
     LampLight lamp = no_lamp_light();
     if (SAMPLE_LAMPS) {
-        lamps = view_lamps(vertex, time);
+        lamps = lamps_from(vertex, time);
         vec3 numbers = chosen_lamp_numbers(key, begin);
-        lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, time, numbers, 1.0);
+        lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, numbers, 1.0);
     }
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
     leave(path, vertex, material, lamp, lamps, false, time, numbers, 1.0);
@@ -155,7 +154,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
     if (SAMPLE_LAMPS)
-        lamps = view_lamps(vertex, time);
+        lamps = lamps_from(vertex, time);
 
     // Lamp b shares its walk over the scene with branch b's ray; lamps beyond the last branch have one of their own.
     vec3 radiance = vec3(0.0);
@@ -163,9 +162,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         Start start = Start(vertex.position, vertex.surface, vertex.inside);
         uint i = BRANCH_COUNT;
         [[unroll]] do {
-            LampView view = lamp_among(lamps, vertex, i, time);
-            LampLight lamp =
-                light_of_lamp(whole, vertex, material, view, i, every_lamp_numbers(key, i), 1.0, directions);
+            vec2 place = every_lamp_numbers(key, i);
+            LampLight lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, i), place, 1.0, directions);
             radiance += lamp.light * (is_blocked(start, time, lamp.shadow) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
@@ -176,13 +174,12 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         SampleKey branch_numbers = branch_key(key, branch);
         LampLight lamp = no_lamp_light();
         if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
-            LampView view = lamp_among(lamps, vertex, branch, time);
-            lamp = light_of_lamp(whole, vertex, material, view, branch, every_lamp_numbers(key, branch), 1.0,
-                                 directions);
+            vec2 place = every_lamp_numbers(key, branch);
+            lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, branch), place, 1.0, directions);
         }
         if (SAMPLE_ONE_LAMP) {
             vec3 numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
-            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, time, numbers, directions);
+            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions);
         }
 
         // The number that chooses the lobe is stratified over the branches; the sum may round up to 1.

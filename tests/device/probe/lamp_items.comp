@@ -21,7 +21,7 @@ void main()
     vec3 normal = item.normal.xyz;
     uint lamp = floatBitsToUint(item.position_lamp.w);
     LampView view = view_lamp(Vertex(item.position_lamp.xyz, normal, normal, NO_SURFACE, false), lamp, 0.0);
-    LampSample taken = sample_lamp(view, lamp, item.numbers.xy);
+    LampSample taken = sample_lamp(LampChoice(lamp, view, 1.0), item.numbers.xy);
     results[index] = Result(vec4(taken.shadow.direction, taken.shadow.distance),
                             vec4(one_minus_cos(view), taken.density, view.weight, 0.0));
 }

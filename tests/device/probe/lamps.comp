@@ -27,11 +27,12 @@ void main()
     if (index >= count)
         return;
     Vertex vertex = Vertex(position.xyz, normal.xyz, normal.xyz, surface, false);
-    Lamps lamps = view_lamps(vertex, 0.0);
+    Lamps lamps = lamps_from(vertex, 0.0);
     vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u).xyz;
-    uint lamp = index < LAMP_COUNT ? index : choose_lamp(lamps, vertex, 0.0, u.z);
-    LampView view = lamp_among(lamps, vertex, lamp, 0.0);
-    LampSample taken = sample_lamp(view, lamp, u.xy);
-    drawn[index] = Drawn(vec4(taken.shadow.direction, taken.shadow.distance), lamp, taken.density,
-                         cone_density(view_lamp(vertex, lamp, 0.0)), lamp_probability(lamps, view.weight));
+    LampChoice choice = choose(lamps, u.z);
+    if (index < LAMP_COUNT)
+        choice = choice_of(lamps, index);
+    LampSample taken = sample_lamp(choice, u.xy);
+    drawn[index] = Drawn(vec4(taken.shadow.direction, taken.shadow.distance), choice.lamp, taken.density,
+                         cone_density(choice_of(lamps, choice.lamp).view), choice.probability);
 }
