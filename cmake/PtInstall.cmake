@@ -30,7 +30,7 @@ foreach(export pt-targets pt-static-targets)
   )
 endforeach()
 configure_file(${PROJECT_SOURCE_DIR}/cmake/pt-config.cmake.in pt-config.cmake @ONLY)
-write_basic_package_version_file(pt-config-version.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(pt-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(
   FILES ${CMAKE_CURRENT_BINARY_DIR}/pt-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/pt-config-version.cmake
   DESTINATION ${pt_cmake_directory}

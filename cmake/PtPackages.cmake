@@ -1,11 +1,11 @@
-# Debian packages, made by `cpack -G DEB` in the build folder: libpt0 to run programs with, libpt-dev to build them, pt
-# the program, pt-image-formats with which it writes EXR and JPEG, and libpt0-glsl with which programs compile kernels while
-# they run. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
-set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR})
+# Debian packages, made by `cpack -G DEB` in the build folder: libpt0.2, named after the soname, to run programs with,
+# libpt-dev to build them, pt the program, pt-image-formats with which it writes EXR and JPEG, and libpt0.2-glsl with which
+# programs compile kernels while they run. Dependencies are those that dpkg-shlibdeps finds. Included by the top CMakeLists.txt.
+set(pt_runtime_package libpt${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(pt_development_package libpt-dev)
 set(pt_program_package pt)
 set(pt_image_formats_package pt-image-formats)
-set(pt_compiler_package libpt${PROJECT_VERSION_MAJOR}-glsl)
+set(pt_compiler_package ${pt_runtime_package}-glsl)
 set(CPACK_COMPONENTS_ALL pt_runtime pt_development)
 if(PT_BUILD_CLI)
   list(APPEND CPACK_COMPONENTS_ALL pt_program)
@@ -71,7 +71,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_DEBIAN_PT_DEVELOPMENT_DESCRIPTION
     "${pt_story}
-This package has the header, the static library, and how to find the
+This package has the headers, the static library, and how to find the
 libraries by CMake and pkg-config."
 )
 set(CPACK_DEBIAN_PT_DEVELOPMENT_PACKAGE_SECTION libdevel)

@@ -54,6 +54,7 @@ constexpr int exit_code_of_signal(int signal) {
 constexpr ExitCode exit_code_of(pt_result result) {
     switch (result) {
     case PT_ERROR_INVALID_ARGUMENT:
+    case PT_ERROR_INCOMPATIBLE: // films of different images were named
         return ExitCode::usage;
     case PT_ERROR_INVALID_SCENE:
         return ExitCode::scene;

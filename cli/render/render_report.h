@@ -35,7 +35,7 @@ struct RenderReport {
     bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
 };
 
-// "0.1.0", from the library's number.
+// "0.2.0", from the library's number.
 std::string version_text();
 
 nlohmann::ordered_json stats_json(const RenderReport &report);

@@ -1,5 +1,5 @@
 """The smallest program in Python: a ball under a lamp, written to smallest.pfm. Nothing is compiled, and nothing but
-Python and libpt.so.0 is needed.
+Python and libpt.so.0.2 is needed.
 
     python3 smallest.py          PT_LIBRARY names the library where the system does not find it
 
@@ -76,7 +76,7 @@ class pt_image(Sized):
 
 def load_library():
     """libpt with the parameter types that are used here: without them ctypes cuts pointers to 32 bits."""
-    library = ctypes.CDLL(os.environ.get("PT_LIBRARY", "libpt.so.0"))
+    library = ctypes.CDLL(os.environ.get("PT_LIBRARY", "libpt.so.0.2"))
     library.pt_result_name.argtypes = [c_int32]
     library.pt_result_name.restype = c_char_p
     library.pt_last_error.argtypes = [c_void_p]

@@ -22,7 +22,8 @@ COURSEWORK = os.path.join(SCENES, "coursework-diffuse.json")  # about which ther
 PATIENCE = 600
 
 RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNSUPPORTED": -4, "NO_DEVICE": -5,
-          "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10}
+          "OUT_OF_HOST_MEMORY": -6, "OUT_OF_DEVICE_MEMORY": -7, "DEVICE_LOST": -8, "SHADER": -9, "INTERNAL": -10,
+          "INCOMPATIBLE": -11}
 
 
 def read_png(path):

@@ -146,7 +146,10 @@ class SceneErrors(CommandLineTest):
         self.expect(4, "render", COURSEWORK, "-o", "a.png", **fault,
                     FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
                     error=COURSEWORK + ":15: spheres[0].motion = (1; 2; 3): too far")
-        self.expect(4, "render", COURSEWORK, "-o", "a.png", **length, error="pt: --max-path-length = 6: too long")
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", **length,
+                    error=COURSEWORK + ":4: render.max_path_length = 6: too long")
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--max-path-length", "6", **length,
+                    error="pt: --max-path-length = 6: too long")
         self.expect(4, "bench", COURSEWORK, **length, error="pt: --max-path-length = 6: too long")
         self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7", FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}",
                     FAKE_PT_RULE="create,-1,device,-1,,7,too large", error="pt: --device = 7: too large")
@@ -158,8 +161,9 @@ class DeviceErrors(CommandLineTest):
                                        ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
                                        ("set_scene", "UNSUPPORTED", 4), ("set_render", "OUT_OF_DEVICE_MEMORY", 4),
                                        ("accumulate", "SHADER", 4), ("accumulate", "DEVICE_LOST", 5),
-                                       ("accumulate", "INVALID_ARGUMENT", 2), ("accumulate", "INTERNAL", 1),
-                                       ("readback", "DEVICE_LOST", 5), ("stats", "INVALID_STATE", 1)):
+                                       ("accumulate", "INVALID_ARGUMENT", 2), ("accumulate", "INCOMPATIBLE", 2),
+                                       ("accumulate", "INTERNAL", 1), ("readback", "DEVICE_LOST", 5),
+                                       ("stats", "INVALID_STATE", 1)):
             with self.subTest(function=function, result=result):
                 self.write("a.png", "old")
                 self.expect(code, "render", COURSEWORK, "-o", "a.png", "--spp", "1", error="the reason",

@@ -24,12 +24,13 @@ struct pt_context {
     pt_render render{};
     std::uint32_t sample_count = 0;
     std::uint32_t call_count = 0; // of pt_accumulate since pt_set_render
-    std::string error;            // a failure's message; the rule that it is about is FAKE_PT_RULE's
+    std::string error;
 };
 
 namespace {
 
 thread_local std::string creation_error;
+std::string broken_rule; // of the last failure, in the form of FAKE_PT_RULE
 
 std::string setting(const char *name) {
     const char *value = std::getenv(name);
@@ -49,6 +50,7 @@ pt_result call(pt_context *context, const std::string &function) {
     const pt_result result = failure(function);
     if (result < 0) {
         context->error = setting("FAKE_PT_MESSAGE");
+        broken_rule = setting("FAKE_PT_RULE");
     }
     return result;
 }
@@ -123,6 +125,7 @@ pt_result pt_create(const pt_create_info *info, pt_context **context) {
     const pt_result result = failure("create");
     if (result < 0) {
         creation_error = setting("FAKE_PT_MESSAGE");
+        broken_rule = setting("FAKE_PT_RULE");
         *context = nullptr;
         return result;
     }
@@ -136,7 +139,8 @@ const char *pt_last_error(const pt_context *context) {
 }
 
 uint64_t pt_get_broken_rule(const pt_context *, std::uint32_t index, pt_broken_rule *rule) {
-    static const std::vector<std::string> parts = split(setting("FAKE_PT_RULE"));
+    static std::vector<std::string> parts;
+    parts = split(broken_rule);
     if (parts.size() != 7) {
         return 0;
     }
@@ -179,7 +183,7 @@ pt_result pt_set_render(pt_context *context, const pt_render *render) {
     context->call_count = 0;
     const std::string max_rows = setting("FAKE_PT_MAX_ROWS"); // more do not fit into the device
     if (!max_rows.empty() && rows_of(*render) > std::stoul(max_rows)) {
-        context->error = "render.width * rows: more than the device has";
+        broken_rule = "render,-1,width,-1,* rows,40 * 33,more than the device has";
         return PT_ERROR_UNSUPPORTED;
     }
     return call(context, "set_render");

@@ -46,7 +46,7 @@
 #endif
 
 /** Version of this header: major * 1000000 + minor * 1000 + patch. */
-#define PT_VERSION 1000u
+#define PT_VERSION 2000u
 
 #ifdef __cplusplus
 extern "C" {
