@@ -2,6 +2,8 @@
 // laxly. Called by render_options, bench_options and selftest_command.
 #include "cli/base/common_options.h"
 
+#include <pt/pt.h>
+
 #include <algorithm>
 #include <array>
 
@@ -25,7 +27,8 @@ CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size) {
 CLI::Option *add_max_path_length(CLI::App &command, std::optional<std::uint32_t> &max_path_length) {
     return add_whole_number<std::uint32_t>(command, "--max-path-length", max_path_length, 1,
                                            "Surface vertices after the camera, 1 = emission only (default: the "
-                                           "scene's, else 6)")
+                                           "scene's, else " +
+                                               std::to_string(PT_DEFAULT_MAX_PATH_LENGTH) + ")")
         ->type_name("L");
 }
 

@@ -7,6 +7,7 @@
 #include "cli/base/library_error.h"
 
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <cstddef>
 #include <cstdint>

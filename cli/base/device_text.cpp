@@ -2,6 +2,7 @@
 // Called by devices_command and by the reports of `pt render` and `pt selftest`.
 #include "cli/base/device_text.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <array>

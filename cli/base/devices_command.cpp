@@ -7,6 +7,7 @@
 #include "cli/base/json_text.h"
 #include "cli/base/vector_width.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <algorithm>

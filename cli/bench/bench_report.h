@@ -4,6 +4,7 @@
 
 #include "cli/image/error_metrics.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -5,7 +5,9 @@
 #include "cli/image/image_module.h"
 #include "cli/image/tone_map.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -14,6 +14,8 @@
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
 
+#include <pt/shaders.h>
+
 #include <chrono>
 #include <filesystem>
 #include <memory>

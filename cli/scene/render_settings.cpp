@@ -12,8 +12,6 @@ namespace {
 constexpr std::uint32_t default_side = 512;
 constexpr std::uint32_t default_sample_count = 64;
 constexpr std::uint32_t default_most_samples = 65536; // where a target error says when to stop
-// The library's own, which is asked for by 0 there but has to be known for the report.
-constexpr std::uint32_t default_max_path_length = 6;
 
 template <typename Value>
 Value first_given(const std::optional<Value> &option, const std::optional<Value> &scene, Value otherwise) {
@@ -69,7 +67,7 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     render.struct_size = sizeof(pt_render);
     render.width = options.size ? options.size->width : scene.width.value_or(default_side);
     render.height = options.size ? options.size->height : scene.height.value_or(default_side);
-    render.max_path_length = first_given(options.max_path_length, scene.max_path_length, default_max_path_length);
+    render.max_path_length = first_given(options.max_path_length, scene.max_path_length, PT_DEFAULT_MAX_PATH_LENGTH);
     render.seed = first_given(options.seed, scene.seed, std::uint64_t{0});
     render.first_sample = options.first_sample;
     render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});

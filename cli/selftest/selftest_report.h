@@ -4,6 +4,7 @@
 
 #include "cli/selftest/selftest_check.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -4,6 +4,8 @@
 
 #include "cli/selftest/selftest_scene.h"
 
+#include <pt/accuracy.h>
+
 #include <array>
 #include <bit>
 #include <cstdint>

@@ -5,11 +5,13 @@
 #include "lib/api/image.h"
 #include "lib/api/struct_size.h"
 #include "lib/base/rules.h"
+#include "lib/film/error_estimate.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/render/renderer.h"
 
 #include <pt/errors.h>
 #include <pt/film.h>
+#include <pt/shaders.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +102,10 @@ uint32_t pt_version(void) {
 
 const char *pt_result_name(pt_result result) {
     return pt::result_name(result);
+}
+
+uint32_t pt_next_check(uint32_t sample_count) {
+    return pt::next_check(sample_count);
 }
 
 pt_result pt_get_devices(pt_device_info *devices, uint32_t *count) {

@@ -4,6 +4,7 @@
  * Exit status 0 if the context rendered and the device then did the program's own work.
  */
 #include <pt/pt.h>
+#include <pt/vulkan.h>
 #include <vulkan/vulkan.h>
 
 #include <pthread.h>

@@ -8,6 +8,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <math.h>
 #include <pthread.h>

@@ -3,6 +3,7 @@
 
 #include "lib/vulkan/device.h"
 
+#include <pt/accuracy.h>
 #include <pt/pt.h>
 
 #include <cstdint>

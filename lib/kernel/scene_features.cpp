@@ -3,6 +3,8 @@
 
 #include "lib/kernel/point_sequence.h"
 
+#include <pt/stats.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

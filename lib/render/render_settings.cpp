@@ -9,8 +9,6 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t default_max_path_length = 6;
-
 // Indices of pixels are 32-bit numbers, and so is their count.
 constexpr std::uint64_t max_pixel_count = UINT32_MAX;
 
@@ -34,7 +32,7 @@ RenderSettings validated_render(const pt_render &source) {
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {source.width,
             source.height,
-            source.max_path_length == 0 ? default_max_path_length : source.max_path_length,
+            source.max_path_length == 0 ? PT_DEFAULT_MAX_PATH_LENGTH : source.max_path_length,
             source.seed,
             source.first_sample,
             source.estimator == PT_ESTIMATOR_BEST ? std::uint32_t{PT_ESTIMATOR_MIS} : source.estimator,

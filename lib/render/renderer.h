@@ -16,6 +16,10 @@
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
 
+#include <pt/accuracy.h>
+#include <pt/devices.h>
+#include <pt/stats.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -4,7 +4,9 @@
 
 #include "lib/vulkan/api.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
+#include <pt/vulkan.h>
 
 #include <cstdint>
 #include <span>

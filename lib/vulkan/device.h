@@ -5,6 +5,7 @@
 #include "lib/vulkan/instance.h"
 #include "lib/vulkan/logical_device.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <chrono>

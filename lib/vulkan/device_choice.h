@@ -3,6 +3,7 @@
 
 #include "lib/vulkan/api.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <cstddef>

@@ -5,8 +5,12 @@
 // four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
 // FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of failures, and
 // FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about.
+#include <pt/accuracy.h>
+#include <pt/devices.h>
 #include <pt/errors.h>
 #include <pt/pt.h>
+#include <pt/shaders.h>
+#include <pt/stats.h>
 
 #include <chrono>
 #include <cmath>

@@ -2,6 +2,10 @@
 // or a newer header.
 #include "tests/device/api_fixture.h"
 
+#include <pt/accuracy.h>
+#include <pt/devices.h>
+#include <pt/shaders.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>

@@ -2,6 +2,8 @@
 // rules of single fields have their own tests, without a device.
 #include "tests/device/api_fixture.h"
 
+#include <pt/devices.h>
+
 #include <algorithm>
 #include <cstring>
 #include <limits>

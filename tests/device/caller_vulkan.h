@@ -6,6 +6,7 @@
 #include "lib/vulkan/device_choice.h"
 
 #include <pt/pt.h>
+#include <pt/vulkan.h>
 
 #include <gtest/gtest.h>
 

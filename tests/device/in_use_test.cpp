@@ -2,6 +2,10 @@
 #include "lib/api/in_use.h"
 #include "tests/device/api_fixture.h"
 
+#include <pt/accuracy.h>
+#include <pt/devices.h>
+#include <pt/shaders.h>
+
 #include <gtest/gtest.h>
 
 #include <functional>

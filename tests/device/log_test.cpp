@@ -1,6 +1,8 @@
 // What a context says to its log without being asked for validation.
 #include "tests/device/api_fixture.h"
 
+#include <pt/devices.h>
+
 #include <gtest/gtest.h>
 
 #include <string>

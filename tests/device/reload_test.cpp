@@ -7,6 +7,8 @@
 
 #include "tests/support/expected_error.h"
 
+#include <pt/shaders.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

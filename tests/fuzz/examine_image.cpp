@@ -9,6 +9,7 @@
 #include "lib/scene/scene.h"
 
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <algorithm>
 #include <array>

@@ -10,6 +10,8 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
 
+#include <pt/stats.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,5 @@
 /* pt.h is C: this program is compiled as strict C99 and goes through the four verbs. Exit status 0 if all went well. */
+#include <pt/accuracy.h>
 #include <pt/pt.h>
 
 #include <stdio.h>

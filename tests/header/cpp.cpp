@@ -1,7 +1,11 @@
 // The headers as C++, and their binary interface: numbers and types that programs were compiled with must never change. Sizes
 // and offsets are in abi/struct_layout.txt.
+#include <pt/accuracy.h>
+#include <pt/devices.h>
 #include <pt/errors.h>
 #include <pt/pt.h>
+#include <pt/shaders.h>
+#include <pt/stats.h>
 
 #include <type_traits>
 
@@ -30,6 +34,7 @@ static_assert(PT_CREATE_VALIDATION == 1);
 // The functions have C linkage and these types.
 static_assert(std::is_same_v<decltype(&pt_version), uint32_t (*)()>);
 static_assert(std::is_same_v<decltype(&pt_result_name), const char *(*)(pt_result)>);
+static_assert(std::is_same_v<decltype(&pt_next_check), uint32_t (*)(uint32_t)>);
 static_assert(std::is_same_v<decltype(&pt_get_devices), pt_result (*)(pt_device_info *, uint32_t *)>);
 static_assert(std::is_same_v<decltype(&pt_create), pt_result (*)(const pt_create_info *, pt_context **)>);
 static_assert(std::is_same_v<decltype(&pt_last_error), const char *(*)(const pt_context *)>);

@@ -6,6 +6,7 @@
 // may grow by that besides. Growth is taken from the end of the first quarter, when caches are filled. Exit code 1: memory grew
 // more.
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <vulkan/vulkan_core.h>
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <atomic>
 #include <cstdint>

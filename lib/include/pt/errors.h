@@ -31,8 +31,8 @@ typedef struct pt_broken_rule {
 /** How many broken rules the message of pt_last_error is about; 0 where it is about no field.
  *
  * If rule is not NULL, that of the given index is written to as many bytes as rule->struct_size says. The first eight
- * are kept, those that the message shows; of others, and from the end on, the strings are NULL. Where no memory was left
- * for the message, there are none.
+ * are kept, those that the message shows; of others, and from the end on, the strings are NULL. Where no memory was
+ * left for the message, there are none.
  *
  * The same context, or NULL, and the same threads as for pt_last_error; never fails, and changes no last error. */
 PT_API uint64_t pt_get_broken_rule(const pt_context *context, uint32_t index, pt_broken_rule *rule);

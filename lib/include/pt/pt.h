@@ -1,39 +1,34 @@
 /** @file
  * pt: an offscreen path tracer for spheres and planes on any Vulkan device.
  *
- * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate,
- * pt_readback.
+ * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
+ * What only some programs need stands beside it: pt/stats.h (what was done, and the image's error), pt/errors.h (the
+ * last error as data), pt/devices.h (which devices there are), pt/vulkan.h (a device of the caller's own), pt/shaders.h
+ * (changed kernels) and pt/accuracy.h (how well a device computes).
  *
- * Conventions
- *
- * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1].
- * - Colour: linear RGB radiance, unclamped. Row 0 of an image is the top row.
- * - Numbers: every number must be finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32
- *   numbers too.
- * - Structs: a struct passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and
- *   grows only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer
- *   one is accepted only if the tail unknown to this library is zero (PT_ERROR_UNSUPPORTED). Elements of arrays
- *   (pt_material, pt_sphere, pt_plane, pt_device_info, pt_function_accuracy) are frozen. Reserved fields must be
- *   zero.
- * - Ownership: what a call is given is copied or no longer needed when it returns; only callbacks with their user
- *   pointers are kept where that is said. Pointers to structs and results must not be NULL where that is not
- *   allowed.
- * - Results: a call is one transaction: if it fails (result < 0) it has changed nothing, except that a lost device
- *   stays lost (PT_ERROR_DEVICE_LOST from then on; destroy the context and create another) and that pt_accumulate
- *   may have taken some of its samples. Every failure has a message, see pt_last_error. Beside the errors that a
- *   function names, it can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL; and with
+ * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Colour is
+ *   linear RGB radiance, unclamped. Row 0 of an image is the top row.
+ * - Numbers: all finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32 numbers too.
+ * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
+ *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer one is
+ *   accepted only if the tail unknown to this library is zero (PT_ERROR_UNSUPPORTED). Elements of arrays have no
+ *   struct_size and are frozen. Reserved fields must be zero.
+ * - Ownership: what a call is given is copied or no longer needed when it returns, but for callbacks with their user
+ *   pointers where that is said. Pointers must not be NULL where that is not allowed.
+ * - Results: a call that fails (result < 0) has changed nothing, except that a lost device stays lost (destroy the
+ *   context and create another) and that pt_accumulate may have taken some of its samples. Every failure has a message,
+ *   see pt_last_error. Any function can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL, and with
  *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
- * - Threads: different contexts are independent and may be used at the same time; one context is used by one thread
- *   at a time. A call on a context that another thread is in a call on is refused (PT_ERROR_INVALID_STATE), and
- *   changes nothing. The library starts no threads (drivers do), prints nothing, reads no files but those of
- *   pt_create_info.shader_dir and has no globals. Calls need less than 256 KiB of stack on Mesa's lavapipe.
+ * - Threads: different contexts are independent; one context is used by one thread at a time. A call on a context that
+ *   another thread is in a call on is refused (PT_ERROR_INVALID_STATE). The library starts no threads (drivers do),
+ *   prints nothing, reads no files but those of pt_create_info.shader_dir and has no globals. Calls need less than 256
+ *   KiB of stack on Mesa's lavapipe.
  * - Processes: after fork a child may make contexts of its own, but must not use those of its parent, nor destroy them:
  *   the threads of their driver are not in the child, and a call may wait for them for ever.
  * - Callbacks: run inside the call, on the calling thread, must not call back into the same context, which is refused
  *   (PT_ERROR_INVALID_STATE), and must not throw.
  * - Floating point: calls, and callbacks in them, round to nearest, and the caller's mode is back when they return.
- *   Exceptions must not be trapped. A driver's threads that compute inherit the mode of who starts them: with pt_vulkan
- *   that is the caller, who has to make the device with rounding to nearest.
+ *   Exceptions must not be trapped.
  */
 #ifndef PT_H
 #define PT_H
@@ -75,27 +70,8 @@ enum {
 /** One renderer, on one device or several. Made by pt_create and owned by its caller until pt_destroy. */
 typedef struct pt_context pt_context;
 
-/* ---- Devices ---------------------------------------------------------------------------------------------------- */
-
-/** Values of pt_device_info.kind. */
-enum {
-    PT_DEVICE_OTHER = 0,          /**< none of these */
-    PT_DEVICE_INTEGRATED_GPU = 1, /**< shares the memory of the machine */
-    PT_DEVICE_DISCRETE_GPU = 2,   /**< has memory of its own */
-    PT_DEVICE_VIRTUAL_GPU = 3,    /**< a virtual machine's */
-    PT_DEVICE_CPU = 4             /**< a driver that runs kernels on the CPU */
-};
-
-/** A Vulkan device. */
-typedef struct pt_device_info {
-    uint32_t kind;         /**< PT_DEVICE_* */
-    uint32_t suitable;     /**< 1: pt_create can use it; 0: reason says why not */
-    uint64_t memory_bytes; /**< size of its largest memory heap that kernels can reach quickly */
-    uint8_t uuid[16];      /**< tells two equal devices apart; stable over reboots */
-    char name[256];        /**< UTF-8, zero-terminated, like the two below */
-    char driver[256];      /**< driver name and version */
-    char reason[256];      /**< empty if suitable */
-} pt_device_info;
+/** The caller's own Vulkan; defined in pt/vulkan.h. */
+typedef struct pt_vulkan pt_vulkan;
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------ */
 
@@ -116,15 +92,15 @@ typedef struct pt_material {
 
 /** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
  *
- * Spheres that float32 cannot tell apart as the camera sees them are one: the first of them in the array stands for all,
- * and so for planes. That is where their radii differ by less than a 2^18th, and their centres by less than a 2^18th of
- * the radius plus a 2^21th of the distance, but never by a quarter of the radius. */
+ * Of spheres that float32 cannot tell apart as the camera sees them the first in the array stands for all, and so of
+ * planes: radii that differ by less than a 2^18th, and centres by less than a 2^18th of the radius plus a 2^21th of the
+ * distance, but never by a quarter of the radius. */
 typedef struct pt_sphere {
-    double center[3];  /**< at time 0 */
-    double radius;     /**< > 0 */
-    /** Way from time 0 to time 1. A sphere whose surface, as the shutter opens, is nearer to the camera than a 65536th of its
-     * radius moves by less than a 32nd of it while the shutter is open; pt_accumulate refuses others with
-     * PT_ERROR_UNSUPPORTED. */
+    double center[3]; /**< at time 0 */
+    double radius;    /**< > 0 */
+    /** Way from time 0 to time 1. A sphere whose surface, as the shutter opens, is nearer to the camera than a 65536th
+     * of its radius must move by less than a 32nd of it while the shutter is open (pt_accumulate:
+     * PT_ERROR_UNSUPPORTED). */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
@@ -163,45 +139,43 @@ typedef struct pt_camera {
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
 
-/** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time. Lamps
- * are emitting spheres that can be sampled; one that holds the camera, like a sky, is found by directions whatever the
- * estimator, and so are emitting planes. */
+/** Values of pt_render.estimator: how light is found. All converge to the same image, with different noise and time.
+ * Lamps are emitting spheres that can be sampled; one that holds the camera, like a sky, is found by directions
+ * whatever the estimator, and so are emitting planes. */
 enum {
     PT_ESTIMATOR_BEST = 0,    /**< what this version considers best: mis */
     PT_ESTIMATOR_UNIFORM = 1, /**< directions uniform on the hemisphere; lamps are found by chance */
     PT_ESTIMATOR_COSINE = 2,  /**< directions by the cosine to the normal, the geometric term */
     PT_ESTIMATOR_BSDF = 3,    /**< directions by the material: cosine and specular lobe */
-    /** lamps sampled by solid angle; directions as bsdf, but blind to lamps that can be sampled */
-    PT_ESTIMATOR_LIGHT = 4,
-    PT_ESTIMATOR_MIS = 5 /**< lamps sampled by solid angle and directions as bsdf, combined */
+    PT_ESTIMATOR_LIGHT = 4,   /**< lamps by solid angle; directions as bsdf, blind to lamps that can be sampled */
+    PT_ESTIMATOR_MIS = 5      /**< lamps sampled by solid angle and directions as bsdf, combined */
 };
 
-/** Values of pt_render.sampler: where the numbers of a sample come from. All converge to the same image, at different
- * rates. */
+/** Values of pt_render.sampler: where a sample's numbers come from. All converge to the same image, at other rates. */
 enum {
-    PT_SAMPLER_BEST = 0,   /**< what this version considers best: sobol */
-    PT_SAMPLER_RANDOM = 1, /**< independent random numbers */
-    PT_SAMPLER_HALTON = 2, /**< radical inverses in prime bases, the same points in every pixel */
-    /** the same, rotated by a random offset per pixel and dimension (Cranley and Patterson) */
-    PT_SAMPLER_HALTON_CP = 3,
-    PT_SAMPLER_SOBOL = 4 /**< Sobol points, Owen-scrambled per pixel and dimension */
+    PT_SAMPLER_BEST = 0,      /**< what this version considers best: sobol */
+    PT_SAMPLER_RANDOM = 1,    /**< independent random numbers */
+    PT_SAMPLER_HALTON = 2,    /**< radical inverses in prime bases, the same points in every pixel */
+    PT_SAMPLER_HALTON_CP = 3, /**< the same, rotated by a random offset per pixel and dimension (Cranley, Patterson) */
+    PT_SAMPLER_SOBOL = 4      /**< Sobol points, Owen-scrambled per pixel and dimension */
 };
+
+/** The default of pt_render.max_path_length. */
+#define PT_DEFAULT_MAX_PATH_LENGTH 6u
 
 /** What image is to be made, and how. */
 typedef struct pt_render {
     uint32_t struct_size;     /**< sizeof(pt_render) */
     uint32_t width;           /**< pixels, >= 1; width * height <= 2^32 - 1 */
     uint32_t height;          /**< pixels, >= 1 */
-    uint32_t max_path_length; /**< surface vertices after the camera, 1 = emission only; [1, 1024]; default 6 */
+    uint32_t max_path_length; /**< surface vertices after the camera, 1 = emission only; [1, 1024] */
     uint64_t seed;            /**< equal inputs, device and driver and equal seed: equal bits */
     uint32_t first_sample;    /**< index of the first sample: samples a..b of one sequence may be taken anywhere */
     uint32_t estimator;       /**< PT_ESTIMATOR_* */
     uint32_t sampler;         /**< PT_SAMPLER_* */
     uint32_t reserved;        /**< 0 */
-    /** The rows [first_row, first_row + row_count) of the image are rendered, and read back as an image of their own:
-     * an image that is too large for a device is rendered piece by piece, with the same bits. */
-    uint32_t first_row;
-    uint32_t row_count; /**< 0: all from first_row on */
+    uint32_t first_row;       /**< these rows alone are rendered, and read back as an image of their own: one too */
+    uint32_t row_count;       /**< large for a device is rendered piece by piece, same bits. 0: all from first_row on */
 } pt_render;
 
 /** Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
@@ -223,9 +197,9 @@ typedef struct pt_accumulate_info {
     pt_progress_fn progress; /**< may be NULL; called during pt_accumulate alone */
     void *progress_user;     /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
-     * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has 16, 18,
-     * 20, ... 32, 36, 40, ... 64, 72, ... samples, eighths of a power of two, and at no other time: where a sequence
-     * ends does not depend on how it is split over calls. Finite, >= 0. */
+     * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has as many
+     * samples as pt_next_check says, and at no other time: where a sequence ends does not depend on how it is split
+     * over calls. Finite, >= 0. */
     double target_error;
 } pt_accumulate_info;
 
@@ -248,58 +222,13 @@ typedef struct pt_image {
     uint64_t row_bytes;   /**< distance between rows, a multiple of 4, >= width * 12; default width * 12 */
 } pt_image;
 
-/** Bits of pt_stats.features: what the kernel contains because the scene needs it. */
-enum {
-    PT_FEATURE_LAMPS = 1,  /**< emitting spheres, sampled directly */
-    PT_FEATURE_GLOSS = 2,  /**< specular lobes */
-    PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
-    PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
-};
-
-/** What has been done, what it took, and how good the image is.
- *
- * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
- * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
- * of 95% confidence. Light that no sample has met yet is not in it. Nothing is known with fewer than 16 samples, nor where
- * more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower bounds
- * are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they
- * take. */
-typedef struct pt_stats {
-    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
-    uint32_t sample_count;     /**< whole samples in every pixel */
-    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
-    uint64_t device_bytes;     /**< memory allocated on all its devices now */
-    uint64_t submit_count;     /**< submissions that pt_accumulate waited for since pt_create, to all devices */
-    double device_seconds;     /**< time spent in them, summed over the devices */
-    uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
-    uint32_t device_count;     /**< devices that share the samples */
-    double rmse;               /**< root mean square error, a radiance */
-    double rmse_low;           /**< lower bound of rmse */
-    double rmse_high;          /**< upper bound of rmse */
-    double relative_rmse;      /**< relative root mean square error, a number */
-    double relative_rmse_low;  /**< lower bound of relative_rmse */
-    double relative_rmse_high; /**< upper bound of relative_rmse */
-} pt_stats;
-
-/* ---- Accuracy --------------------------------------------------------------------------------------------------- */
-
-/** How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
- * is 2^(e - 23) for 2^e <= |y| < 2^(e + 1). */
-typedef struct pt_function_accuracy {
-    char name[40];      /**< UTF-8, zero-terminated */
-    double worst_error; /**< the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
-    double bound;       /**< what it stays within on every device that keeps Vulkan's promises */
-    double worst_input; /**< argument at which it was found */
-} pt_function_accuracy;
-
 /* ---- Context ---------------------------------------------------------------------------------------------------- */
 
 /** Level of a log line. */
 enum {
     PT_LOG_ERROR = 1,   /**< something is wrong */
     PT_LOG_WARNING = 2, /**< something may be wrong */
-    PT_LOG_INFO = 3     /**< something to know: what a context renders on, which kernels its driver builds, how long
-                             that takes until the driver says that it is done (it may build more at their first use) */
+    PT_LOG_INFO = 3     /**< something to know: the devices, the kernels that drivers build and how long that takes */
 };
 
 /** Receives one UTF-8 line without its line break; line is valid during the call. level is a PT_LOG_*, user is
@@ -311,73 +240,19 @@ enum {
     PT_CREATE_VALIDATION = 1 /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
 };
 
-/** Called around every use of a queue, on the thread that called the library; user is pt_vulkan.queue_user. */
-typedef void (*pt_queue_fn)(void *user);
-
-/** The caller's own Vulkan, for pt_create_info.vulkan: the context makes its objects on this device and submits its work
- * to this queue, with the same bits as on a device of its own.
- *
- * Needed     instance and device come from the Vulkan loader that this library is linked to (libvulkan.so.1). The
- *            instance was created with VkApplicationInfo.apiVersion 1.2 or higher, and the physical device supports
- *            Vulkan 1.2: the kernels are SPIR-V 1.5. No feature and no extension is needed, but
- *            VK_KHR_portability_subset where the device has it, as Vulkan demands. The device was made of one physical
- *            device, not of a group. The queue's family has VK_QUEUE_COMPUTE_BIT.
- * Lifetime   all handles must outlive the context, which destroys none of them. It destroys what it has made, without
- *            allocation callbacks, at the latest in pt_destroy, and waits for its own submissions only, by fences.
- * Threads    Vulkan wants a queue used by one thread at a time. The context calls lock_queue and unlock_queue around
- *            every vkQueueSubmit, and does not hold the queue while it waits or calls back; they may be a mutex that
- *            all users of the queue lock, other contexts included. Without them nobody else may use the queue during a
- *            call on this context, vkDeviceWaitIdle included. All else that the context does needs no lock: Vulkan lets
- *            threads share a device.
- * Order      the context uses its own buffers alone. Its pipeline barriers are for compute and transfers, and may delay
- *            commands of others in the queue, never change them.
- * Time       work of others that is before the context's in the queue must not wait for the calling thread. It counts
- *            as time of the context's submissions: it makes them smaller, and on a GPU a submission that has not ended
- *            after 10 seconds means that the device is lost.
- * Loss       PT_ERROR_DEVICE_LOST from then on, whoever lost the device. If it hangs, so that submissions of this
- *            context have not ended by pt_destroy, what they use stays behind on the device until the process ends.
- *
- * Errors of pt_create: PT_ERROR_INVALID_ARGUMENT for a field that breaks a rule given here, as far as that can be seen.
- * It cannot be seen whether the handles are alive and belong together (but the physical device, which is looked for in
- * the instance), nor that an instance is older than 1.2 where the driver offers newer functions regardless.
- * PT_ERROR_UNSUPPORTED if the physical device does not fit (pt_device_info.reason). Others as without pt_vulkan.
- */
-typedef struct pt_vulkan {
-    uint32_t struct_size;     /**< sizeof(pt_vulkan) */
-    uint32_t queue_family;    /**< index of the queue's family */
-    void *instance;           /**< VkInstance, like the next three never NULL */
-    void *physical_device;    /**< VkPhysicalDevice, one of the instance's */
-    void *device;             /**< VkDevice, made of the physical device */
-    void *queue;              /**< VkQueue of the device and of the family */
-    pt_queue_fn lock_queue;   /**< returns when this thread may use the queue; NULL together with unlock_queue */
-    pt_queue_fn unlock_queue; /**< called by the thread that called lock_queue */
-    void *queue_user;         /**< handed to both */
-} pt_vulkan;
-
 /** What a context is to run on. Zeros are defaults, but for struct_size. */
 typedef struct pt_create_info {
-    uint32_t struct_size; /**< sizeof(pt_create_info) */
-    uint32_t flags;       /**< PT_CREATE_* */
-    /** NULL: the best one (discrete, integrated, virtual, CPU, in that order). Else an index into pt_get_devices in
-     * decimal, "gpu" or "cpu", a UUID as 32 hexadecimal digits (dashes allowed), or a part of a name, ignoring case.
-     * Several devices share the samples of a context, with the same bits if they are of one kind and driver: "all" are
-     * those of the best kind that there is; or indices or UUIDs separated by commas, each device once. UTF-8,
-     * zero-terminated. */
-    const char *device;
+    uint32_t struct_size;         /**< sizeof(pt_create_info) */
+    uint32_t flags;               /**< PT_CREATE_* */
+    const char *device;           /**< NULL: the best one; else "gpu", "cpu", a part of a name, or as in pt/devices.h */
     pt_log_fn log;                /**< may be NULL; called by pt_create and any call on the context */
     void *log_user;               /**< handed to log; the library does not look at it */
     uint32_t submit_milliseconds; /**< aim for the length of one submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */
-    /** NULL: the context makes an instance and devices of its own. Else it runs on this device alone, device must be
-     * NULL, and flags 0: the layers are those of the caller's instance, and their messages go where that sends them.
-     * The struct is read by pt_create alone. */
+    /** NULL: the context makes an instance and devices of its own. Else it runs on this device alone, see pt/vulkan.h;
+     * device must be NULL, and flags 0. Read by pt_create alone. */
     const pt_vulkan *vulkan;
-    /** NULL or empty: the kernels in the library. Else a folder of GLSL files like the library's own shaders/, which are
-     * compiled by pt_create, and again by pt_reload_shaders: pathtrace.comp, commit.comp, fold.comp, accuracy.comp and
-     * what they include, beside the including file or in this folder. A relative path is relative to the working
-     * directory at that time. gpu_layout.h is an agreement with the library's host code: what it says of memory must
-     * stay. The compiler is a module beside the library (or the program that the static library is in), pt/libpt-glsl.so,
-     * or where the system finds libraries; PT_ERROR_UNSUPPORTED without it. */
+    /** NULL or empty: the kernels in the library. Else a folder of their GLSL files, see pt/shaders.h. */
     const char *shader_dir;
 } pt_create_info;
 
@@ -389,14 +264,6 @@ PT_API uint32_t pt_version(void);
 /** Name of a result as in this header ("PT_ERROR_NO_DEVICE"); "unknown result" for others. Static, never NULL. Any
  * thread; never fails. */
 PT_API const char *pt_result_name(pt_result result);
-
-/** Lists the Vulkan devices.
- *
- * devices == NULL: count receives their number. Else at most as many are written to devices as count says, and count
- * receives how many were.
- *
- * Any thread. PT_ERROR_NO_DEVICE: Vulkan itself is not there, or has no device. */
-PT_API pt_result pt_get_devices(pt_device_info *devices, uint32_t *count);
 
 /** Makes a context.
  *
@@ -427,9 +294,6 @@ PT_API const char *pt_last_error(const pt_context *context);
  * is, to be destroyed later, and the log and pt_last_error say so. */
 PT_API void pt_destroy(pt_context *context);
 
-/** What this context runs on; the first of several devices. One thread at a time per context. */
-PT_API pt_result pt_get_context_device(pt_context *context, pt_device_info *device);
-
 /** Takes over a scene, and discards the samples accumulated so far.
  *
  * The three setters may be called in any order and again at any time. Each copies what it is given.
@@ -451,19 +315,6 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
  * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
-/** Compiles the GLSL files of pt_create_info.shader_dir as they are now.
- *
- * If they give other kernels than before, these replace them on all devices, and the samples so far are discarded as by
- * the setters; if they give the same, nothing changes. After a failure the kernels are those of before, and the samples
- * stay.
- *
- * One thread at a time per context. PT_ERROR_SHADER: a file is missing or does not compile, with the compiler's messages
- * (one line each, with the name of the file and the line) in pt_last_error; or a driver refuses the kernels for the
- * scene that is being rendered (a scene that no sample was taken of yet is tried by the next pt_accumulate).
- * PT_ERROR_INVALID_STATE: there is no shader_dir. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said
- * so. */
-PT_API pt_result pt_reload_shaders(pt_context *context);
-
 /** Adds samples to every pixel and returns when they are done.
  *
  * However the samples are split over calls, the sum has the same bits. Needs scene, camera and render settings.
@@ -484,23 +335,6 @@ PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *in
  * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule.
  * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
-
-/** Writes what has been done; at any time, of a lost device too.
- *
- * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
- * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
-PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
-
-/** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
- * double precision.
- *
- * Changes nothing, and needs no scene. rows == NULL: count receives the number of functions, and nothing is
- * evaluated. Else at most as many rows are written as count says, and count receives how many were. A worst_error
- * above its bound is no failure of the call: it is what the call is for.
- *
- * One thread at a time per context. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver
- * said so. */
-PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);
 
 #ifdef __cplusplus
 }

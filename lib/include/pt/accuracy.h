@@ -1,0 +1,37 @@
+/** @file
+ * pt: how well a device computes the kernel's elementary functions, for self-tests of devices and drivers.
+ */
+#ifndef PT_ACCURACY_H
+#define PT_ACCURACY_H
+
+#include <pt/pt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How well a device evaluates one of the kernel's elementary functions. Errors are in ulp of the exact value y, which
+ * is 2^(e - 23) for 2^e <= |y| < 2^(e + 1). */
+typedef struct pt_function_accuracy {
+    char name[40];      /**< UTF-8, zero-terminated */
+    double worst_error; /**< the largest found, >= 0; infinite where the device gave NaN, infinity or nothing */
+    double bound;       /**< what it stays within on every device that keeps Vulkan's promises */
+    double worst_input; /**< argument at which it was found */
+} pt_function_accuracy;
+
+/** Evaluates the kernel's elementary functions on this context's device over fixed inputs and compares them with
+ * double precision.
+ *
+ * Changes nothing, and needs no scene. rows == NULL: count receives the number of functions, and nothing is
+ * evaluated. Else at most as many rows are written as count says, and count receives how many were. A worst_error
+ * above its bound is no failure of the call: it is what the call is for.
+ *
+ * One thread at a time per context. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver
+ * said so. */
+PT_API pt_result pt_get_accuracy(pt_context *context, pt_function_accuracy *rows, uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

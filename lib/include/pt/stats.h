@@ -1,0 +1,59 @@
+/** @file
+ * pt: what has been done, what it took, and how good the image is.
+ */
+#ifndef PT_STATS_H
+#define PT_STATS_H
+
+#include <pt/pt.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Bits of pt_stats.features: what the kernel contains because the scene needs it. */
+enum {
+    PT_FEATURE_LAMPS = 1,  /**< emitting spheres, sampled directly */
+    PT_FEATURE_GLOSS = 2,  /**< specular lobes */
+    PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
+    PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
+};
+
+/** What has been done, what it took, and how good the image is.
+ *
+ * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
+ * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
+ * of 95% confidence. Light that no sample has met yet is not in it. Nothing is known with fewer than 16 samples, nor
+ * where more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower
+ * bounds are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they take. */
+typedef struct pt_stats {
+    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
+    uint32_t sample_count;     /**< whole samples in every pixel */
+    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
+    uint64_t device_bytes;     /**< memory allocated on all its devices now */
+    uint64_t submit_count;     /**< submissions that pt_accumulate waited for since pt_create, to all devices */
+    double device_seconds;     /**< time spent in them, summed over the devices */
+    uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
+    uint32_t device_count;     /**< devices that share the samples */
+    double rmse;               /**< root mean square error, a radiance */
+    double rmse_low;           /**< lower bound of rmse */
+    double rmse_high;          /**< upper bound of rmse */
+    double relative_rmse;      /**< relative root mean square error, a number */
+    double relative_rmse_low;  /**< lower bound of relative_rmse */
+    double relative_rmse_high; /**< upper bound of relative_rmse */
+} pt_stats;
+
+/** The first number of samples above this one with which a target error is looked at: 16, 18, 20, ... 32, 36, 40, ...
+ * 64, 72, ..., eighths of a power of two; the largest number there is if there is none. Any thread; never fails. */
+PT_API uint32_t pt_next_check(uint32_t sample_count);
+
+/** Writes what has been done; at any time, of a lost device too.
+ *
+ * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
+ * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
+PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
