@@ -1,5 +1,5 @@
 // Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by render_samples and bench_command from the library's progress callback.
+// Called by progress_observer and bench_run from the library's progress callback.
 #pragma once
 
 #include <chrono>

@@ -2,9 +2,12 @@
 // Called by render_picture.
 #include "cli/render/piecewise_render.h"
 
+#include "cli/render/progress_observer.h"
+#include "cli/render/render_loop.h"
 #include "cli/scene/scene_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cli {
@@ -41,6 +44,14 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
     }
 }
 
+LoopEnd render_piece(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
+                     Progress &progress) {
+    ProgressObserver progress_observer(progress, settings.target_error, settings.sample_count);
+    StopObserver stop_observer(stop);
+    const std::array<RenderObserver *, 2> observers{&progress_observer, &stop_observer};
+    return run_render_loop(context, file, settings, observers);
+}
+
 } // namespace
 
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
@@ -73,7 +84,7 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
         }
         const double height = render.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        take_samples(context, file, settings, stop, progress);
+        const LoopEnd end = render_piece(context, file, settings, stop, progress);
 
         const pt_stats stats = context.read_stats();
         if (stats.sample_count == 0) {
@@ -85,7 +96,7 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
             context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
         }
         image.rows_done += piece.row_count;
-        if (stop()) {
+        if (end == LoopEnd::stopped) {
             break;
         }
     }

@@ -5,7 +5,7 @@
 
 #include "cli/base/context.h"
 #include "cli/base/progress.h"
-#include "cli/render/render_samples.h"
+#include "cli/render/stop_observer.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
 

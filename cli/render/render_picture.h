@@ -4,7 +4,7 @@
 
 #include "cli/base/context.h"
 #include "cli/render/render_options.h"
-#include "cli/render/render_samples.h"
+#include "cli/render/stop_observer.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
 

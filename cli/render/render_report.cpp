@@ -5,7 +5,6 @@
 #include "cli/base/device_text.h"
 #include "cli/base/json_number.h"
 #include "cli/base/method_names.h"
-#include "cli/render/sample_forecast.h"
 
 #include <algorithm>
 #include <array>
@@ -65,8 +64,9 @@ std::string percent_text(double share) {
 
 std::string estimate_text(const pt_stats &stats) {
     if (!std::isfinite(stats.relative_rmse)) {
-        const std::string reason = " with fewer than " + std::to_string(first_look) + " samples";
-        return "error unknown" + (stats.sample_count < first_look ? reason : "");
+        const std::uint32_t first_check = pt_next_check(0);
+        const std::string reason = " with fewer than " + std::to_string(first_check) + " samples";
+        return "error unknown" + (stats.sample_count < first_check ? reason : "");
     }
     return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
            percent_text(stats.relative_rmse_high) + ")";

@@ -1,4 +1,4 @@
-"""Tests of images that are rendered in pieces of rows, and of samples shared by several devices.
+"""Tests of images that are rendered in pieces of rows, of samples taken in steps or shared by several devices.
 
 Arguments: see command_line.py.
 """
@@ -54,6 +54,20 @@ class Pieces(CommandLineTest):
                       self.errors)
         width, height, *_ = read_png(self.path("a.png"))
         self.assertEqual((width, height), (40, 33))
+
+
+class Steps(CommandLineTest):
+    def test_all_samples_are_not_one_call(self):
+        def picture(count, **environment):
+            self.expect(0, "render", COURSEWORK, *SIZE, "--spp", count, "--exposure", "-4", "-o", "a.png",
+                        "--stats", "s.json", **environment)
+            self.assertEqual(json.loads(self.read("s.json"))["spp"], int(count))
+            return read_png(self.path("a.png"))
+
+        split = {"FAKE_PT_FAIL": "split:1"}  # the picture tells in how many calls it was made
+        self.assertEqual(picture("16", **split), picture("1", **split))
+        self.assertNotEqual(picture("17", **split), picture("16", **split))
+        self.assertEqual(picture("17"), picture("16"))
 
 
 class HostMemory(CommandLineTest):

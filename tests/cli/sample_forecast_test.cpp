@@ -1,28 +1,14 @@
-// Tests of cli/sample_forecast.
+// Tests of cli/sample_forecast and cli/step_length.
 #include "cli/render/sample_forecast.h"
+#include "cli/render/step_length.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <vector>
 
 namespace {
 
 constexpr std::uint32_t most = 65536;
-
-// pt.h names them: 16, 18, 20, ... 32, 36, 40, ... 64, 72.
-TEST(SampleForecast, LooksWhenTheLibraryLooks) {
-    std::vector<std::uint32_t> looks;
-    for (std::uint32_t samples = 0; samples < 72;) {
-        samples += cli::samples_to_next_look(samples);
-        looks.push_back(samples);
-    }
-    EXPECT_EQ(looks,
-              (std::vector<std::uint32_t>{16, 18, 20, 22, 24, 26, 28, 30, 32, 36, 40, 44, 48, 52, 56, 60, 64, 72}));
-    EXPECT_EQ(cli::samples_to_next_look(3), 13U);
-    EXPECT_EQ(cli::samples_to_next_look(17), 1U); // 18, as from 16
-    EXPECT_EQ(cli::samples_to_next_look(0x80000000U), 0x10000000U);
-}
 
 TEST(SampleForecast, FallsWithTheRootOfTheNumber) {
     EXPECT_EQ(cli::forecast_sample_count(100, 0.03, 0.01, most), 900U);
@@ -34,6 +20,15 @@ TEST(SampleForecast, IsBeyondTheNextLookUnlessThatIsTheLast) {
     EXPECT_EQ(cli::forecast_sample_count(0, 0.01, 0.01, most), 17U);
     EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, most), 73U);
     EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, 70), 70U);
+}
+
+TEST(StepLength, AimsAtItsTimeAndHasALeast) {
+    EXPECT_EQ(cli::next_step_length(16, 2.0 * cli::step_seconds), 16U);
+    EXPECT_EQ(cli::next_step_length(100, 4.0 * cli::step_seconds), 25U);
+    EXPECT_EQ(cli::next_step_length(100, 0.5 * cli::step_seconds), 200U);
+    EXPECT_EQ(cli::next_step_length(1, 0.5 * cli::step_seconds), 16U);
+    EXPECT_EQ(cli::next_step_length(100, 0.0), 1U << 30);
+    EXPECT_EQ(cli::next_step_length(4000000000U, 1e-9), 1U << 30);
 }
 
 } // namespace

@@ -1,0 +1,51 @@
+// Owns the progress of a rendering, or of one piece of it: what is told of the samples done, and of how many there will be.
+// Called by the render loop.
+#pragma once
+
+#include "cli/base/progress.h"
+#include "cli/render/render_observer.h"
+#include "cli/render/sample_forecast.h"
+
+namespace cli {
+
+class ProgressObserver : public RenderObserver {
+public:
+    // target_error: 0 for none. With one, the number of samples is a guess, which is mended at each check of the error.
+    ProgressObserver(Progress &progress, double target_error, std::uint32_t most) :
+        progress_(progress),
+        target_error_(target_error),
+        most_(most) {
+        if (has_target()) {
+            progress_.expect(forecast_sample_count(0, target_error_, target_error_, most_)); // the first check
+        }
+    }
+
+    std::uint32_t next_end(std::uint32_t sample_count) const override {
+        return has_target() ? pt_next_check(sample_count) : RenderObserver::next_end(sample_count);
+    }
+
+    bool needs_error() const override { return has_target(); }
+
+    void submitted(double sample_count, Progress::Clock::time_point time) override {
+        progress_.update_samples(sample_count, time);
+    }
+
+    void stepped(const RenderState &state) override {
+        if (state.target_reached) {
+            progress_.expect(state.sample_count);
+            progress_.update_samples(state.sample_count, state.time);
+        } else if (has_target() && state.sample_count < most_) {
+            progress_.expect(
+                forecast_sample_count(state.sample_count, state.stats->relative_rmse_high, target_error_, most_));
+        }
+    }
+
+private:
+    bool has_target() const { return target_error_ > 0.0; }
+
+    Progress &progress_;
+    double target_error_;
+    std::uint32_t most_;
+};
+
+} // namespace cli

@@ -1,0 +1,26 @@
+// Owns the loop of `pt render`: samples are taken in steps, between which observers look at what there is. However they are
+// split, the image has the same bits.
+// Called by piecewise_render.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/render/render_observer.h"
+#include "cli/scene/render_settings.h"
+#include "cli/scene/scene_file.h"
+
+#include <span>
+
+namespace cli {
+
+enum class LoopEnd {
+    enough,         // samples
+    target_reached, // the target error is
+    stopped         // by an observer
+};
+
+// From no samples on. The target error is looked at by the library, at counts that do not depend on the steps. Throws
+// Failure.
+LoopEnd run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                        std::span<RenderObserver *const> observers);
+
+} // namespace cli

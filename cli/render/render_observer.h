@@ -1,0 +1,45 @@
+// Owns what the render loop tells and asks between its steps: progress, rules that stop it, and whatever else looks at an
+// image that is being rendered are observers, each in a file of its own.
+#pragma once
+
+#include <pt/stats.h>
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+
+namespace cli {
+
+// After a step.
+struct RenderState {
+    std::uint32_t sample_count;
+    std::chrono::steady_clock::time_point time;
+    bool target_reached;
+    const pt_stats *stats; // with the stated error; NULL if no observer needs it
+};
+
+class RenderObserver {
+public:
+    RenderObserver() = default;
+    RenderObserver(const RenderObserver &) = delete;
+    RenderObserver &operator=(const RenderObserver &) = delete;
+    virtual ~RenderObserver() = default;
+
+    // With how many samples the present step has to end at the latest, where sample_count are done.
+    virtual std::uint32_t next_end(std::uint32_t /*sample_count*/) const {
+        return std::numeric_limits<std::uint32_t>::max();
+    }
+
+    // Whether the stated error is wanted after steps, which takes a read-out of the image.
+    virtual bool needs_error() const { return false; }
+
+    // Within a step, after each submission: samples that are done, in parts too.
+    virtual void submitted(double /*sample_count*/, std::chrono::steady_clock::time_point /*time*/) {}
+
+    virtual void stepped(const RenderState & /*state*/) {}
+
+    // Whether no more samples are to be taken. Asked before the first and after each submission.
+    virtual bool stops() const { return false; }
+};
+
+} // namespace cli

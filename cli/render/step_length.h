@@ -1,0 +1,23 @@
+// Owns the rule of how many samples a step of the render loop takes.
+// Called by render_loop.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace cli {
+
+// The device idles for a moment between steps, and its work is cut best where it has samples to choose from. So a step has
+// no fewer than the first one, and takes about so long.
+inline constexpr std::uint32_t first_step_length = 16;
+inline constexpr double step_seconds = 2.0;
+
+// After a step of so many samples that took so long. The first one builds the kernel: it says too little, not too much.
+inline std::uint32_t next_step_length(std::uint32_t length, double seconds) {
+    constexpr double most = 1U << 30; // where the clock saw no time pass
+    const double wanted = seconds > 0.0 ? std::floor(length * (step_seconds / seconds)) : most;
+    return static_cast<std::uint32_t>(std::clamp(wanted, double{first_step_length}, most));
+}
+
+} // namespace cli
