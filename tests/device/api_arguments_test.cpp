@@ -1,6 +1,7 @@
 // The contract of pt.h on a real device: calls without a context, null pointers, and callers compiled with an older
 // or a newer header.
 #include "tests/device/api_fixture.h"
+#include "tests/device/every_call.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -138,24 +139,7 @@ TEST(Api, MessagesWithoutContextBelongToTheirThread) {
 }
 
 TEST(Api, EveryFunctionRefusesANullContext) {
-    const pt_scene scene = valid_scene();
-    const pt_camera camera = valid_camera();
-    const pt_render render = valid_render();
-    const pt_accumulate_info info = samples(1);
-    std::vector<float> pixels(width * height * 3);
-    const pt_image target = tight_image(pixels);
-    pt_device_info device{};
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    uint32_t count = 0;
-    const pt_result results[] = {pt_set_scene(nullptr, &scene),   pt_set_camera(nullptr, &camera),
-                                 pt_set_render(nullptr, &render), pt_accumulate(nullptr, &info),
-                                 pt_readback(nullptr, &target),   pt_get_context_device(nullptr, &device),
-                                 pt_get_stats(nullptr, &stats),   pt_get_accuracy(nullptr, nullptr, &count),
-                                 pt_reload_shaders(nullptr)};
-    for (const pt_result result : results)
-        EXPECT_EQ(result, PT_ERROR_INVALID_ARGUMENT);
-    EXPECT_STREQ(pt_last_error(nullptr), "context = NULL: must not be NULL");
+    expect_every_call(outcomes_of_every_call(nullptr), "PT_ERROR_INVALID_ARGUMENT: context = NULL: must not be NULL");
 }
 
 // ---- Pointers and struct sizes ----------------------------------------------------------------------------------------

@@ -48,16 +48,19 @@ inline pt_image tight_image(std::vector<float> &pixels) {
     return {sizeof(pt_image), 0, pixels.data(), pixels.size() * sizeof(float), 0};
 }
 
+// Gives a context the scene, the camera and the render settings.
+inline void set_all(pt_context *context) {
+    const pt_scene scene = valid_scene();
+    const pt_camera camera = valid_camera();
+    const pt_render render = valid_render();
+    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+}
+
 class ApiTest : public ContextFixture {
 protected:
-    void set_all() {
-        const pt_scene scene = valid_scene();
-        const pt_camera camera = valid_camera();
-        const pt_render render = valid_render();
-        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
-        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << message();
-        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << message();
-    }
+    void set_all() { api::set_all(context()); }
 
     std::string message() const { return pt_last_error(context()); }
 

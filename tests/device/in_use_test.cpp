@@ -1,6 +1,7 @@
 // Calls on a context that is in a call already: from its callbacks, and from another thread.
 #include "lib/api/in_use.h"
 #include "tests/device/api_fixture.h"
+#include "tests/device/every_call.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -9,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,43 +23,8 @@ const std::string from_thread = "this context is in use by another thread";
 
 class InUseTest : public ApiTest {
 protected:
-    using Outcomes = std::map<std::string, std::string>; // by call: result and message
-
-    // Every call on a context that returns a result.
-    static Outcomes outcomes(pt_context *context) {
-        const pt_scene scene = valid_scene();
-        const pt_camera camera = valid_camera();
-        const pt_render render = valid_render();
-        const pt_accumulate_info one = samples(1);
-        std::vector<float> pixels(width * height * 3);
-        const pt_image image = tight_image(pixels);
-        pt_device_info device{};
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        std::uint32_t count = 0;
-        const std::map<std::string, std::function<pt_result()>> calls = {
-            {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},
-            {"pt_set_scene", [&] { return pt_set_scene(context, &scene); }},
-            {"pt_set_camera", [&] { return pt_set_camera(context, &camera); }},
-            {"pt_set_render", [&] { return pt_set_render(context, &render); }},
-            {"pt_reload_shaders", [&] { return pt_reload_shaders(context); }},
-            {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
-            {"pt_readback", [&] { return pt_readback(context, &image); }},
-            {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
-            {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
-        };
-        Outcomes outcomes;
-        for (const auto &[name, call] : calls) {
-            const pt_result result = call();
-            outcomes[name] = std::string(pt_result_name(result)) + ": " + pt_last_error(context);
-        }
-        return outcomes;
-    }
-
     static void expect_all_refused(const Outcomes &outcomes, const std::string &message) {
-        EXPECT_EQ(outcomes.size(), 9U);
-        for (const auto &[name, outcome] : outcomes)
-            EXPECT_EQ(outcome, "PT_ERROR_INVALID_STATE: " + message) << name;
+        expect_every_call(outcomes, "PT_ERROR_INVALID_STATE: " + message);
     }
 
     // Accumulates a sample, and does something in the first callback of that.
@@ -85,7 +50,7 @@ protected:
 TEST_F(InUseTest, CallsFromACallbackAreRefused) {
     set_all();
     Outcomes inside;
-    accumulate_and([&] { inside = outcomes(context()); });
+    accumulate_and([&] { inside = outcomes_of_every_call(context()); });
     expect_all_refused(inside, from_callback);
     EXPECT_EQ(message(), from_callback) << "the last call that failed";
     expect_image(1);
@@ -99,7 +64,7 @@ TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     accumulate_and([&] {
         std::thread([&] {
             before = pt_last_error(context());
-            elsewhere = outcomes(context());
+            elsewhere = outcomes_of_every_call(context());
         }).join();
         here = message();
     });
@@ -158,12 +123,7 @@ TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
         info.log = &EagerLog::receive;
         info.log_user = &log;
     });
-    const pt_scene scene = valid_scene();
-    const pt_camera camera = valid_camera();
-    const pt_render render = valid_render();
-    ASSERT_EQ(pt_set_scene(other.get(), &scene), PT_OK);
-    ASSERT_EQ(pt_set_camera(other.get(), &camera), PT_OK);
-    ASSERT_EQ(pt_set_render(other.get(), &render), PT_OK);
+    ASSERT_NO_FATAL_FAILURE(api::set_all(other.get()));
     log.context = other.get();
     const pt_accumulate_info info{sizeof info, 1,
                                   [](void *user, double) -> std::int32_t {

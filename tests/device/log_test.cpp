@@ -32,12 +32,7 @@ TEST_F(LogTest, NamesTheDeviceAndTheKernelsBuilt) {
     ASSERT_EQ(pt_get_context_device(logged.get(), &device), PT_OK);
     EXPECT_EQ(lines, (Lines{std::string("3 renders on ") + device.name + " (" + device.driver + ")"}));
     lines.clear();
-    const pt_scene scene = valid_scene();
-    const pt_camera camera = valid_camera();
-    const pt_render render = valid_render();
-    ASSERT_EQ(pt_set_scene(logged.get(), &scene), PT_OK);
-    ASSERT_EQ(pt_set_camera(logged.get(), &camera), PT_OK);
-    ASSERT_EQ(pt_set_render(logged.get(), &render), PT_OK);
+    ASSERT_NO_FATAL_FAILURE(api::set_all(logged.get()));
     EXPECT_EQ(lines, Lines{});
     const pt_accumulate_info one = samples(1);
     ASSERT_EQ(pt_accumulate(logged.get(), &one), PT_OK);

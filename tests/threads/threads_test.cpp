@@ -33,8 +33,8 @@ struct Progress {
     }
 };
 
-// A context's life; returns the result of pt_accumulate, and the image if there is room for it.
-pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
+// A context that is ready to take samples, in short submissions.
+pt_context *ready_context(uint64_t seed) {
     pt_create_info create{};
     create.struct_size = sizeof create;
     create.submit_milliseconds = 1;
@@ -48,6 +48,12 @@ pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *
     EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+    return context;
+}
+
+// A context's life; returns the result of pt_accumulate, and the image if there is room for it.
+pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
+    pt_context *const context = ready_context(seed);
     const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0};
     const pt_result result = pt_accumulate(context, &info);
     EXPECT_GE(result, PT_OK) << pt_last_error(context);
@@ -87,18 +93,9 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
 
 // Against the contract, and still without a race: what comes second is refused.
 TEST(ThreadsTest, ASecondThreadIsRefused) {
-    pt_create_info create{};
-    create.struct_size = sizeof create;
-    create.submit_milliseconds = 1;
-    pt_context *context = nullptr;
-    ASSERT_EQ(pt_create(&create, &context), PT_OK) << pt_last_error(nullptr);
-    CourseworkScene coursework;
-    const pt_scene scene = coursework.scene();
+    pt_context *const context = ready_context(0);
+    ASSERT_NE(context, nullptr);
     const pt_camera camera = CourseworkScene::camera();
-    const pt_render render = render_of(width, height, 3);
-    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
-    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
     Progress progress;
     pt_result result = PT_OK;
     std::thread renders([&] {

@@ -1,0 +1,85 @@
+"""Signals while the program renders: exit codes, and what is left behind.
+
+Arguments: see command_line.py.
+"""
+
+import fcntl
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import termios
+
+from command_line import COURSEWORK, PATIENCE, CommandLineTest, default_signals, main, read_png
+
+
+class Interruption(CommandLineTest):
+    def interrupt(self, number, submission, *options, **environment):
+        """The signal comes in that submission of the stand-in, which needs four to a sample. Returns the exit code."""
+        return self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", "--size", "2x2", *options,
+                           FAKE_PT_SIGNAL=f"{int(number)}:{submission}", **environment)
+
+    def test_the_samples_done_are_written(self):
+        for number, code, name in ((signal.SIGINT, 130, "SIGINT"), (signal.SIGTERM, 143, "SIGTERM"),
+                                   (signal.SIGHUP, 129, "SIGHUP")):
+            self.assertEqual(self.interrupt(number, 9, "--stats", "s.json"), code)
+            self.assertEqual(self.errors, f"pt: stopped by {name} after 2 of 200 samples per pixel\n")
+            self.assertEqual(json.loads(self.read("s.json"))["spp"], 2)
+            self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
+            self.assertEqual(self.files(), ["a.png", "s.json"])
+
+    def test_a_terminal_that_goes_away(self):
+        """It sends SIGHUP to its foreground process group; from then on whatever is written to it fails."""
+        try:
+            ours, theirs = pty.openpty()
+        except OSError as error:  # a chroot without /dev/pts
+            self.skipTest(str(error))
+
+        def take_terminal():
+            default_signals()
+            os.setsid()
+            fcntl.ioctl(theirs, termios.TIOCSCTTY, 0)
+
+        process = subprocess.Popen([self.program, "render", COURSEWORK, "-o", self.path("a.png"), "--spp", "200",
+                                    "--progress", "json", "--size", "2x2"], stdin=theirs, stdout=theirs, stderr=theirs,
+                                   preexec_fn=take_terminal, env={**os.environ, "FAKE_PT_SAMPLE_MS": "100"})
+        os.close(theirs)
+        output = b""
+        while not re.search(rb'"samples_per_pixel":[1-9]', output):
+            output += os.read(ours, 4096)
+        os.close(ours)
+        self.assertEqual(process.wait(timeout=PATIENCE), 129)
+        self.assertEqual(read_png(self.path("a.png"))[:2], (2, 2))
+        self.assertEqual(self.files(), ["a.png"])
+
+    def test_nohup_is_respected(self):
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "20", "--progress", "json", "--size", "2x2",
+                             FAKE_PT_SAMPLE_MS=50, before=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.stderr.readline()
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(timeout=PATIENCE), 0)
+        process.communicate()
+
+    def test_nothing_is_touched_before_the_first_sample(self):
+        self.write("a.png", "old")
+        self.assertEqual(self.interrupt(signal.SIGINT, 3), 130)
+        self.assertIn("after 0 of 200 samples per pixel; nothing was written", self.errors)
+        self.assertEqual(self.read("a.png"), "old")
+        self.assertEqual(self.files(), ["a.png"])
+
+    def test_validation_messages_weigh_more(self):
+        self.assertEqual(self.interrupt(signal.SIGINT, 5, "--validation", FAKE_PT_LOG="destroy"), 1)
+
+    def test_a_signal_from_outside(self):
+        process = self.start("render", COURSEWORK, "-o", "a.png", "--spp", "1000000", "--size", "2x2", "--progress",
+                             "json", FAKE_PT_SAMPLE_MS=200)  # two days
+        self.assertIn('"fraction"', process.stderr.readline())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 130)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,55 @@
+// Every call on a context that returns a result, made once. Used by the tests of contexts that refuse them all.
+#pragma once
+
+#include "tests/device/api_fixture.h"
+
+#include <pt/pt.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace api {
+
+using Outcomes = std::map<std::string, std::string>; // by call: result and message
+
+inline Outcomes outcomes_of_every_call(pt_context *context) {
+    const pt_scene scene = valid_scene();
+    const pt_camera camera = valid_camera();
+    const pt_render render = valid_render();
+    const pt_accumulate_info one = samples(1);
+    std::vector<float> pixels(width * height * 3);
+    const pt_image image = tight_image(pixels);
+    pt_device_info device{};
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    std::uint32_t count = 0;
+    const std::map<std::string, std::function<pt_result()>> calls = {
+        {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},
+        {"pt_set_scene", [&] { return pt_set_scene(context, &scene); }},
+        {"pt_set_camera", [&] { return pt_set_camera(context, &camera); }},
+        {"pt_set_render", [&] { return pt_set_render(context, &render); }},
+        {"pt_reload_shaders", [&] { return pt_reload_shaders(context); }},
+        {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
+        {"pt_readback", [&] { return pt_readback(context, &image); }},
+        {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
+        {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
+    };
+    Outcomes outcomes;
+    for (const auto &[name, call] : calls) {
+        const pt_result result = call();
+        outcomes[name] = std::string(pt_result_name(result)) + ": " + pt_last_error(context);
+    }
+    return outcomes;
+}
+
+// That each of them was refused so.
+inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
+    EXPECT_EQ(outcomes.size(), 9U);
+    for (const auto &[name, outcome] : outcomes)
+        EXPECT_EQ(outcome, expected) << name;
+}
+
+} // namespace api
