@@ -2,6 +2,7 @@
 #include "lib/vulkan/buffer.h"
 
 #include "lib/vulkan/device_object.h"
+#include "lib/vulkan/memory_type.h"
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
@@ -24,16 +25,6 @@ constexpr vk::MemoryPropertyFlags host_readable = host_visible | Property::eHost
 // times what a submission costs, and it holds down little of the host's memory.
 constexpr std::uint64_t max_staging_bytes = 16U << 20;
 
-// Index of the first memory type that the buffer may use and that has the first of the wanted properties to be found.
-std::uint32_t memory_type(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
-                          std::span<const vk::MemoryPropertyFlags> wanted_best_first) {
-    for (const vk::MemoryPropertyFlags wanted : wanted_best_first)
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
-            if ((allowed >> i & 1) != 0 && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
-                return i;
-    throw Error(PT_ERROR_UNSUPPORTED, "the device has no memory of the kind that a buffer needs");
-}
-
 // A Vulkan buffer and its memory, which stays mapped if it has the properties named by mapped_if.
 struct Allocation {
     Allocation(const Device &device, std::uint64_t bytes, vk::BufferUsageFlags usage,
@@ -42,8 +33,14 @@ struct Allocation {
         buffer(device, device.handle().createBuffer({.size = bytes, .usage = usage})) {
         const vk::MemoryRequirements needs = buffer->getMemoryRequirements();
         const vk::PhysicalDeviceMemoryProperties &types = device.memory_properties();
-        const std::uint32_t type = memory_type(types, needs.memoryTypeBits, wanted_best_first);
-        memory = {device, device.handle().allocateMemory({.allocationSize = needs.size, .memoryTypeIndex = type})};
+        std::uint32_t type = 0;
+        memory = {device,
+                  allocate_where_there_is_room(memory_types(types, needs.memoryTypeBits, wanted_best_first),
+                                               [&](std::uint32_t candidate) {
+                                                   type = candidate;
+                                                   return device.handle().allocateMemory(
+                                                       {.allocationSize = needs.size, .memoryTypeIndex = candidate});
+                                               })};
         buffer->bindMemory(*memory, 0);
         if (mapped_if && (types.memoryTypes[type].propertyFlags & *mapped_if) == *mapped_if)
             mapped = static_cast<std::byte *>(memory->mapMemory(0, VK_WHOLE_SIZE));
@@ -85,20 +82,24 @@ struct Buffer::State {
         allocation(allocate(device, use, bytes)) {
         device.count_allocation(bytes);
     }
-    ~State() { device.count_release(bytes); }
+    ~State() { device.count_release(bytes + (staging ? staging_bytes() : 0)); }
     State(const State &) = delete;
     State &operator=(const State &) = delete;
 
     // Splits [0, size) into pieces that fit into the staging buffer and calls function(staging, first, length) on each.
     template <typename Function>
     void staged(std::uint64_t size, Function &&function) {
-        const std::uint64_t staging_bytes = std::min(bytes, max_staging_bytes);
-        if (!staging)
-            translated("allocating " + std::to_string(staging_bytes) + " bytes for transfers",
-                       [&] { staging.emplace(allocate_staging(device, staging_bytes)); });
-        for (std::uint64_t first = 0; first < size; first += staging_bytes)
-            function(*staging, first, std::min(size - first, staging_bytes));
+        const std::uint64_t piece = staging_bytes();
+        if (!staging) {
+            translated("allocating " + std::to_string(piece) + " bytes for transfers",
+                       [&] { staging.emplace(allocate_staging(device, piece)); });
+            device.count_allocation(piece);
+        }
+        for (std::uint64_t first = 0; first < size; first += piece)
+            function(*staging, first, std::min(size - first, piece));
     }
+
+    std::uint64_t staging_bytes() const { return std::min(bytes, max_staging_bytes); }
 
     Device &device;
     std::uint64_t bytes;
@@ -162,10 +163,9 @@ void Buffer::download(std::span<std::byte> data, std::uint64_t offset) {
 
 // In one transfer, if the staging buffer holds all pieces.
 void Buffer::download(std::span<const BufferPiece> pieces) {
-    const std::uint64_t staging_bytes = std::min(size(), max_staging_bytes);
     const bool fit_together =
         std::accumulate(pieces.begin(), pieces.end(), std::uint64_t{0},
-                        [](auto sum, auto &piece) { return sum + piece.data.size(); }) <= staging_bytes;
+                        [](auto sum, auto &piece) { return sum + piece.data.size(); }) <= state_->staging_bytes();
     if (state_->allocation.mapped || !fit_together) {
         for (const BufferPiece &piece : pieces)
             download(piece.data, piece.offset);

@@ -215,6 +215,21 @@ TEST_F(VulkanTest, CountsAllocatedBytes) {
     EXPECT_EQ(device().allocated_bytes(), before);
 }
 
+TEST_F(VulkanTest, CountsWhatTransfersTake) {
+    pt::vulkan::DevicePolicy policy = pt::vulkan::default_policy(device().info());
+    policy.share_memory = false;
+    device_with(policy);
+    const std::uint64_t before = device().allocated_bytes();
+    {
+        Buffer buffer(device(), BufferUse::Storage, 4096, "test");
+        const std::array<std::byte, 4> word{};
+        buffer.upload(word, 0);
+        buffer.upload(word, 4);
+        EXPECT_EQ(device().allocated_bytes(), before + 2 * 4096) << "the buffer, and one for its transfers";
+    }
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
 TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
     const ComputePipeline pipeline(device(), recurrence_spirv,
                                    std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer},
