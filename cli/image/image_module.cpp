@@ -14,6 +14,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -87,6 +88,13 @@ void decode(const char *path, pt_radiance_sink sink, void *user) {
     sink(user, static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), radiance.data());
 }
 
+int32_t failure(std::string_view text, char *message, size_t message_size) {
+    const size_t length = std::min(text.size(), message_size - 1);
+    std::memcpy(message, text.data(), length);
+    message[length] = '\0';
+    return -1;
+}
+
 // No exception leaves the module: its caller sees plain C.
 template <typename Work>
 int32_t guard(Work work, char *message, size_t message_size) {
@@ -94,10 +102,9 @@ int32_t guard(Work work, char *message, size_t message_size) {
         work();
         return 0;
     } catch (const std::exception &error) {
-        const size_t length = std::min(std::strlen(error.what()), message_size - 1);
-        std::memcpy(message, error.what(), length);
-        message[length] = '\0';
-        return -1;
+        return failure(error.what(), message, message_size);
+    } catch (...) {
+        return failure("an exception of unknown type", message, message_size);
     }
 }
 
