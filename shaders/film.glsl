@@ -22,11 +22,15 @@ FilmPixel empty_film_pixel()
 }
 
 // A sum of floats is exact as long as no addition rounds. So each value is cut into four windows, multiples of 2^6,
-// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 1023 of them to sum up in 32 bits (the pre-rounded
+// 2^-16, 2^-38 and 2^-60 that add up to it, each small enough for 511 of them to sum up in 32 bits (the pre-rounded
 // sums of Demmel and Nguyen, "Fast Reproducible Floating-Point Summation", ARITH 2013). Adding a bias of three halves
 // (of one, where the value has no sign) of a power of two rounds a number to a multiple of that power's 2^-23 and
 // leaves the multiple in the low bits: no shift, no carry, nothing that depends on the sum so far. Where a value has
-// bits below 2^-60 (2^-37 and more have none), it is rounded to nearest.
+// bits below 2^-60 (2^-37 and more have none), it is rounded.
+// Vulkan does not say which of its two neighbours a sum is rounded to. To nearest, what is left for the next window is
+// at most half of a window's unit; towards zero, less than a whole one. So a window holds less than 2^22 of its own
+// units, and 511 of them less than 2^31. Either way nothing is lost: differences of a number and its rounded one are
+// exact here.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
 // The biases' own bits are in too; they are taken off once, from the sum, which counts modulo 2^32.

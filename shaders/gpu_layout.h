@@ -136,7 +136,7 @@ PT_CONSTANT FILM_ACCEPTED = 12; // samples in the sums
 PT_CONSTANT FILM_REJECTED = 13; // samples left out
 PT_CONSTANT FILM_WORDS = 14;
 // An invocation gathers no more than this many samples (film.glsl).
-PT_CONSTANT FILM_MAX_GATHERED = 1023;
+PT_CONSTANT FILM_MAX_GATHERED = 511;
 // A sample is accepted if all its components, in film units, lie in [0, 2^28): 2^32 of them stay below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
 

@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -115,6 +117,62 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
         const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
         for (std::size_t i = 0; i < 4; ++i)
             EXPECT_EQ(film[i * push.count + pixel], static_cast<std::uint32_t>(sum >> (32 * i))) << extremes[pixel];
+    }
+}
+
+// A device that rounds towards zero, as Vulkan allows: llvmpipe's threads inherit the mode of the one that makes them.
+class FilmRoundedToZero : public VulkanFixture {
+protected:
+    void SetUp() override {
+        std::fesetround(FE_TOWARDZERO);
+        VulkanFixture::SetUp();
+    }
+    void TearDown() override {
+        VulkanFixture::TearDown();
+        std::fesetround(FE_TONEAREST);
+    }
+
+    // The words of the red sum of so many samples of the same value.
+    std::vector<std::uint32_t> sum(float value, std::uint32_t sample_count) {
+        using pt::vulkan::Buffer;
+        using pt::vulkan::BufferUse;
+        constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
+                                         vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+        const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
+        const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
+        std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
+        const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv, bindings, sizeof push, {});
+        Buffer unused(device(), BufferUse::UniformOrStorage, 256, "unused");
+        Buffer film(device(), BufferUse::Storage, words.size() * sizeof(std::uint32_t), "film");
+        Buffer input(device(), BufferUse::Storage, samples.size() * sizeof(glm::vec4), "samples");
+        film.upload(std::as_bytes(std::span(words)), 0);
+        input.upload(std::as_bytes(std::span(samples)), 0);
+        const pt::vulkan::DescriptorSet set = pipeline.bind(std::array{&unused, &unused, &film, &input});
+        device().submit([&](const vk::raii::CommandBuffer &commands) {
+            pipeline.dispatch(commands, set, std::as_bytes(std::span(push)), 1);
+        });
+        film.download(std::as_writable_bytes(std::span(words)), 0);
+        words.resize(pt::gpu::FILM_SUM_WORDS);
+        return words;
+    }
+
+    static std::vector<std::uint32_t> exact_sum(float value, std::uint32_t sample_count) {
+        const Wide sum = sample_count * multiple_of_2_to_minus_60(value);
+        std::vector<std::uint32_t> words;
+        for (std::uint32_t i = 0; i < pt::gpu::FILM_SUM_WORDS; ++i)
+            words.push_back(static_cast<std::uint32_t>(sum >> (32 * i)));
+        return words;
+    }
+};
+
+// All that rounding to zero leaves for the second and the third window, nearly a whole unit of the one before; and the
+// negative control: so many samples that only halves of a unit would fit.
+TEST_F(FilmRoundedToZero, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
+    if (device().info().kind != PT_DEVICE_CPU)
+        GTEST_SKIP() << "a GPU does not round as this thread does";
+    for (const float value : {0x1.fffffep5F, 0x1.fffffep-17F}) {
+        EXPECT_EQ(sum(value, pt::gpu::FILM_MAX_GATHERED), exact_sum(value, pt::gpu::FILM_MAX_GATHERED)) << value;
+        EXPECT_NE(sum(value, 1023), exact_sum(value, 1023)) << value;
     }
 }
 
