@@ -1,4 +1,4 @@
-// Owns the program `pt`: the choice of a subcommand, and the end of every exception in an exit code.
+// The program `pt`: chooses the subcommand, and turns every exception into an exit code.
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/message.h"
@@ -90,7 +90,7 @@ int main(int argument_count, char **arguments) {
     } catch (const std::exception &error) {
         return fail(cli::ExitCode::internal, std::string("internal error: ") + error.what());
     }
-    // What went wrong before weighs more: a signal of a terminal that went away, for one.
+    // An earlier failure takes precedence, for example the signal of a terminal that was closed.
     if (!std::cout.flush()) {
         const int output_code = fail(cli::ExitCode::file, "cannot write to standard output");
         return code == 0 ? output_code : code;

@@ -1,5 +1,3 @@
-// Owns a file that appears whole or not at all: written under a temporary name beside its place, then renamed.
-// Called by the image writer and the statistics; also before rendering, to see that a file can be written.
 #include "cli/base/atomic_file.h"
 
 #include "cli/base/exit_code.h"
@@ -35,7 +33,7 @@ void AtomicFile::fail(int error) const {
     throw Failure(ExitCode::file, "cannot write " + path_ + ": " + std::generic_category().message(error));
 }
 
-// A rename needs no permission on the file that it replaces and would put a file in the place of a device.
+// A rename would replace a file that the user may not write, or a device by a regular file, without complaint.
 void AtomicFile::refuse_unsuitable_target() const {
     struct stat status {};
     if (stat(target_.c_str(), &status) != 0) {
@@ -56,7 +54,7 @@ void AtomicFile::refuse_unsuitable_target() const {
 }
 
 FileDescriptor AtomicFile::create_temporary() {
-    constexpr mode_t permissions = 0666; // the user's umask takes its share
+    constexpr mode_t permissions = 0666; // less those that the user's umask takes away
     refuse_unsuitable_target();
     for (int attempt = 0;; ++attempt) {
         // Short on purpose: the target's own name may already be as long as the file system allows.

@@ -1,5 +1,4 @@
-// Owns a file that appears whole or not at all: written under a temporary name beside its place, then renamed.
-// Called by the image writer and the reports; also before rendering, to see that a file can be written.
+// A file that appears whole or not at all: it is written under a temporary name beside its place, then renamed.
 #pragma once
 
 #include "cli/base/file_descriptor.h"
@@ -14,7 +13,7 @@ namespace cli {
 
 class AtomicFile {
 public:
-    // Creates the temporary file. Like the others throws Failure(ExitCode::file), which says why.
+    // Creates the temporary file. This and all functions below throw Failure(ExitCode::file) with the reason.
     explicit AtomicFile(const std::string &path);
     AtomicFile(const AtomicFile &) = delete;
     AtomicFile &operator=(const AtomicFile &) = delete;
@@ -29,11 +28,11 @@ public:
         file.commit();
     }
 
-    // All that the constructor checks, and leaves nothing behind.
+    // Checks all that the constructor checks, and leaves no file behind.
     static void check_writable(const std::string &path) { const AtomicFile probe(path); }
 
-    // The file that is written: a rename would replace a symbolic link, while users mean what it points to, be it
-    // there yet or not.
+    // The file that is written. Symbolic links are followed, whether or not their target exists yet: a rename would
+    // replace the link itself.
     static std::filesystem::path target_of(const std::string &path);
 
 private:

@@ -1,5 +1,3 @@
-// Owns the options that `pt render`, `pt bench` and `pt selftest` share, and the reading of values that CLI11 reads too
-// laxly. Called by render_options, bench_options and selftest_command.
 #include "cli/base/common_options.h"
 
 #include <pt/pt.h>

@@ -1,5 +1,4 @@
-// Owns the options that `pt render`, `pt bench` and `pt selftest` share, and the reading of values that CLI11 reads too
-// laxly. Called by render_options, bench_options and selftest_command.
+// Options that several commands share, and the reading of values for which CLI11 is too lax.
 #pragma once
 
 #include "cli/base/number.h"

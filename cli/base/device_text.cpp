@@ -1,5 +1,3 @@
-// Owns the words for what the library says of a device.
-// Called by devices_command and by the reports of `pt render` and `pt selftest`.
 #include "cli/base/device_text.h"
 
 #include <pt/devices.h>

@@ -1,5 +1,4 @@
-// Owns the words for what the library says of a device.
-// Called by devices_command and by the reports of `pt render` and `pt selftest`.
+// What is shown of a device: its kind, its memory and its UUID as text.
 #pragma once
 
 #include <cstdint>

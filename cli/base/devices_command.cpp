@@ -1,5 +1,3 @@
-// Owns `pt devices`: which Vulkan devices there are and which can be used.
-// Called by main.
 #include "cli/base/devices_command.h"
 
 #include "cli/base/device_text.h"
@@ -85,7 +83,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
 } // namespace
 
 int run_devices(bool as_json) {
-    choose_vector_width(0); // the name of llvmpipe tells it
+    choose_vector_width(0); // it is part of llvmpipe's name
     const std::vector<pt_device_info> devices = list_devices();
     if (as_json) {
         print_json(devices);

@@ -1,5 +1,4 @@
-// Owns `pt devices`: which Vulkan devices there are and which can be used.
-// Called by main.
+// The command `pt devices`: which Vulkan devices there are and which can be used.
 #pragma once
 
 namespace cli {

@@ -1,5 +1,3 @@
-// Owns the waiting for something to happen in directories: by inotify, or at intervals where there is none.
-// Called by source_watch.
 #include "cli/base/directory_events.h"
 
 #include <algorithm>
@@ -21,7 +19,7 @@ constexpr std::chrono::milliseconds polled_interval{250};
 // A directory in which others are busy must not keep this program busy.
 constexpr std::chrono::milliseconds least_interval{20};
 
-// Where the directory, or the next of its parents, would appear.
+// The directory, or the nearest of its parents that exists: its appearance is an event there.
 std::filesystem::path nearest_existing(std::filesystem::path directory) {
     std::error_code ignored;
     while (!std::filesystem::is_directory(directory, ignored) && directory.has_relative_path()) {
@@ -30,7 +28,7 @@ std::filesystem::path nearest_existing(std::filesystem::path directory) {
     return directory.empty() ? "." : directory;
 }
 
-// Whether a descriptor has something to read before then; a signal ends the wait.
+// Whether a descriptor has something to read before the end; a signal ends the wait.
 bool poll_until(pollfd *descriptors, nfds_t count, std::chrono::steady_clock::time_point end) {
     const auto milliseconds = std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
     return poll(descriptors, count, std::max(static_cast<int>(milliseconds.count()), 0)) > 0;
@@ -46,7 +44,7 @@ void DirectoryEvents::watch(const std::filesystem::path &directory) {
     if (!notifications_.is_open()) {
         return;
     }
-    // A second watch on the same directory is the first one. Where the system has none left, all is polled.
+    // Watching a directory again gives the same watch. If the system has none left, everything is polled.
     const int watch = inotify_add_watch(notifications_.get(), nearest_existing(directory).c_str(), events);
     if (watch < 0 && errno != ENOENT) {
         notifications_.close();
@@ -71,7 +69,7 @@ bool DirectoryEvents::wait(std::chrono::milliseconds timeout) {
     return true;
 }
 
-// What they say is not needed: whoever is told looks at everything.
+// They are thrown away: the caller looks at every file, whatever they say.
 void DirectoryEvents::read_notifications() {
     alignas(inotify_event) std::array<char, 4096> buffer;
     while (notifications_.is_open() && read(notifications_.get(), buffer.data(), buffer.size()) > 0) {

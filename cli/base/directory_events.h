@@ -1,5 +1,4 @@
-// Owns the waiting for something to happen in directories: by inotify, or at intervals where there is none.
-// Called by source_watch.
+// Waits until something happens in directories: by inotify, or by looking at intervals where the system has none left.
 #pragma once
 
 #include "cli/base/file_descriptor.h"
@@ -12,20 +11,21 @@ namespace cli {
 class DirectoryEvents {
 public:
     enum class Method {
-        notified, // by inotify, if the system has some left; changes that another machine makes are not told, so that there
-                  // is a look at intervals too
+        // By inotify, if the system has a watch left. It does not see what other machines change, so that there is also a
+        // look at intervals.
+        notified,
         polled // a look four times a second
     };
 
     explicit DirectoryEvents(Method method = Method::notified,
                              std::chrono::milliseconds notified_interval = std::chrono::seconds{2});
 
-    // What is in it, not in directories below. To be called again after every event: a directory may have been
-    // replaced. One that is not there is told of once it is.
+    // Watches what is in the directory, but not in those below. To be called again after every event, since the
+    // directory may have been replaced. If there is no such directory, its appearance is an event.
     void watch(const std::filesystem::path &directory);
 
-    // Waits until something may have happened, or for so long, or until a signal comes. Returns whether something may
-    // have. Anything of old counts, too: what is to be known of the directories is to be read after watch().
+    // Waits until something may have happened, the time is over or a signal comes. Returns whether something may have.
+    // Events from before the call count too: read the directories after watch(), or a change is missed.
     bool wait(std::chrono::milliseconds timeout);
 
     Method method() const { return notifications_.is_open() ? Method::notified : Method::polled; }

@@ -15,8 +15,8 @@
 namespace cli {
 namespace {
 
-// What exists is known by its device and inode. What does not is known by those of its folder and its name there; the
-// name is empty otherwise.
+// A file that exists is identified by its device and inode, and name is empty; one that does not, by those of its
+// folder and its name there.
 struct Identity {
     dev_t device;
     ino_t inode;
@@ -49,7 +49,7 @@ std::optional<Identity> identity_of(const std::string &path) {
     return std::nullopt;
 }
 
-// Two outputs on one stream would be mixed up, whatever it leads to.
+// "-" is whatever standard output leads to: two reports on one stream would be mixed up.
 std::optional<Identity> identity_of_output(const std::string &path) {
     struct stat status {};
     if (path == standard_stream) {
@@ -58,7 +58,7 @@ std::optional<Identity> identity_of_output(const std::string &path) {
     return identity_of(path);
 }
 
-// A terminal may be read and written.
+// "-" is what standard input leads to, if that is a file: a terminal may be read and written at the same time.
 std::optional<Identity> identity_of_input(const std::string &path) {
     struct stat status {};
     if (path == standard_stream) {

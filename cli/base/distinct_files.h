@@ -1,5 +1,4 @@
-// Owns the rule that a command writes no file twice and none that it reads.
-// Called by the subcommands, before there is anything to lose.
+// The rule that a command writes no file twice and none that it reads, checked before there is anything to lose.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// Owns one open file descriptor.
-// Called by text_file, atomic_file and directory_events.
+// One open file descriptor, closed by its owner.
 #pragma once
 
 #include <unistd.h>

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
 
-// What a container may have, as it sees it itself (Linux, cgroup v2). The file says "max" where there is no limit, and
-// is not there outside of containers.
+// The memory limit of a container, as seen from inside of it (Linux, cgroup v2). The file says "max" where there is no
+// limit, and does not exist outside of containers.
 std::uint64_t container_limit() {
     std::uint64_t bytes = 0;
     return std::ifstream("/sys/fs/cgroup/memory.max") >> bytes ? bytes : unlimited;
@@ -25,7 +25,7 @@ std::uint64_t address_space_limit() {
     return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : unlimited;
 }
 
-// No image larger than this can be had, however little of it others use: memory with swap space, within the limits.
+// The most that this process could ever have: memory and swap space, within its limits. What others use is not counted.
 std::uint64_t most_bytes() {
     struct sysinfo system {};
     if (sysinfo(&system) != 0) {

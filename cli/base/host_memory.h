@@ -1,5 +1,4 @@
-// Owns the question whether images fit into the memory of this process, which is better asked before they are rendered.
-// Called by render_output, render_picture and bench_command.
+// Checks before a rendering whether its images fit into the memory of this process.
 #pragma once
 
 #include "cli/scene/render_settings.h"
@@ -9,7 +8,7 @@
 
 namespace cli {
 
-// Of so many images of radiance, or of its standard error.
+// Size of so many images of radiance, or of its standard error.
 std::uint64_t image_bytes(const pt_render &render, std::uint32_t image_count);
 
 // Throws Failure if they take more than the process can ever have, and blames who gave the size: the command line, or

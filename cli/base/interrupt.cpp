@@ -1,5 +1,3 @@
-// Owns SIGINT, SIGTERM and SIGHUP, which a terminal that goes away sends: they set a flag that the rendering reads.
-// Called by render_command and bench_command.
 #include "cli/base/interrupt.h"
 
 #include <atomic>

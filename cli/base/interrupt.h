@@ -1,5 +1,4 @@
-// Owns SIGINT, SIGTERM and SIGHUP, which a terminal that goes away sends: they set a flag that the rendering reads.
-// Called by render_command and bench_command.
+// SIGINT, SIGTERM and SIGHUP (which a closing terminal sends) set a flag that the rendering looks at.
 #pragma once
 
 #include <string>

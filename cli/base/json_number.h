@@ -1,5 +1,4 @@
-// Owns the form of numbers in reports as JSON, which has no infinity.
-// Called by render_report and selftest_report.
+// Numbers in JSON reports: JSON has no infinity.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,3 @@
-// Paths to values in JSON text, and their lines; see json_path.h.
 #include "cli/base/json_path.h"
 
 #include <nlohmann/json.hpp>
@@ -76,7 +75,7 @@ public:
         levels_.back().key = name;
         return look();
     }
-    // A number that is too large is an error too, and a value with a line.
+    // A number that is too large for double is a parse error, and yet a value that has a line.
     bool parse_error(std::size_t, const std::string &, const json::exception &) override {
         value();
         return false;
@@ -113,7 +112,7 @@ private:
         }
         depth_ = depth;
         if (depth > 0 || path_.empty()) {
-            // Without the last character read: after a number that is the next one, maybe the end of the line.
+            // Without the last character read: of a number the parser has read one more, maybe the end of the line.
             const char *const last = reached_ == text_.data() ? reached_ : reached_ - 1;
             line_ = static_cast<std::size_t>(std::count(text_.data(), last, '\n')) + 1;
         }

@@ -1,5 +1,5 @@
-// Owns paths to values in JSON text: how they are written in messages, and which line of the text they lead to. Lines
-// are looked up when there is something to say, by parsing the text once more: a scene may have millions of values.
+// Paths to values in JSON text: how they are written in messages, and which line of the text they lead to. Lines are
+// looked up for messages alone, by parsing the text once more: a scene may have millions of values.
 #pragma once
 
 #include <cstddef>

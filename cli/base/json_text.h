@@ -1,5 +1,4 @@
-// Owns the text of JSON that is written: reports for programs.
-// Called by the subcommands.
+// The text of JSON reports.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,3 @@
-// Owns typed reading of JSON values: each function checks one value and names its place if the type is wrong.
-// Called by scene_file.
 #include "cli/base/json_value.h"
 
 #include "cli/base/suggestion.h"

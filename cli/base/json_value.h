@@ -1,5 +1,4 @@
-// Owns typed reading of JSON values: each function checks one value and names its place if the type is wrong.
-// Called by scene_file.
+// Typed reading of JSON values: each function checks one value, and names its place if the type is wrong.
 #pragma once
 
 #include "cli/base/json_path.h"
@@ -32,7 +31,7 @@ struct JsonPlace {
     JsonPath path() const; // from the root
 };
 
-// A value that breaks a rule. Whoever has the text says in which file and line it stands.
+// A value that breaks a rule. The caller that has the text adds file and line.
 struct JsonRefusal : std::runtime_error {
     JsonRefusal(JsonPath place, const std::string &rule, std::size_t time = 1) :
         std::runtime_error(rule),

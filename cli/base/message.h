@@ -1,5 +1,4 @@
-// Owns the form of messages on stderr.
-// Called by main and the subcommands.
+// Messages on stderr.
 #pragma once
 
 #include <iostream>

@@ -1,5 +1,5 @@
-// Owns the names of pt.h's samplers and estimators: whoever adds one adds one line here.
-// Called by the scene file reader, the options and the reports.
+// The names of pt.h's samplers and estimators. A new one is one more line here; options, scene files and reports
+// follow.
 #pragma once
 
 #include <pt/pt.h>

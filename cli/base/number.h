@@ -1,5 +1,4 @@
-// Owns the reading of numbers and sizes from option text: the whole text or nothing, no octal, no wrap-around.
-// Called by the options of `pt render` and `pt bench`.
+// Reads numbers and sizes from the text of options: the whole text or nothing, no octal, no wrap-around.
 #pragma once
 
 #include <charconv>

@@ -1,5 +1,3 @@
-// Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by progress_observer and bench_run from the library's progress callback.
 #include "cli/base/progress.h"
 
 #include <nlohmann/json.hpp>
@@ -83,7 +81,7 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
         return;
     }
     next_update_ = now + update_interval;
-    // Below the clock's resolution there is no speed to tell.
+    // The clock may not have advanced yet.
     const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
     if (style_ == ProgressStyle::json) {
         print_json(sample_count, seconds);

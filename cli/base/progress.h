@@ -1,5 +1,4 @@
-// Owns the report of progress while rendering: a line on a terminal, JSON lines for programs, or nothing.
-// Called by progress_observer and bench_run from the library's progress callback.
+// Shows the progress of a rendering: a line on a terminal, JSON lines for programs, or nothing.
 #pragma once
 
 #include <chrono>
@@ -13,7 +12,7 @@ namespace cli {
 
 enum class ProgressStyle { none, line, json };
 
-// Of the terminal that stderr is; 80 if it does not say.
+// Width of the terminal on stderr; 80 if it does not say.
 std::size_t terminal_columns();
 
 class Progress {
@@ -30,13 +29,14 @@ public:
     // The share that is done, in [0, 1]. Prints at most ten times a second, and at the end.
     void update(double fraction, Clock::time_point now);
 
-    // What is told from now on is the share of a part of the work, from begin to end of the whole, in [0, 1].
+    // From now on update() is told shares of one part of the work, which is [begin, end] of the whole, [0, 1].
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
 
-    // The same by the samples that are done. The share that is told never falls, whatever is expected in between.
+    // Like update(), by the samples that are done. The share that is shown never falls, even if expect() raises the
+    // total.
     void update_samples(double samples_of_part, Clock::time_point now);
 
     // From now on this many samples a pixel are to be taken in all.
@@ -58,7 +58,7 @@ private:
     Clock::time_point next_update_;
 };
 
-// "auto", "json" or "none"; a terminal is asked for by auto alone.
+// name: "auto", "json" or "none". Only auto depends on the terminal.
 ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal);
 
 } // namespace cli

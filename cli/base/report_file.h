@@ -1,5 +1,4 @@
-// Owns where a report goes: to a file, or to standard output if its name is "-".
-// Called by the subcommands.
+// Where a report goes: to a file, or to standard output if its name is "-".
 #pragma once
 
 #include <string>
@@ -11,10 +10,10 @@ namespace cli {
 inline constexpr std::string_view standard_stream = "-";
 
 // The path may be empty: no report is wanted. Both throw Failure(ExitCode::file).
-void check_report_file(const std::string &path); // all that can be known before the report is there
+void check_report_file(const std::string &path); // what can be checked before there is a report
 void write_report_file(const std::string &path, std::string_view text);
 
-// Lines for people: on standard output, or on stderr if a report is to have that to itself.
+// Lines for people: on standard output, or on stderr if a report goes to standard output.
 void print_for_people(const std::string &lines, bool standard_output_is_taken);
 
 } // namespace cli

@@ -1,5 +1,3 @@
-// Owns the answer to a misspelt name: which known one was meant.
-// Called by the scene file reader (keys, materials) and by the options that take a name.
 #include "cli/base/suggestion.h"
 
 #include <algorithm>
@@ -48,7 +46,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
         const std::size_t shorter = std::min(candidate.size(), name.size());
         const std::size_t longer = std::max(candidate.size(), name.size());
         if (longer - shorter >= best_distance) {
-            continue; // as many insertions at least: this keeps long lists cheap
+            continue; // at least as many insertions; this keeps long lists cheap
         }
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {

@@ -1,5 +1,4 @@
-// Owns the answer to a misspelt name: which known one was meant.
-// Called by the scene file reader (keys, materials) and by the options that take a name.
+// Which known name a misspelt one was probably meant to be.
 #pragma once
 
 #include <span>

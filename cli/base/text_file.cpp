@@ -1,5 +1,3 @@
-// Owns the reading of a whole file, and the question whether it is text.
-// Called by the scene file reader, json_sections and source_files.
 #include "cli/base/text_file.h"
 
 #include "cli/base/exit_code.h"

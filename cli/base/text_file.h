@@ -1,5 +1,4 @@
-// Owns the reading of a whole file, and the question whether it is text.
-// Called by the scene file reader, json_sections and source_files.
+// Reads whole files, and checks that they are text.
 #pragma once
 
 #include <string>
@@ -15,7 +14,7 @@ std::string read_standard_input();
 // UTF-16 and for files with a NUL byte, which readers of text would take for their end.
 std::string_view require_text(std::string_view contents, const std::string &path);
 
-// "3:14", of what comes after that part of a text. Both count from 1; columns are bytes.
+// Line and column of what follows the given part of a text, as "3:14". Both count from 1; columns are bytes.
 std::string line_and_column(std::string_view before);
 
 } // namespace cli

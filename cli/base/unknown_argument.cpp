@@ -1,4 +1,3 @@
-// What is said of an argument that a command does not know; see unknown_argument.h.
 #include "cli/base/unknown_argument.h"
 
 #include "cli/base/suggestion.h"

@@ -1,4 +1,4 @@
-// Owns what is said of an argument that a command does not know: which option or subcommand was probably meant.
+// What is said of an argument that a command does not know: which option or subcommand was probably meant.
 #pragma once
 
 #include <optional>

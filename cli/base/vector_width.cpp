@@ -1,5 +1,3 @@
-// Owns the width of the vectors for which Mesa's llvmpipe compiles the kernel.
-// Called by every command before it creates an instance, for the driver reads its environment then.
 #include "cli/base/vector_width.h"
 
 #include <algorithm>
@@ -15,14 +13,14 @@ namespace {
 constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH"; // in bits
 constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
 
-// What a user sets who has an opinion on the width, or on where compiled shaders are kept: then both stay as they are,
-// because neither is safe without the other (see wide_vectors). The last two are older names of Mesa's.
+// If the user has set one of these, neither the width nor the folder of compiled shaders is changed, because one is not
+// safe without the other (see wide_vectors). The last two are older names of Mesa's.
 constexpr std::array choices{width_name, cache_name, "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
                              "MESA_GLSL_CACHE_DISABLE"};
 
 // The kernel of a scene of up to 64 words holds it in constants, and gains a quarter to a half from vectors of 512
 // bits. A surface takes at most five words: four, and one for its motion or curvature. Kernels that read the scene
-// from a buffer gain nothing for sure: measured from 0.83 to 1.18 times the speed.
+// from a buffer do not gain reliably: measured from 0.83 to 1.18 times the speed.
 constexpr std::size_t most_surfaces = 64 / 5;
 
 bool has_avx512() {

@@ -1,5 +1,5 @@
-// Owns the width of the vectors for which Mesa's llvmpipe compiles the kernel.
-// Called by every command before it creates an instance, for the driver reads its environment then.
+// Chooses the width of the vectors for which Mesa's llvmpipe compiles the kernel. The driver reads its environment when
+// an instance is created, so every command does this first.
 #pragma once
 
 #include <cstddef>

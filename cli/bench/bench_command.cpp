@@ -1,5 +1,3 @@
-// Owns `pt bench`: scene file and options in, a table of errors and times out.
-// Called by main.
 #include "cli/bench/bench_command.h"
 
 #include "cli/base/context.h"
@@ -85,8 +83,8 @@ std::uint64_t total_sample_count(const BenchReport &report) {
     return total + report.reference.sample_count;
 }
 
-// Round by round over all cells, so that a machine that slows down or is disturbed does so to all alike. Until a signal
-// comes. An empty reference is rendered first.
+// Measures all cells in every round, so that a machine that slows down or is disturbed does so to all alike, until a
+// signal comes. If the reference is empty, it is rendered first.
 void measure(const Context &context, const BenchOptions &options, std::vector<float> reference, BenchReport &report) {
     const std::uint64_t pixel_count = std::uint64_t{report.render.width} * report.render.height;
     const std::uint64_t total = total_sample_count(report);

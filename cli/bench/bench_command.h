@@ -1,5 +1,4 @@
-// Owns `pt bench`: scene file and options in, a table of errors and times out.
-// Called by main.
+// The command `pt bench`: scene file and options in, a table of errors and times out.
 #pragma once
 
 #include "cli/bench/bench_options.h"

@@ -1,5 +1,3 @@
-// Owns the options of `pt bench`: their names, help and syntax.
-// Called by main; read by bench_command.
 #include "cli/bench/bench_options.h"
 
 #include "cli/base/common_options.h"
@@ -56,9 +54,8 @@ const char *const bench_help =
     "compiling the kernel is not timed. Columns: seconds (wall clock, median of the rounds) and cpu s (of all threads\n"
     "of this process) are of the sampling alone; MSE and relMSE, the mean of (x-r)^2/(r^2+0.01), are means of the\n"
     "rounds against the reference r; efficiency is 1/(relMSE seconds); slope is that of log MSE against log N since\n"
-    "the count above, -1 for independent samples. halton uses the same points in every pixel whatever the seed, so "
-    "that\n"
-    "its rounds differ little.\n";
+    "the count above, -1 for independent samples. halton uses the same points in every pixel, whatever the seed: its\n"
+    "rounds differ little.\n";
 
 BenchOptions::BenchOptions() : estimators{PT_ESTIMATOR_BEST} {
     for (const std::string_view name : cli::samplers.names()) {

@@ -1,5 +1,4 @@
-// Owns the options of `pt bench`: their names, help and syntax.
-// Called by main; read by bench_command.
+// The options of `pt bench`: their names, help and syntax.
 #pragma once
 
 #include "cli/base/number.h"

@@ -1,5 +1,3 @@
-// Owns the results of `pt bench` and their forms: a table for people, CSV and JSON.
-// Called by bench_command; bench_run fills it.
 #include "cli/bench/bench_report.h"
 
 #include "cli/base/device_text.h"

@@ -1,5 +1,4 @@
-// Owns the results of `pt bench` and their forms: a table for people, CSV and JSON.
-// Called by bench_command; bench_run fills it.
+// The results of `pt bench` and their forms: a table for people, CSV and JSON.
 #pragma once
 
 #include "cli/image/error_metrics.h"

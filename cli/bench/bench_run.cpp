@@ -1,5 +1,3 @@
-// Owns the measurements of `pt bench`: the reference that is rendered first, and one timed run after the other.
-// Called by bench_command.
 #include "cli/bench/bench_run.h"
 
 #include "cli/base/interrupt.h"
@@ -54,7 +52,7 @@ void BenchRunner::set_render(const BenchCell &cell, std::uint64_t seed) {
     context_.require(pt_set_render(context_.get(), &render));
 }
 
-// Builds the kernel, which is done when it is first needed.
+// Takes one sample, for which the kernel is built, so that the measurement does not include that.
 bool BenchRunner::warm_up() {
     pt_accumulate_info info{};
     info.struct_size = sizeof(pt_accumulate_info);

@@ -1,5 +1,4 @@
-// Owns the measurements of `pt bench`: the reference that is rendered first, and one timed run after the other.
-// Called by bench_command.
+// The measurements of `pt bench`: the reference, which is rendered first, and one timed run after the other.
 #pragma once
 
 #include "cli/base/context.h"
@@ -13,13 +12,13 @@
 
 namespace cli {
 
-// Scene and camera are set already. Every function returns nothing once a signal has come.
+// On a context that has its scene and camera. Every function returns nothing once a signal has come.
 class BenchRunner {
 public:
     // total_sample_count: of all that will be asked for, for the progress.
     BenchRunner(const Context &context, const pt_render &render, Progress &progress, std::uint64_t total_sample_count);
 
-    // With the best sampler and estimator and the seed of the settings. Tells its own noise.
+    // With the best sampler and estimator and the seed of the settings; noise receives an estimate of its own error.
     std::optional<std::vector<float>> render_reference(std::uint32_t sample_count, ImageError &noise);
 
     std::optional<BenchRun> measure(const BenchCell &cell, std::uint64_t seed, std::span<const float> reference);

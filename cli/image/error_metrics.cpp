@@ -1,5 +1,3 @@
-// Owns the distance between an image and a reference: MSE, relative MSE, and what the reference's own noise adds.
-// Called by bench_command and bench_run.
 #include "cli/image/error_metrics.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Owns the distance between an image and a reference: MSE, relative MSE, and what the reference's own noise adds.
-// Called by bench_command and bench_run.
+// The distance between an image and a reference: MSE, relative MSE, and what the reference's own noise adds.
 #pragma once
 
 #include <cstdint>

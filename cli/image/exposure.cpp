@@ -1,4 +1,3 @@
-// The exposure of tone-mapped pictures; see exposure.h.
 #include "cli/image/exposure.h"
 
 #include "cli/base/number.h"

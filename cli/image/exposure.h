@@ -1,4 +1,4 @@
-// Owns the exposure of tone-mapped pictures: a number of stops, or the one that suits the image.
+// The exposure of tone-mapped pictures: a number of stops, or the one that suits the image.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ struct Exposure {
     std::optional<double> stops; // nothing: automatic
 };
 
-inline constexpr double largest_exposure = 64.0; // and minus that the least
+inline constexpr double largest_exposure = 64.0; // the least is its negative
 
 // "-1.5" or "auto"; nothing if it is neither, or beyond the largest exposure.
 std::optional<Exposure> parse_exposure(std::string_view text);

@@ -1,5 +1,4 @@
-// Owns the text of an image's attribute, for formats whose metadata are texts alone.
-// Called by png_encoder and image_module.
+// An image's attribute as text, for formats whose metadata are text alone (PNG, JPEG).
 #pragma once
 
 #include "cli/image/image_module.h"

@@ -1,5 +1,3 @@
-// Owns the writing and reading of images: which formats there are, and the module that encodes all but PNG and decodes.
-// Called by render_command and bench_command.
 #include "cli/image/image_file.h"
 
 #include "cli/base/atomic_file.h"

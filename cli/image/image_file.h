@@ -1,5 +1,4 @@
-// Owns the writing and reading of images: which formats there are, and the module that encodes all but PNG and decodes.
-// Called by render_command and bench_command.
+// Writes and reads images: writes PNG itself, and uses the module of image_module.h for all other formats and to read.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -46,7 +45,7 @@ public:
     // The module turned out to be unusable: a long rendering may as well stop.
     bool failed() const { return failed_; }
 
-    // Until the module is loaded, if it was to be. Throws Failure(ExitCode::internal) if it cannot be.
+    // Waits until load_module(), if it was called, is done. Throws Failure(ExitCode::internal) if it failed.
     void wait() const {
         if (encode_.valid()) {
             encode_.get();

@@ -1,5 +1,5 @@
-// Owns the encoding and decoding of images by OpenImageIO, as a module of its own; see image_module.h for why.
-// Called by image_file.cpp through dlsym.
+// The module that encodes and decodes images by OpenImageIO; image_module.h says why it is one. image_file.cpp finds
+// its two functions by dlsym.
 #include "cli/image/image_module.h"
 
 #include "cli/image/image_attribute_text.h"
@@ -19,7 +19,7 @@
 
 namespace {
 
-// JPEG has no attributes of any name, but a description: a line for each.
+// JPEG has no named attributes, only a description: a line for each.
 std::string description(std::span<const pt_image_attribute> attributes) {
     std::string text;
     for (const pt_image_attribute &attribute : attributes) {
@@ -40,7 +40,7 @@ OIIO::ImageSpec describe(const pt_image_data &image) {
     if (image.radiance == nullptr) {
         spec.attribute("ImageDescription", description(attributes));
     } else {
-        spec.attribute("DateTime", ""); // of no date at all OpenImageIO makes the present one
+        spec.attribute("DateTime", ""); // without a date, OpenImageIO would write the present one
     }
     for (const pt_image_attribute &attribute : attributes) {
         if (attribute.text != nullptr) {

@@ -1,5 +1,3 @@
-// Owns the encoding of PNG images by libpng, without OpenImageIO, whose module takes 0.2 s and 200 MB to load.
-// Called by image_file.
 #include "cli/image/png_encoder.h"
 
 #include "cli/image/image_attribute_text.h"

@@ -1,5 +1,4 @@
-// Owns the encoding of PNG images by libpng, without OpenImageIO, whose module takes 0.2 s and 200 MB to load.
-// Called by image_file.
+// Encodes PNG images by libpng, without OpenImageIO, whose module takes 0.2 s and 200 MB to load.
 #pragma once
 
 #include "cli/image/image_module.h"

@@ -1,5 +1,3 @@
-// Owns the way from linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
-// Called by render_command for the formats that cannot hold radiance, and by the options for the names.
 #include "cli/image/tone_map.h"
 
 #include <algorithm>

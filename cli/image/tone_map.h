@@ -1,5 +1,4 @@
-// Owns the way from linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
-// Called by render_command for the formats that cannot hold radiance, and by the options for the names.
+// From linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
 #pragma once
 
 #include <array>

@@ -1,5 +1,3 @@
-// Owns the parsing of JSON text whose root is an object of sections, each an object or array of small items. Items are
-// handed out one at a time, so that a file of a million spheres never stands in memory as a tree. Called by scene_file.
 #include "cli/scene/json_sections.h"
 
 #include "cli/base/exit_code.h"
@@ -62,7 +60,7 @@ private:
     const std::string &file_name_;
     JsonSectionHandler &handler_;
     std::vector<Level> levels_;
-    // Names met in the root and in the present section. Within items, the tree itself knows.
+    // Keys met in the root and in the present section. Items are trees, which know their keys.
     std::array<std::unordered_set<std::string>, 2> names_;
     json item_;
     std::vector<json *> open_; // the item and, inside it, the arrays and objects not yet closed
@@ -96,7 +94,7 @@ void SectionParser::count_element() {
     }
 }
 
-// Puts a value into the section or item that is open, and says where it lies now: nullptr above the items.
+// Puts a value into the section or item that is open. Returns where it is kept: nullptr for the root and for sections.
 json *SectionParser::add(json value) {
     count_element();
     if (levels_.empty()) {

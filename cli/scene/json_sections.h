@@ -1,5 +1,5 @@
-// Owns the parsing of JSON text whose root is an object of sections, each an object or array of small items. Items are
-// handed out one at a time, so that a file of a million spheres never stands in memory as a tree. Called by scene_file.
+// Parses JSON text whose root is an object of sections, each an object or array of small items. Items are handed out
+// one at a time, so that a file of a million spheres never stands in memory as a tree.
 #pragma once
 
 #include "cli/base/json_value.h"

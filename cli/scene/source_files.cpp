@@ -1,5 +1,3 @@
-// Owns the knowledge of which files a picture is made of: the scene, and the kernels with what they include.
-// Called by source_watch and render_output.
 #include "cli/scene/source_files.h"
 
 #include "cli/base/exit_code.h"

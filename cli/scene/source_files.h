@@ -1,5 +1,4 @@
-// Owns the knowledge of which files a picture is made of: the scene, and the kernels with what they include.
-// Called by source_watch and render_output.
+// The files that a picture is made of: the scene, and the kernels with what they include.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +8,8 @@
 
 namespace cli {
 
-// Their contents by path; nothing for a file that is not there. One that an #include line may mean is listed in both
-// places where it is looked for: it may come to be there.
+// Contents by path; nothing for a file that does not exist. An included file is listed at both places where it is
+// looked for, since it may appear at either.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
 
 // shader_dir may be empty: the kernels in the library are no files. Scene files include none.

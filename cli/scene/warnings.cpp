@@ -1,4 +1,3 @@
-// The rules of warnings; see warnings.h.
 #include "cli/scene/warnings.h"
 
 #include "cli/base/json_path.h"
@@ -79,8 +78,8 @@ std::pair<double, double> distances(const pt_sphere &a, const pt_sphere &b, doub
     return {near - 0.5 * std::hypot(way[0], way[1], way[2]), far};
 }
 
-// Looks for a ball that shuts the camera in. Surfaces let no light through, so that inside it is dark unless the
-// surface of a lamp has a part there; one that is all around the ball, or all outside, has not.
+// Looks for a ball that shuts the camera in. Surfaces let no light through, so that it is dark inside unless a part of
+// a lamp's surface is inside too; a lamp that is wholly around the ball or wholly outside has none there.
 class ShutInCamera {
 public:
     explicit ShutInCamera(const SceneFile &scene) : scene_(scene) {
@@ -176,7 +175,7 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
            ": more light is reflected than received";
 }
 
-// A regular choice of at most about so many pixels is enough for a share.
+// Looks at every n-th pixel, some 65,536 at most, which is enough to estimate a share.
 double burnt_out_share(std::span<const float> radiance, const ToneMap &tone_map) {
     constexpr std::size_t most_pixels = 65'536;
     const std::size_t pixel_count = radiance.size() / 3;

@@ -1,5 +1,5 @@
-// Owns the warnings: what can be rendered but is surely not meant. Each is said once on stderr, unless -q is given, and
-// stands in the --stats file.
+// Warnings: what can be rendered but is surely not meant. Each is printed once on stderr, unless -q is given, and
+// listed in the --stats file.
 #pragma once
 
 #include "cli/render/render_report.h"

@@ -1,5 +1,4 @@
-// Owns one judgement of `pt selftest`: an error, and the bound that it has to keep.
-// Called by selftest_run and selftest_report.
+// One result of `pt selftest`: an error, and the bound that it must keep.
 #pragma once
 
 #include <string>

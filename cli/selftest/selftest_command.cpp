@@ -1,5 +1,3 @@
-// Owns `pt selftest`: whether a device computes what it should.
-// Called by main.
 #include "cli/selftest/selftest_command.h"
 
 #include "cli/base/common_options.h"

@@ -1,5 +1,4 @@
-// Owns `pt selftest`: whether a device computes what it should.
-// Called by main.
+// The command `pt selftest`: whether a device computes what it should.
 #pragma once
 
 #include <string>

@@ -1,5 +1,3 @@
-// Owns the facts of a finished selftest and their forms: what a report of a fault needs, as text and as JSON.
-// Called by selftest_command.
 #include "cli/selftest/selftest_report.h"
 
 #include "cli/base/device_text.h"

@@ -1,5 +1,4 @@
-// Owns the facts of a finished selftest and their forms: what a report of a fault needs, as text and as JSON.
-// Called by selftest_command.
+// The results of a finished selftest, as text and as JSON: what a report of a fault needs.
 #pragma once
 
 #include "cli/selftest/selftest_check.h"

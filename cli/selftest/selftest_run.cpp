@@ -1,5 +1,3 @@
-// Owns the measurements of `pt selftest`: functions, scenes and splits on one device.
-// Called by selftest_command.
 #include "cli/selftest/selftest_run.h"
 
 #include "cli/selftest/selftest_scene.h"
@@ -63,7 +61,7 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
     });
 }
 
-// The sum of the samples is exact, so that its bits do not know in which calls they came.
+// The sum of the samples is exact, so that its bits do not depend on the calls in which they were taken.
 SelftestCheck check_splits(const Context &context) {
     const SelftestScene scene = lamp_in_a_ball();
     const std::uint32_t third = scene.sample_count / 3;
@@ -75,7 +73,7 @@ SelftestCheck check_splits(const Context &context) {
         "invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + scene.name + "\""};
 }
 
-// Left out are samples that are not finite, negative or too bright: a scene has none.
+// The library leaves out samples that are not finite, negative or too bright; these scenes have none.
 std::vector<SelftestCheck> check_scenes(const Context &context) {
     std::vector<SelftestCheck> checks;
     double left_out = 0.0;

@@ -1,5 +1,4 @@
-// Owns the measurements of `pt selftest`: functions, scenes and splits on one device.
-// Called by selftest_command.
+// The measurements of `pt selftest`: functions, scenes and splits on one device.
 #pragma once
 
 #include "cli/base/context.h"
@@ -9,7 +8,7 @@
 
 namespace cli {
 
-// Throws Failure if the device does; what it computes wrongly is for the checks to tell.
+// Throws Failure if a call fails; wrong results are failed checks.
 std::vector<SelftestCheck> run_selftest_checks(const Context &context);
 
 } // namespace cli

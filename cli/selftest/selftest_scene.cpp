@@ -1,5 +1,3 @@
-// Owns the judgement of an image that is known exactly.
-// Called by selftest_run.
 #include "cli/selftest/selftest_scene.h"
 
 #include <array>
@@ -11,7 +9,7 @@
 namespace cli {
 namespace {
 
-// Of one judgement: a device that is right fails one of the scenes once in a million.
+// Probability that a right device fails one check: over all scenes, about one in a million.
 constexpr double false_alarm = 1e-7;
 
 // Bernstein's inequality (Boucheron, Lugosi and Massart, Concentration Inequalities, 2013, section 2.8), which holds
@@ -60,7 +58,7 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
     double worst = expected;
     const auto compare = [&](double measured) {
         const double error = std::abs(measured / expected - 1.0);
-        if (!(error <= worst_error)) { // nor where it is not a number
+        if (!(error <= worst_error)) { // also if it is NaN
             worst_error = std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
             worst = measured;
         }

@@ -1,5 +1,4 @@
-// Owns the scenes of `pt selftest`, whose images are known exactly, and the judgement of an image of one.
-// Called by selftest_run.
+// The scenes of `pt selftest`, whose images are known exactly, and the judgement of an image of one.
 #pragma once
 
 #include "cli/selftest/selftest_check.h"

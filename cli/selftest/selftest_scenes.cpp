@@ -1,6 +1,5 @@
-// Owns the scenes of `pt selftest`: few and small, each with a closed form, of what goes wrong on one device alone:
-// other roundings, lamps of extreme sizes, lobes of extreme sharpness, motion.
-// Called by selftest_run.
+// The scenes of `pt selftest`: few and small, each with a closed form. They look for what may be wrong on a single
+// device: other roundings, lamps of extreme sizes, lobes of extreme sharpness, motion.
 #include "cli/selftest/selftest_scene.h"
 
 #include <algorithm>
