@@ -1,12 +1,12 @@
-// Pinhole camera that looks from the origin, or from behind it. Used by path.glsl.
+// Pinhole camera that looks from the origin, or from behind it.
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
 #include "gpu_layout.h"
 #include "scene.glsl"
 
-// Distance from the image's middle, in pixels to the right and downwards, of a place in [0, 1)^2 of the pixel (column,
-// row) from the top left. The pixel's own is exact (a multiple of 1/2), so wide images lose nothing at their middle.
+// How far a place in [0, 1)^2 of the pixel (column, row), counted from the top left, lies from the image's middle: in
+// pixels to the right and downwards. The pixel's part of it is a multiple of 1/2 and exact, however wide the image is.
 vec2 image_place(FrameConstants frame, uvec2 pixel, vec2 place)
 {
     return 0.5 * vec2(ivec2(2u * pixel) - ivec2(frame.width, frame.height)) + place;
@@ -18,8 +18,8 @@ vec3 camera_direction(FrameConstants frame, vec2 from_middle)
     return normalize(frame.camera_forward + from_middle.x * frame.camera_right - from_middle.y * frame.camera_up);
 }
 
-// Where the ray through it starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the origin
-// across the view. Before that plane nothing is in view (lib/scene/ray_start.h).
+// Where the ray through that place starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the
+// origin across the view. Before that plane nothing is in view (lib/scene/ray_start.h).
 vec3 camera_origin(FrameConstants frame, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)

@@ -1,4 +1,4 @@
-// Where each number that a path consumes lies among the sample's blocks; gpu_layout.h has the order. Used by path.glsl.
+// Where each number that a path consumes lies among the sample's blocks; gpu_layout.h has the order.
 #ifndef DIMENSIONS_GLSL
 #define DIMENSIONS_GLSL
 
@@ -18,7 +18,7 @@ vec2 every_lamp_numbers(SampleKey key, uint lamp)
     return sample_block(key, 1u + lamp).xy;
 }
 
-// Where the blocks of a branch begin at its first vertex, and at a later one, the first being number 1.
+// Where the blocks of a branch begin for its first vertex, which is number 1, and for a later one.
 uint first_vertex_blocks()
 {
     return shared_blocks(LAMP_COUNT);
@@ -29,13 +29,13 @@ uint later_vertex_blocks(uint vertex)
     return first_vertex_blocks() + vertex_blocks(1u, LAMP_COUNT) + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
 }
 
-// Of blocks of a branch that begin at a place: the place on the lamp (x, y) and the choice among the lamps (z).
+// From the blocks of a vertex, the first of which is begin: place on the chosen lamp (x, y) and which lamp (z).
 vec3 chosen_lamp_numbers(SampleKey branch, uint begin)
 {
     return sample_block(branch, begin).xyz;
 }
 
-// Of as many blocks of a branch, the last one: direction (x, y), lobe (z) and survival (w).
+// From the last of the count blocks of a vertex: direction (x, y), lobe or cosine (z) and survival (w).
 vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 {
     vec4 numbers = sample_block(branch, begin + count - 1u);

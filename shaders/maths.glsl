@@ -1,6 +1,6 @@
-// Elementary functions with stated errors, which lib/kernel/accuracy.cpp derives and pt_get_accuracy measures, where Vulkan
-// promises too little: sin and cos only 2^-11 absolute, log2 2^-21 absolute near 1, and so pow almost nothing for large
-// exponents. Used by sampling.glsl and phong.glsl.
+// Elementary functions with stated errors, for those of which Vulkan promises too little: sin and cos 2^-11 absolute,
+// log2 2^-21 absolute near 1, and so pow almost nothing for large exponents. lib/kernel/accuracy.cpp derives the
+// errors, and pt_get_accuracy measures them.
 #ifndef MATHS_GLSL
 #define MATHS_GLSL
 

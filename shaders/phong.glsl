@@ -1,6 +1,7 @@
-// The physically-normalised Phong model: value, sampling, density. Used by path.glsl. f = diffuse / pi + specular (n
-// + 2) / (2 pi) max(0, wo . r)^n with r the mirror direction (Lafortune and Willems, "Using the Modified Phong
-// Reflectance Model for Physically Based Rendering", 1994).
+// The physically-normalised Phong model: value, sampling, density.
+//     f = diffuse / pi + specular (n + 2) / (2 pi) max(0, wo . r)^n
+// with r the mirror direction (Lafortune and Willems, "Using the Modified Phong Reflectance Model for Physically Based
+// Rendering", 1994).
 #ifndef PHONG_GLSL
 #define PHONG_GLSL
 
@@ -38,9 +39,9 @@ Material at_last_direction(Material material)
     return material;
 }
 
-// max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r. With y = |wo -
-// r|^2 / 2 = 1 - wo . r this is 2^(n log2(1 - y)); y from the chord keeps its relative precision as wo nears r, where
-// all of a glossy lobe lies. pow(wo . r, n) is 35% off at n = 1e6.
+// max(0, wo . r)^n for unit vectors, where n = 0 stands for the limit: 1 on the half space about r. With y = |wo - r|^2
+// / 2 = 1 - wo . r this is 2^(n log2(1 - y)). The chord wo - r gives y with its relative precision however near wo is
+// to r, where all of a glossy lobe lies: pow(wo . r, n) is 35% off at n = 1e6.
 float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
@@ -71,8 +72,8 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }
 
-// Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: the cosine is (1 - u)^(1 / (n +
-// 1)), taken as its distance from 1.
+// Polar angle about the mirror direction r with density (n + 1) / (2 pi) (wo . r)^n: its cosine is
+// (1 - u)^(1 / (n + 1)), taken as its distance from 1.
 vec2 lobe_cos_sin(float n, float u)
 {
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));

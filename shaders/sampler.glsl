@@ -1,12 +1,12 @@
 // The numbers in [0, 1) that a sample is made of, as a pure function of (seed, pixel, sample, dimension), so that a
-// sample's value depends on nothing else. gpu_layout.h says who owns which dimension. Used by dimensions.glsl.
+// sample's value depends on nothing else. gpu_layout.h says who owns which dimension.
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 
 #include "scene.glsl"
 
-// Rows of blocks, the points of a sample: coordinates as multiples of 2^-32, the same in every pixel. A uniform buffer,
-// since all invocations read the same block at a time.
+// The points of the sequence, a row of blocks for each sample: coordinates as multiples of 2^-32, the same in every
+// pixel. A uniform buffer, since all invocations read the same block at a time.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
 
 struct SampleKey {
@@ -46,11 +46,12 @@ uvec4 pcg4d(uvec4 v)
 const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
-// The sample's numbers of a block. Multiples of 2^-24, so that rounding never gives 1. What the points of a pixel are
-// shifted by depends on pixel and block alone, so compilers take it out of loops over samples. Sobol's points are
-// shifted digit by digit in base 2, by exclusive or: the table has them Owen-scrambled (Owen 1995), once for all
-// pixels, and a shift turns one such scrambling into another. So each pixel has its own, and given the table the errors
-// of pixels are independent. Halton's are rotated (Cranley and Patterson 1976) by addition modulo 1.
+// The sample's numbers of a block: multiples of 2^-24, so that rounding never gives 1. Each pixel shifts the points of
+// the table by a hash of pixel and block, which compilers take out of loops over samples, as it does not depend on the
+// sample. Sobol points are shifted digit by digit in base 2, by exclusive or: the table has them Owen-scrambled (Owen
+// 1995), once for all pixels, and a shift turns one such scrambling into another. So each pixel has a scrambling of its
+// own, and given the table the errors of pixels are independent. Halton points are rotated by addition modulo 1
+// (Cranley and Patterson 1976).
 vec4 sample_block(SampleKey key, uint block)
 {
     const bool all_in_table = path_blocks(MAX_PATH_LENGTH, LAMP_COUNT) <= TABLE_BLOCKS;

@@ -1,5 +1,4 @@
-// Directions from random numbers, each with its density over solid angle. Used by phong.glsl, lights.glsl and
-// path.glsl.
+// Directions from random numbers, each with its density over solid angle.
 #ifndef SAMPLING_GLSL
 #define SAMPLING_GLSL
 
@@ -39,7 +38,7 @@ vec3 uniform_hemisphere_direction(vec3 axis, vec2 u)
 // Turns a vector given about the z axis to be about the unit vector axis. The basis is that of Duff et al., "Building
 // an Orthonormal Basis, Revisited" (JCGT 6(1), 2017), which is accurate for every axis, -z included: with s the sign of
 // z and a = -1 / (s + z), the vectors (1 + s a x^2, s a x y, -s x), (a x y, s + a y^2, -y) and (x, y, z). Their sum is
-// not taken vector by vector: q = s x v_x + y v_y is in all of its components.
+// not taken vector by vector, since q = s x v_x + y v_y occurs in each of its components.
 vec3 rotate_to_axis(vec3 axis, vec3 v)
 {
     float s = axis.z < 0.0 ? -1.0 : 1.0;

@@ -66,8 +66,8 @@ static VkResult choose_device(own_vulkan *own)
     return VK_ERROR_INCOMPATIBLE_DRIVER;
 }
 
-/* pt needs no features and no extensions. Devices with VK_KHR_portability_subset, which want it enabled, are listed for
- * instances alone that ask for them. */
+/* pt needs no features and no extensions. Devices that want VK_KHR_portability_subset enabled are only listed for
+ * instances that ask for them, which this one does not. */
 static VkResult make_device(own_vulkan *own)
 {
     const float priority = 1.0f;
@@ -84,7 +84,7 @@ static VkResult make_device(own_vulkan *own)
     return result;
 }
 
-/* On failure, what was made stays in own; unmake takes it. */
+/* On failure, what was made so far stays in own, for unmake. */
 static VkResult make(own_vulkan *own)
 {
     VkResult result = make_instance(own);

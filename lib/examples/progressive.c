@@ -1,5 +1,5 @@
 /* Progressive display: one thread renders in steps that double, and after each writes the image so far to
- * progressive.ppm and tells its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
+ * progressive.ppm and prints its error; the main thread shows how far the step is. Ctrl-C stops it, or a limit of time.
  *
  *     progressive [SAMPLES [SECONDS]]
  *
@@ -145,7 +145,7 @@ static void *render_thread(void *user)
     return NULL;
 }
 
-/* Until the thread has ended; seconds 0: without a limit, which waits for the first samples. */
+/* Waits until the thread has ended; after so many seconds (0: never) asks it to stop, but not before it has samples. */
 static void watch(render_job *job, double seconds)
 {
     const struct timespec pause = {0, 20000000};

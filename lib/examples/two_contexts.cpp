@@ -1,5 +1,5 @@
 // Two contexts in two threads: each renders what one eye sees, and both images go side by side into two_contexts.ppm.
-// Contexts are independent; on one GPU they share it, and each of several could have its own (pt_create_info.device).
+// Contexts are independent: here they share one device; with several, each could have its own (pt_create_info.device).
 // Exit status 0 if the file was written.
 #include <pt/pt.h>
 

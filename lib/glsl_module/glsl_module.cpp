@@ -1,4 +1,4 @@
-// Compiles GLSL to SPIR-V with glslang, as a module of its own; see glsl_module.h for why. Called by shader_source.cpp.
+// The module that compiles GLSL to SPIR-V with glslang; glsl_module.h says why it is one.
 #include "lib/glsl_module/glsl_module.h"
 
 #include "lib/glsl_module/includer.h"
@@ -23,8 +23,8 @@ namespace {
 
 using Words = std::vector<std::uint32_t>;
 
-// What glslangValidator's -V stands for; and that the compiler goes on after an error, to tell of all at once. Where
-// it stops within an included file, it takes the next directive for another error.
+// The rules of glslangValidator -V, and to go on after an error, so that all are reported at once: where glslang stops
+// within an included file, it takes the next directive for another error.
 constexpr auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules | EShMsgCascadingErrors);
 
 // glslang's log ends with empty lines.
@@ -33,7 +33,7 @@ std::string trimmed(std::string log) {
     return log;
 }
 
-// For the life of the process: the tables of built-in functions take most of the first compilation.
+// Kept until the process ends: the tables of built-in functions take most of the time of the first compilation.
 void start_glslang() {
     static const bool started = glslang::InitializeProcess();
     if (!started)
@@ -71,7 +71,7 @@ Words spirv_of(const std::filesystem::path &path, const std::filesystem::path &d
     return words;
 }
 
-// As the build does: drivers trust the words that they are given.
+// As the build does: drivers do not check the SPIR-V that they are given.
 void validate(const Words &words, const std::filesystem::path &path) {
     std::string log;
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_2);

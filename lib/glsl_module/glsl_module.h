@@ -1,6 +1,6 @@
-/* The interface between the library and the module libpt-glsl.so, which alone links glslang: its 7 MB are loaded only where
- * kernels are compiled while the program runs. Called by shader_source.cpp through dlsym, implemented by glsl_module.cpp.
- * Plain C types, no exceptions across it. */
+/* The interface between the library and the module libpt-glsl.so, which alone links glslang: its 7 MB are loaded only
+ * where kernels are compiled while the program runs. The library finds its function by dlsym. Plain C types, no
+ * exceptions. */
 #ifndef PT_GLSL_MODULE_H
 #define PT_GLSL_MODULE_H
 
@@ -16,9 +16,10 @@ extern "C" {
 typedef void (*pt_glsl_words_fn)(void *user, const uint32_t *words, size_t count);
 typedef void (*pt_glsl_log_fn)(void *user, const char *text, size_t size);
 
-/* Compiles the compute shader directory/name as it is now, with what it includes, to the SPIR-V that the build embeds for
- * the same text. An included file is looked for beside the file that includes it, then in directory. Returns 0 after one call
- * of words, or -1 after one of log, whose lines begin with the name of the file and the line. From any thread. */
+/* Compiles the compute shader directory/name as it is now, with what it includes, to the SPIR-V that the build embeds
+ * for the same text. An included file is looked for beside the file that includes it, then in directory. Calls words once
+ * and returns 0, or calls log once, with lines that begin with the names of file and line, and returns -1. From any
+ * thread. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_words_fn words,
                                       pt_glsl_log_fn log, void *user);
 

@@ -1,4 +1,3 @@
-// Finds and reads included files; see includer.h.
 #include "lib/glsl_module/includer.h"
 
 #include <algorithm>
@@ -37,7 +36,7 @@ std::string read_source(const std::filesystem::path &path) {
         text.append(block, count);
     }
     if (std::ferror(file.get()) != 0)
-        fail(); // a directory, for one
+        fail(); // for example because it is a directory
     return text;
 }
 

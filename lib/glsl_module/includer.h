@@ -1,4 +1,4 @@
-// The files that #include lines of a shader ask for. Used by glsl_module.cpp, called back by glslang.
+// Finds and reads the files that the #include lines of a shader name, for glslang, which calls back.
 #pragma once
 
 #include <glslang/Public/ShaderLang.h>
@@ -22,7 +22,8 @@ public:
 
     IncludeResult *includeLocal(const char *name, const char *including_file, std::size_t depth) override;
 
-    // Where glslang goes on once a file was not found, so that the reason is given here; and for #include <name>.
+    // glslang calls this after includeLocal has found nothing, so that the reason is given here; and for #include
+    // <name>.
     IncludeResult *includeSystem(const char *name, const char *including_file, std::size_t depth) override;
 
     void releaseInclude(IncludeResult *result) override;
