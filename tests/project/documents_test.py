@@ -41,8 +41,8 @@ class Documents(unittest.TestCase):
         self.assertEqual(broken_links(page, text), ["no-such-file", "#no-such-heading", "cli/README.md#no-such-heading"])
 
     def test_every_function_is_named(self):
-        header = (ROOT / "lib/include/pt/pt.h").read_text(encoding="utf-8")
-        declared = re.findall(r"^PT_API [\w *]*?(pt_\w+)\(", header, re.MULTILINE)
+        headers = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "lib/include/pt").glob("*.h"))
+        declared = re.findall(r"^PT_API [\w *]*?(pt_\w+)\(", headers, re.MULTILINE)
         table = (ROOT / "lib/README.md").read_text(encoding="utf-8").split("## Functions")[1].split("\n## ")[0]
         named = [name for row in re.findall(r"^\| (`pt_.*?) \|", table, re.MULTILINE) for name in re.findall(r"`(\w+)`", row)]
         self.assertGreater(len(declared), 10)
