@@ -105,7 +105,7 @@ const char *pt_result_name(pt_result result) {
 }
 
 uint32_t pt_next_check(uint32_t sample_count) {
-    return pt::next_check(sample_count);
+    return static_cast<uint32_t>(std::min<std::uint64_t>(pt::next_check(sample_count), UINT32_MAX));
 }
 
 pt_result pt_get_devices(pt_device_info *devices, uint32_t *count) {

@@ -7,7 +7,7 @@
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
 
-#include <pt/pt.h>
+#include <pt/devices.h>
 
 #include <vector>
 
