@@ -48,8 +48,9 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
     scene.spheres = {{ball.center, ball.radius, {held == Held::ByItsCenter ? ball.radius : 0.0, 0, 0}, 0}};
     const pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
-    const pt::GpuScene gpu_scene =
-        pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
+    const pt::PreparedScene prepared(scene); // and not refused, though it moves too far
+    const pt::GpuScene gpu_scene = pt::gpu_scene({pt::seen_scene(scene, camera), false, false}, prepared, camera,
+                                                 {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4});
     const auto count = static_cast<std::uint32_t>(rays.size());
     auto constants = pt::specialization_constants(gpu_scene.features);
     constants[pt::gpu::ID_KNOWN_SIDES] = 0;
