@@ -41,9 +41,9 @@ void require_files(const RenderOptions &options) {
     }
 }
 
-class Watch {
+class WatchedRender {
 public:
-    Watch(const RenderOptions &options, ValidationLog &log) :
+    WatchedRender(const RenderOptions &options, ValidationLog &log) :
         options_(options),
         log_(log),
         sources_(options.scene, options.shader_dir) {}
@@ -168,7 +168,7 @@ private:
 int watch(const RenderOptions &options, ValidationLog &log) {
     require_files(options);
     catch_interrupts();
-    return Watch(options, log).run();
+    return WatchedRender(options, log).run();
 }
 
 } // namespace cli

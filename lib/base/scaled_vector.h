@@ -1,4 +1,4 @@
-// Vectors whose squared length may be beyond double, made harmless. Used by scene and camera for directions.
+// Vectors of pt.h; those whose squared length may be beyond double, made harmless. Used by scene and camera.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -7,6 +7,10 @@
 #include <cmath>
 
 namespace pt {
+
+inline glm::dvec3 vector(const double (&components)[3]) {
+    return {components[0], components[1], components[2]};
+}
 
 // A vector times 2^-exponent, its largest component in [1/2, 1). Powers of two round nothing (components below
 // 2^-1000 of the largest apart), so vectors that differ by one of them have the same direction to the last bit.

@@ -24,10 +24,6 @@ constexpr double min_sine = 0x1p-26;
 // largest double below pi leaves a distance above 1e-16.
 constexpr double min_vertical_fov = 1e-8;
 
-glm::dvec3 vector(const double (&components)[3]) {
-    return {components[0], components[1], components[2]};
-}
-
 const char *fov_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";

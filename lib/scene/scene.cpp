@@ -21,10 +21,6 @@ glm::vec3 colour(const float (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-glm::dvec3 vector(const double (&components)[3]) {
-    return {components[0], components[1], components[2]};
-}
-
 // Up to 1e18 the product of two colours is a float32 number: 1e36 < 2^128 = 3.4e38.
 const char *colour_rule(double value) {
     if (!std::isfinite(value))
