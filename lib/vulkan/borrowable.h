@@ -14,7 +14,7 @@ public:
     static Borrowable owned(Object object) { return {std::move(object), true}; }
     static Borrowable borrowed(Object object) { return {std::move(object), false}; }
 
-    Borrowable(Borrowable &&) = default;
+    Borrowable(Borrowable &&) noexcept = default;
     Borrowable &operator=(Borrowable &&) = delete;
     ~Borrowable() {
         if (!owned_)

@@ -188,6 +188,15 @@ std::optional<std::size_t> same_device_among(std::span<const pt_device_info> dev
     return found == chosen.end() ? std::nullopt : std::optional(*found);
 }
 
+Error named_twice(const std::string &wanted, const std::string &item, const pt_device_info &device, std::size_t index) {
+    return {PT_ERROR_INVALID_ARGUMENT,
+            BrokenRule{.subject = "create",
+                       .member = "device",
+                       .value = '"' + wanted + '"',
+                       .rule = "must not name a device twice: " + item + " is device " + std::to_string(index) + " (" +
+                               device.name + "), which is in the list already"}};
+}
+
 // The best one that fits, and those that are of its kind.
 std::vector<std::size_t> all_of_the_best_kind(std::span<const pt_device_info> devices) {
     const std::uint32_t kind = devices[choose_device(devices, "")].kind;
@@ -207,13 +216,7 @@ std::vector<std::size_t> choose_devices(std::span<const pt_device_info> devices,
     for (const std::string &item : listed(wanted)) {
         const std::size_t index = choose_device(devices, item);
         if (const std::optional<std::size_t> same = same_device_among(devices, chosen, index))
-            throw Error(PT_ERROR_INVALID_ARGUMENT,
-                        BrokenRule{.subject = "create",
-                                   .member = "device",
-                                   .value = '"' + wanted + '"',
-                                   .rule = "must not name a device twice: " + item + " is device " +
-                                           std::to_string(*same) + " (" + devices[*same].name +
-                                           "), which is in the list already"});
+            throw named_twice(wanted, item, devices[*same], *same);
         chosen.push_back(index);
     }
     return chosen.empty() ? std::vector{choose_device(devices, wanted)} : chosen;

@@ -140,7 +140,7 @@ protected:
                                          vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
         const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
         const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
-        std::vector<std::uint32_t> words(pt::Film::words_per_pixel);
+        std::vector<std::uint32_t> words(pt::PixelSums::words_per_pixel);
         const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv, bindings, sizeof push, {});
         Buffer unused(device(), BufferUse::UniformOrStorage, 256, "unused");
         Buffer film(device(), BufferUse::Storage, words.size() * sizeof(std::uint32_t), "film");
