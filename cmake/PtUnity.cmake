@@ -1,0 +1,21 @@
+# With PT_UNITY, the sources of a folder are compiled as one file: most of the time of a compiler, and of clang-tidy, goes
+# into headers. For the presets whose builds are not for use. Names in anonymous namespaces must differ within a file.
+option(PT_UNITY "Compile the sources of each folder of the library and the program as one file" OFF)
+
+# pt_unite_folders(TARGET [folders that are compiled as one])
+function(pt_unite_folders target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PT_UNITY} UNITY_BUILD_MODE GROUP)
+  if(PT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage) # a fault of headers, for which it takes the sources
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    cmake_path(GET source PARENT_PATH folder)
+    if(folder IN_LIST ARGN)
+      list(JOIN ARGN _ folder)
+    endif()
+    if(source MATCHES "\\.cpp$" AND folder)
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
+    endif()
+  endforeach()
+endfunction()
