@@ -2,7 +2,8 @@
 # From a fresh clone on a bare Debian 12 to programs, a picture or passed tests:
 #   sh cmake/quickstart.sh render   builds the program for PNG and renders the coursework scene to coursework.png
 #   sh cmake/quickstart.sh build    builds the library, the program with all its parts and the examples into build/
-#   sh cmake/quickstart.sh test     builds everything and runs all tests: with the validation layer, then with sanitizers
+#   sh cmake/quickstart.sh test     builds everything and runs all tests: with the validation layer, then with sanitizers;
+#                                   and looks over the library and the program by clang-tidy
 # Each installs the packages that it needs, as root or through sudo. Without apt-get, install the equivalents first.
 set -eu
 cd "$(dirname "$0")/.."
@@ -11,7 +12,8 @@ render_packages="g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang
     libglm-dev libxxhash-dev libpng-dev nlohmann-json3-dev libcli11-dev"
 # EXR and JPEG, kernels compiled while a program runs, and Debian packages.
 build_packages="$render_packages pkg-config libopenimageio-dev glslang-dev dpkg-dev file"
-test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 doxygen"
+test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 doxygen clang-format-14
+    clang-tidy-14"
 
 install_packages() { # package...
     command -v apt-get >/dev/null || return 0
@@ -34,13 +36,21 @@ build() { # preset, whether with tests [cmake --build arguments]
     cmake --build --preset "$preset" "$@"
 }
 
-# Both halves run, whatever becomes of the first; the exit status is the worse of the two.
+# To build is the test of tidy.
+check() { # preset
+    case $1 in
+    tidy) build tidy OFF ;;
+    *) build "$1" ON && ctest --preset "$1" ;;
+    esac
+}
+
+# All run, whatever becomes of those before; the exit status is the worst of them.
 test_all() {
     worst=0
     report=
-    for preset in release sanitize; do
+    for preset in release sanitize tidy; do
         status=0
-        build "$preset" ON && ctest --preset "$preset" || status=$?
+        check "$preset" || status=$?
         [ "$status" -le "$worst" ] || worst=$status
         report="$report
 quickstart: $preset: $([ "$status" -eq 0 ] && echo passed || echo "FAILED with exit status $status")"
@@ -66,7 +76,7 @@ test)
     test_all
     ;;
 *)
-    sed -n 's/^# \{0,1\}//; 2,6p' "$0" >&2
+    sed -n 's/^# \{0,1\}//; 2,7p' "$0" >&2
     exit 2
     ;;
 esac

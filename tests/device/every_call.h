@@ -3,7 +3,11 @@
 
 #include "tests/device/api_fixture.h"
 
+#include <pt/accuracy.h>
+#include <pt/devices.h>
 #include <pt/pt.h>
+#include <pt/shaders.h>
+#include <pt/stats.h>
 
 #include <cstdint>
 #include <functional>

@@ -79,13 +79,16 @@ class Quickstart(unittest.TestCase):
         self.run_script("render", installed=f"cmake g++ {everything}")
         self.assertFalse([line for line in self.lines if line.startswith("apt-get")])
 
-    def test_both_halves_of_the_tests_run_and_the_worse_status_counts(self):
-        steps = [f"{step} {preset}" for preset in ("release", "sanitize")
+    def test_all_parts_of_the_tests_run_and_the_worst_status_counts(self):
+        presets = ("release", "sanitize", "tidy")
+        steps = [f"{step} {preset}" for preset in presets
                  for step in ("cmake --preset", "cmake --build --preset", "ctest --preset")]
+        steps.remove("ctest --preset tidy")  # it has none
         for failing, status, left_out, failed in (
                 ("", 0, [], []),
                 ("ctest --preset release=8", 8, [], ["release"]),
                 ("ctest --preset sanitize=8", 8, [], ["sanitize"]),
+                ("cmake --build --preset tidy=1", 1, [], ["tidy"]),
                 ("cmake --build --preset release=1", 1, ["ctest --preset release"], ["release"]),
                 ("cmake --preset release=1", 1, ["ctest --preset release", "cmake --build --preset release"],
                  ["release"]),
@@ -95,9 +98,9 @@ class Quickstart(unittest.TestCase):
                  ["release", "sanitize"])):
             with self.subTest(failing=failing):
                 self.assertEqual(self.run_script("test", failing=failing), status)
-                ran = [line.removesuffix(" -DPT_BUILD_TESTS=ON") for line in self.lines if "apt-get" not in line]
+                ran = [line.split(" -DPT_BUILD_TESTS=")[0] for line in self.lines if "apt-get" not in line]
                 self.assertEqual(ran, [step for step in steps if step not in left_out])
-                for preset in "release", "sanitize":
+                for preset in presets:
                     self.assertRegex(self.output, f"quickstart: {preset}: " +
                                      ("FAILED with exit status" if preset in failed else "passed"))
 
