@@ -1,5 +1,6 @@
 """Tests that cli/README.md says what the program does: its examples run, its tables have every command, option, key and
-exit code, and the ranges that it names are those that are kept. Arguments: see command_line.py."""
+exit code, and the ranges that it names are those that are kept. The first scene of README.md runs too. Arguments: see
+command_line.py."""
 
 import json
 import os
@@ -118,6 +119,19 @@ class RealDevice(CommandLineTest):
                 self.expect(0, *command[1:])
         for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg", "bench.json":
             self.assertIn(name, self.files())
+
+    def test_the_first_scene_of_the_readme(self):
+        with open(os.path.join(SCENES, "..", "..", "README.md"), encoding="utf-8") as file:
+            readme = file.read()
+        scene, = re.findall(r"```json\n(.*?)```", readme, re.DOTALL)
+        self.write("ball.json", scene)
+        commands = re.findall(r"^build/bin/pt (render ball.json .*?)(?: +#.*)?$", readme, re.MULTILINE)
+        self.assertEqual(len(commands), 3)
+        for command in commands:
+            if "--watch" not in command:
+                self.expect(0, *command.split(), "--size", "48x24")
+                self.assertEqual(self.errors, "")
+        self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
 
     def render_scene(self, code, section, values):
         self.write("s.json", scene_with(section, values))
