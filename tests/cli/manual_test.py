@@ -115,8 +115,9 @@ class RealDevice(CommandLineTest):
                     for line in block.splitlines() if line.startswith("pt ")]
         self.assertGreater(len(commands), 5)
         for command in commands:
+            smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
             if "--watch" not in command:  # which does not end by itself
-                self.expect(0, *command[1:])
+                self.expect(0, *command[1:], *smaller)
         for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg", "bench.json":
             self.assertIn(name, self.files())
 
