@@ -53,7 +53,8 @@ TEST_F(ApiTest, ReadbackNeedsSamples) {
     set_all();
     std::vector<float> pixels(width * height * 3, -1.0F);
     const pt_image target = tight_image(pixels);
-    expect_failure(pt_readback(context(), &target), PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
+    expect_failure(pt_readback(context(), &target), PT_ERROR_INVALID_STATE,
+                   "no samples yet: call pt_accumulate or pt_add_film first");
     EXPECT_EQ(pixels, std::vector<float>(pixels.size(), -1.0F));
 }
 

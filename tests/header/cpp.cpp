@@ -3,9 +3,11 @@
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
+#include <pt/film.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
+#include <pt/vulkan.h>
 
 #include <type_traits>
 
