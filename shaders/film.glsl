@@ -33,7 +33,7 @@ FilmPixel empty_film_pixel()
 // exact here.
 const vec4 WINDOW_BIASES = vec4(536870912.0, 192.0, 4.57763671875e-5, 1.0913936421275139e-11);
 
-// The biases' own bits are in too; they are taken off once, from the sum, which counts modulo 2^32.
+// These sums contain the bits of the biases too. They are subtracted once at the end, which is exact modulo 2^32.
 uvec4 windows_of(float value)
 {
     precise float a = value + WINDOW_BIASES.x;
@@ -88,8 +88,8 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to the sum whose least significant word is words[first], its words lying stride apart. The most significant one
-// hardly ever changes, and memory is what an invocation's end costs.
+// Adds to the sum whose least significant word is words[first] and whose words lie stride apart. The most significant
+// word hardly ever changes and is then not written: the end of an invocation spends its time on memory.
 void film_store_sum(uint first, uint stride, uvec4 sum)
 {
     uvec4 old = uvec4(film.words[first], film.words[first + stride], film.words[first + 2u * stride], 0u);

@@ -1,4 +1,4 @@
-// Rays against spheres and planes, without epsilons: a ray carries the surface that it leaves. Used by path.glsl.
+// Rays against spheres and planes, without epsilons: a ray carries the surface that it leaves.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
@@ -7,9 +7,9 @@
 // Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
 const float NO_HIT = 3.0e38;
 
-// Surfaces are opaque, so a path stays on the side of each on which the camera is, at the path's time. Where that is of
-// use (KNOWN_SIDES) the camera tells the sides. The place of a vertex would tell them wrongly for surfaces that the
-// vertex all but touches: by rounding it may be behind one that stands a little behind its own, and the path would stop
+// Surfaces are opaque, so that a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES
+// the side is taken from the camera. Taken from the place of a vertex it would be wrong for surfaces that the vertex
+// nearly touches: rounding may put the vertex behind a surface that stands just behind its own, and the path would end
 // there, or leak out of a room.
 
 // How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
@@ -58,12 +58,12 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 }
 
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
-// ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of
-// k / 2 t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
+// ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of k / 2
+// t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
 // cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
-// wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0.
-// Far above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the
-// ray: the squared length of the gradient is 1 + 2 k h. side: the height of the camera, above a plane that is flat. Where it
+// wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0. Far
+// above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the ray:
+// the squared length of the gradient is 1 + 2 k h. side: the height of the camera, above a plane that is flat. Where it
 // tells the side, a ray that leads towards the surface meets it, at a negative distance if rounding has put the ray's
 // origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)

@@ -1,4 +1,4 @@
-// One path: the light that a sample carries to its pixel. Used by pathtrace.comp.
+// One path: the light that a sample carries to its pixel.
 #ifndef PATH_GLSL
 #define PATH_GLSL
 
@@ -9,8 +9,8 @@
 #include "phong.glsl"
 #include "vertex.glsl"
 
-// Lamps are sampled where there are any and the estimator does so: at the first vertex every one of a few, else and at
-// others one that is chosen.
+// Lamps are sampled if there are any and the estimator does so: all of them at the first vertex if they are few;
+// otherwise, and at later vertices, one that is chosen.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
 const bool SAMPLE_ONE_LAMP = SAMPLE_LAMPS && LAMP_COUNT > EVERY_LAMP_LIMIT;
@@ -50,7 +50,7 @@ LampLight no_lamp_light()
     return LampLight(ShadowRay(vec3(0.0), 0.0, NO_SURFACE), vec3(0.0), 0.0);
 }
 
-// Light of a lamp of which a vertex takes a number of samples, directions being taken so often at the same vertex.
+// Light of a lamp, of which the vertex takes a number of samples, while a number of directions leave the same vertex.
 LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
                         float samples, float directions)
 {

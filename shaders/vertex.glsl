@@ -1,4 +1,4 @@
-// The point of a surface that a path has reached. Used by phong.glsl, lights.glsl and path.glsl.
+// The point of a surface that a path has reached.
 #ifndef VERTEX_GLSL
 #define VERTEX_GLSL
 

@@ -1,5 +1,4 @@
-// Owns one pt_context and turns its failures into Failure.
-// Called by render_command, bench_command and selftest_command.
+// One pt_context, whose failures are thrown as Failure.
 #pragma once
 
 #include "cli/base/exit_code.h"
@@ -31,14 +30,14 @@ public:
     pt_context *get() const { return context_; }
     LibraryError last_error() const { return cli::last_error(context_); }
 
-    // For calls whose arguments the user has no part in, or named on the command line.
+    // For calls whose arguments do not come from the scene file.
     void require(pt_result result) const {
         if (result < 0) {
             throw Failure(code_of(result), in_words_of_options(last_error()));
         }
     }
 
-    // Without a read-out of the image.
+    // Samples so far. Cheap: unlike read_stats(), it reads nothing back.
     std::uint32_t sample_count() const {
         pt_stats stats{};
         stats.struct_size = offsetof(pt_stats, rmse);
@@ -46,7 +45,7 @@ public:
         return stats.sample_count;
     }
 
-    // Includes the estimate of the error, which takes a read-out of the image.
+    // With the estimate of the error, for which the image is read back.
     pt_stats read_stats() const {
         pt_stats stats{};
         stats.struct_size = sizeof(pt_stats);
@@ -73,7 +72,7 @@ public:
     }
 
 private:
-    // Shaders that the user gave are what a scene file is: the user's to mend.
+    // Shaders of --shader-dir are the user's to mend, like a scene file.
     ExitCode code_of(pt_result result) const {
         return result == PT_ERROR_SHADER && has_given_shaders_ ? ExitCode::scene : exit_code_of(result);
     }

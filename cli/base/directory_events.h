@@ -11,8 +11,8 @@ namespace cli {
 class DirectoryEvents {
 public:
     enum class Method {
-        // By inotify, if the system has a watch left. It does not see what other machines change, so that there is also a
-        // look at intervals.
+        // By inotify, if the system has a watch left. It does not see what other machines change, so that there is also
+        // a look at intervals.
         notified,
         polled // a look four times a second
     };

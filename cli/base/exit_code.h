@@ -1,5 +1,4 @@
-// Owns the program's exit codes and the exception that carries one to main.
-// Called by everything in cli/; the list in `pt --help` repeats it.
+// The program's exit codes, and the exception that carries one to main.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,3 @@
-// What fields of pt.h are called where users give them; see field_names.h.
 #include "cli/base/field_names.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// The library's errors, read and put into words; see library_error.h.
 #include "cli/base/library_error.h"
 
 #include <pt/errors.h>

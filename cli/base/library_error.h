@@ -1,5 +1,5 @@
-// Owns the library's last error as the command line uses it: the broken rules are data, and its words are put together
-// anew, in those of whoever gave the value.
+// The library's last error as the command line uses it: the broken rules come as data, and are put into the words of
+// whoever gave the value.
 #pragma once
 
 #include <pt/pt.h>

@@ -45,7 +45,7 @@ public:
     // The module turned out to be unusable: a long rendering may as well stop.
     bool failed() const { return failed_; }
 
-    // Waits until load_module(), if it was called, is done. Throws Failure(ExitCode::internal) if it failed.
+    // Waits until load_module() is done, if it was called. Throws Failure(ExitCode::internal) if it failed.
     void wait() const {
         if (encode_.valid()) {
             encode_.get();

@@ -1,6 +1,6 @@
-// Owns the interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261
-// shared objects and 0.2 s are paid only when an image is read, or written in another format than PNG. Called by
-// image_file.cpp, implemented by image_module.cpp. Plain C types, no exceptions across it.
+// The interface between the program and the module libpt-image-file.so, which alone links OpenImageIO: its 261 shared
+// objects and 0.2 s are paid only when an image is read, or written in another format than PNG. Plain C types, and no
+// exception crosses it.
 #pragma once
 
 #include <cstddef>

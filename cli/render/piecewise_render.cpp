@@ -1,5 +1,3 @@
-// Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole.
-// Called by render_picture.
 #include "cli/render/piecewise_render.h"
 
 #include "cli/render/progress_observer.h"

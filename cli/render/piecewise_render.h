@@ -1,6 +1,5 @@
-// Owns the rendering of an image in pieces of rows, one after the other, where a device has no memory for the whole. A
-// sample does not depend on the piece that it is taken in: the image has the same bits.
-// Called by render_picture.
+// Renders an image in pieces of rows, one after the other, where a device has no memory for the whole. A sample does
+// not depend on the piece in which it is taken: the image has the same bits.
 #pragma once
 
 #include "cli/base/context.h"

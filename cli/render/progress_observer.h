@@ -1,5 +1,4 @@
-// Owns the progress of a rendering, or of one piece of it: what is told of the samples done, and of how many there will be.
-// Called by the render loop.
+// Shows the progress of a rendering, or of one piece of it: samples done, and how many there will be.
 #pragma once
 
 #include "cli/base/progress.h"

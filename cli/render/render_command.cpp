@@ -1,5 +1,3 @@
-// Owns `pt render`: scene file and options in, images out.
-// Called by main.
 #include "cli/render/render_command.h"
 
 #include "cli/base/exit_code.h"

@@ -1,5 +1,4 @@
-// Owns `pt render`: scene file and options in, images out.
-// Called by main.
+// The command `pt render`: scene file and options in, images out.
 #pragma once
 
 #include "cli/render/render_options.h"

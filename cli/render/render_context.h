@@ -1,5 +1,4 @@
-// Owns what the options of `pt render` say about its context, and the messages of the validation layer.
-// Called by render_command and watch_command.
+// What the options of `pt render` say about its context, and the messages of the validation layer.
 #pragma once
 
 #include "cli/base/message.h"

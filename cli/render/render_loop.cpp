@@ -1,4 +1,3 @@
-// The loop of `pt render`; see render_loop.h.
 #include "cli/render/render_loop.h"
 
 #include "cli/render/step_length.h"

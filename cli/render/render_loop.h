@@ -1,6 +1,5 @@
-// Owns the loop of `pt render`: samples are taken in steps, between which observers look at what there is. However they are
+// The loop of `pt render`: samples are taken in steps, between which observers look at what there is. However they are
 // split, the image has the same bits.
-// Called by piecewise_render.
 #pragma once
 
 #include "cli/base/context.h"

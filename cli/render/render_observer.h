@@ -1,5 +1,5 @@
-// Owns what the render loop tells and asks between its steps: progress, rules that stop it, and whatever else looks at an
-// image that is being rendered are observers, each in a file of its own.
+// The interface between the render loop and what looks at an image while it is rendered: progress, rules that stop it,
+// and whatever comes next, each in a file of its own.
 #pragma once
 
 #include <pt/stats.h>

@@ -1,5 +1,3 @@
-// Owns the options of `pt render`: their names, help and syntax.
-// Called by main; read by render_command and render_settings.
 #include "cli/render/render_options.h"
 
 #include "cli/base/common_options.h"

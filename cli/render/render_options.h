@@ -1,5 +1,4 @@
-// Owns the options of `pt render`: their names, help and syntax.
-// Called by main; read by render_command and render_settings.
+// The options of `pt render`: their names, help and syntax.
 #pragma once
 
 #include "cli/base/number.h"

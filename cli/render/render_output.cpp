@@ -1,5 +1,3 @@
-// Owns the outputs of a rendering: the checks before it, the images after it.
-// Called by render_command.
 #include "cli/render/render_output.h"
 
 #include "cli/base/atomic_file.h"

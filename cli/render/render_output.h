@@ -1,5 +1,4 @@
-// Owns the outputs of a rendering: the checks before it, the images after it.
-// Called by render_command.
+// The outputs of a rendering: checks before it, images after it.
 #pragma once
 
 #include "cli/image/image_file.h"

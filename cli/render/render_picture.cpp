@@ -1,5 +1,3 @@
-// Owns one rendering on a context: from a scene to the files of its picture.
-// Called by render_command and watch_command.
 #include "cli/render/render_picture.h"
 
 #include "cli/base/device_text.h"

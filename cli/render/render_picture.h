@@ -1,5 +1,4 @@
-// Owns one rendering on a context: from a scene to the files of its picture.
-// Called by render_command and watch_command.
+// One rendering on a context: from a scene to the files of its picture.
 #pragma once
 
 #include "cli/base/context.h"

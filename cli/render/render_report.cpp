@@ -1,5 +1,3 @@
-// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
-// Called by render_command.
 #include "cli/render/render_report.h"
 
 #include "cli/base/device_text.h"

@@ -1,5 +1,4 @@
-// Owns the facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
-// Called by render_command.
+// The facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
 #pragma once
 
 #include "cli/image/image_module.h"
@@ -54,7 +53,8 @@ std::string error_text(const RenderReport &report);
 // Attributes of the image file, which keep the texts that they point to.
 class ImageMetadata {
 public:
-    // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing was.
+    // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing
+    // was.
     ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
     ImageMetadata(const ImageMetadata &) = delete;
     ImageMetadata &operator=(const ImageMetadata &) = delete;

@@ -1,5 +1,4 @@
-// Owns the guess of how many samples a target error takes, for the progress that is shown on the way.
-// Called by progress_observer.
+// Guesses how many samples a target error takes, for the progress that is shown on the way.
 #pragma once
 
 #include <pt/stats.h>

@@ -1,5 +1,3 @@
-// Owns the answer to whether the files of a picture have changed since it was begun.
-// Called by watch_command.
 #include "cli/render/source_watch.h"
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// Owns the answer to whether the files of a picture have changed since it was begun.
-// Called by watch_command.
+// Tells whether the files of a picture have changed since it was begun.
 #pragma once
 
 #include "cli/base/directory_events.h"

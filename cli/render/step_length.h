@@ -1,5 +1,4 @@
-// Owns the rule of how many samples a step of the render loop takes.
-// Called by render_loop.
+// How many samples a step of the render loop takes.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +7,8 @@
 
 namespace cli {
 
-// The device idles for a moment between steps, and its work is cut best where it has samples to choose from. So a step has
-// no fewer than the first one, and takes about so long.
+// The device idles for a moment between steps, and its work is cut best where it has samples to choose from. So a step
+// has no fewer than the first one, and takes about so long.
 inline constexpr std::uint32_t first_step_length = 16;
 inline constexpr double step_seconds = 2.0;
 

@@ -1,5 +1,4 @@
-// Owns the end of rendering by what happens outside of it.
-// Called by the render loop.
+// Ends a rendering when a signal has come, or when nothing would become of its samples.
 #pragma once
 
 #include "cli/render/render_observer.h"

@@ -1,5 +1,3 @@
-// Owns `pt render --watch`: the picture is rendered again whenever its sources change, on one context.
-// Called by render_command.
 #include "cli/render/watch_command.h"
 
 #include "cli/base/context.h"

@@ -1,5 +1,4 @@
-// Owns `pt render --watch`: the picture is rendered again whenever its sources change, on one context.
-// Called by render_command.
+// The option --watch of `pt render`: the picture is rendered again whenever its sources change, on one context.
 #pragma once
 
 #include "cli/render/render_context.h"

@@ -1,5 +1,3 @@
-// Owns the merge of command line, scene file and defaults, in this order of rank.
-// Called by render_command.
 #include "cli/scene/render_settings.h"
 
 #include "cli/base/field_names.h"
@@ -29,7 +27,7 @@ void limit_samples(RenderSettings &settings) {
                                            std::to_string(settings.sample_count) +
                                            " samples from there on would pass the last index, 4294967295");
     }
-    settings.sample_count = static_cast<std::uint32_t>(left); // is the most that may be taken
+    settings.sample_count = static_cast<std::uint32_t>(left); // with a target it is only an upper limit
 }
 
 } // namespace

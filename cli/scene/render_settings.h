@@ -1,5 +1,4 @@
-// Owns the merge of command line, scene file and defaults, in this order of rank.
-// Called by render_command.
+// Merges the command line, the scene file and the defaults: the first that has a value counts.
 #pragma once
 
 #include "cli/base/exit_code.h"

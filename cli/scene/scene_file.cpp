@@ -1,5 +1,3 @@
-// Owns the scene file: JSON -> the structs of pt.h. Checks names, types and units; whether values make a scene is
-// the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
 #include "cli/scene/scene_file.h"
 
 #include "cli/base/exit_code.h"
@@ -69,7 +67,7 @@ public:
     void begin_section(const JsonPlace &place, json::value_t kind) override;
     void item(const JsonPlace &place, const json &value) override { (this->*read_item_)(place, value); }
 
-    // What can be said only at the end of the file.
+    // Checks what can be known only at the end of the file, and resolves the names of materials.
     void finish();
 
 private:

@@ -1,5 +1,5 @@
-// Owns the scene file: JSON -> the structs of pt.h. Checks names, types and units; whether values make a scene is
-// the library's to say, and explain() leads its messages back to the file. Called by render_command, render_settings.
+// The scene file: JSON -> the structs of pt.h. Names, types and units are checked here, the rules of a scene by the
+// library; explain() leads its messages back to the file.
 #pragma once
 
 #include "cli/base/library_error.h"

@@ -1,5 +1,3 @@
-// Owns the handing over of scene, camera and settings to the library, and who is to blame for what it refuses.
-// Called by render_command and bench_command.
 #include "cli/scene/scene_setup.h"
 
 #include "cli/base/exit_code.h"
@@ -7,7 +5,7 @@
 namespace cli {
 namespace {
 
-// The scene file's author is the one who can mend what the library refuses here.
+// What the library refuses here came from the scene file.
 void require_scene(const Context &context, const SceneFile &file, pt_result result) {
     if (result < 0) {
         const ExitCode code = result == PT_ERROR_INVALID_ARGUMENT ? ExitCode::scene : exit_code_of(result);

@@ -1,5 +1,4 @@
-// Owns the handing over of scene, camera and settings to the library, and who is to blame for what it refuses.
-// Called by render_command and bench_command.
+// Hands scene, camera and settings to the library, and explains what it refuses in the words of whoever gave the value.
 #pragma once
 
 #include "cli/base/context.h"
@@ -8,7 +7,7 @@
 
 namespace cli {
 
-// All throw Failure: a rule that the scene file breaks is explained in the file's words.
+// All throw Failure. A rule that the scene file breaks is explained by its keys and lines.
 void describe_scene(const Context &context, const SceneFile &file); // and camera
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
 void require_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);

@@ -24,8 +24,8 @@ namespace pt {
 
 namespace {
 
-// The last call on a context that this thread made, if it was refused because the context was in use. It has a message
-// of its own, since the context's belongs to the call that is under way.
+// This thread's last call on a context, if it was refused because the context was in use. The message is kept here,
+// because the context's own belongs to the call that is under way.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -49,12 +49,13 @@ pt_result guard_context(pt_context *context, Call &&call) noexcept {
     refusal.forget(context);
     const pt_result result = guard(context->last_error, [&] { return call(context->renderer); });
     if (result < PT_OK)
-        refusal.forget(context); // of a call from a callback of this one, which has failed since
+        refusal.forget(context); // a call from a callback may have been refused meanwhile; this failure is newer
     context->in_use.release();
     return result;
 }
 
-// Nothing else can be done: what is in use cannot be freed. A log function that destroys its context is told once.
+// What is in use cannot be freed, so that pt_destroy can only say so. It does once: the log function itself may call
+// pt_destroy.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
     const bool told = refusal.context == &context;
     refusal = {&context, reason};
@@ -152,7 +153,7 @@ void pt_destroy(pt_context *context) {
     }
     pt::refusal.forget(context);
     const pt::DefaultRounding rounding;
-    delete context; // still taken: what its callbacks call is refused
+    delete context; // while still marked as in use, so that calls from its callbacks are refused
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {

@@ -1,4 +1,5 @@
-// What is behind a pt_context, and what it is made of. Made by api.cpp, and by tests whose settings no program can ask for.
+// What is behind a pt_context, and what it is made of. Made by api.cpp, and by tests whose settings no program can ask
+// for.
 #pragma once
 
 #include "lib/api/guard.h"
@@ -11,13 +12,13 @@ struct pt_context {
     explicit pt_context(const pt::CreateSettings &settings) : renderer(settings) {}
 
     mutable pt::InUse in_use;
-    pt::LastError last_error; // of calls that were not refused because of in_use; outlives the renderer, which may log
+    pt::LastError last_error; // of calls other than those refused by in_use; outlives the renderer, which may log
     pt::Renderer renderer;
 };
 
 namespace pt {
 
-// Of the calls without a context that this thread made.
+// The last error of this thread's calls without a context.
 extern thread_local LastError thread_last_error;
 
 // Throws PT_ERROR_INVALID_ARGUMENT with a line for each rule of pt.h that is broken.

@@ -1,12 +1,12 @@
-// The rounding mode that the library computes in, whatever the caller's is. Used by guard.h and api.cpp.
+// The rounding mode that the library computes in, whatever the caller's is.
 #pragma once
 
 #include <cfenv>
 
 namespace pt {
 
-// While it lives, this thread rounds to nearest. Threads started meanwhile inherit that: a driver's, which build kernels
-// and run them.
+// While it lives, this thread rounds to nearest. Threads started meanwhile inherit that: a driver's, which build
+// kernels and run them.
 class DefaultRounding {
 public:
     DefaultRounding() noexcept : callers_(std::fegetround()) { set(FE_TONEAREST); }
@@ -15,7 +15,7 @@ public:
     DefaultRounding &operator=(const DefaultRounding &) = delete;
 
 private:
-    // To ask is cheap, to set is not.
+    // Reading the mode is cheap, setting it is not.
     void set(int mode) const noexcept {
         if (callers_ != FE_TONEAREST)
             std::fesetround(mode);

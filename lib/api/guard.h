@@ -1,5 +1,5 @@
 // Where exceptions end: turns them into a pt_result, with a message for pt_last_error and the broken rules for
-// pt_get_broken_rule. Used by api.cpp alone.
+// pt_get_broken_rule.
 #pragma once
 
 #include "lib/api/default_rounding.h"
@@ -41,9 +41,9 @@ private:
     std::shared_ptr<const BrokenRules> broken_rules_;
 };
 
-// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. What a caller's callback
-// throws ends here too, as PT_ERROR_INTERNAL with its message: it cannot be let through, since the caller may be C. The
-// samples taken before it was thrown stay, as if the callback had asked to stop.
+// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception from a
+// caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may be
+// written in C. Samples taken before it stay, as if the callback had asked to stop.
 template <typename Call>
 pt_result guard(LastError &last_error, Call &&call) noexcept {
     const auto failed = [&](pt_result code, std::string_view message) {

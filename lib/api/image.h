@@ -1,4 +1,4 @@
-// Where a caller wants an image, checked against its size. Made by api.cpp for Renderer::readback.
+// Where a caller wants an image, checked against its size.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,4 +1,4 @@
-// Whose call a context is in: its samples, and Vulkan beneath them, want one call at a time. Owned by pt_context.
+// Which thread has a call on a context under way: neither the film nor Vulkan allows two calls at a time.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@ namespace pt {
 
 class InUse {
 public:
-    // Takes the context for a call of this thread and returns NULL, or says why it is not to be had.
+    // Takes the context for a call of this thread and returns NULL, or returns why that is not possible.
     const char *take() noexcept {
         std::thread::id user; // nobody
         if (user_.compare_exchange_strong(user, std::this_thread::get_id(), std::memory_order_acquire))

@@ -1,5 +1,4 @@
-// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default. Used
-// by api.cpp to read the caller's structs and to write the results.
+// The growth rule of the structs in pt.h: they begin with struct_size, grow at the tail, and zero means default.
 #pragma once
 
 #include "lib/base/error.h"
@@ -12,8 +11,8 @@
 
 namespace pt {
 
-// A struct of this library has tens of bytes; a larger size than this is an uninitialised field, and believing it would
-// mean to read memory that is not the caller's.
+// Structs of this library have tens of bytes. A larger size than this must be an uninitialised field, and believing it
+// would mean reading memory that is not the struct's.
 constexpr std::uint32_t max_struct_size = 65536;
 
 constexpr bool is_struct_size(std::uint32_t size) {
@@ -62,7 +61,8 @@ T copy_in(const T *user, const char *name) {
     return copy;
 }
 
-// Writes a result into as much of the caller's struct, of size bytes, as both sides know. The caller's struct_size stays.
+// Writes a result into as much of the caller's struct, of size bytes, as both sides know. The caller's struct_size
+// stays.
 template <typename T>
 void copy_known(const T &result, T *user, std::uint32_t size) noexcept {
     constexpr std::size_t first = sizeof result.struct_size;

@@ -12,8 +12,8 @@ struct Log {
     pt_log_fn function = nullptr;
     void *user = nullptr;
 
-    // Passes on a message line by line. Never throws, whatever the function does: drivers and layers call this from
-    // within, and their frames are not to be unwound. A line that cannot be delivered is dropped.
+    // Passes on a message line by line. Never throws, whatever the function does: drivers and layers call this, and
+    // no exception may unwind their frames. A line that cannot be delivered is dropped.
     void write(int32_t level, const std::string &message) const noexcept {
         if (!function)
             return;
@@ -28,8 +28,8 @@ struct Log {
         }
     }
 
-    // Passes on what the caller may want to know, and makes it only if there is somebody to hear of it. What becomes of
-    // it decides nothing: a message that cannot be made is dropped.
+    // Passes on what message() returns, which is called only if there is a log function. Nothing depends on such a
+    // message: if there is no memory for it, it is dropped.
     template <typename Message>
     void info(Message &&message) const noexcept {
         if (!function)

@@ -1,4 +1,4 @@
-// A mixing function of 64 bits, for seeds. Used by gpu_scene.cpp and point_sequence.cpp.
+// A mixing function of 64 bits, for seeds.
 #pragma once
 
 #include <cstdint>

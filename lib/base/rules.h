@@ -1,5 +1,4 @@
-// Rules for the caller's numbers, and the list of those that were broken. Used by scene, camera, render_settings,
-// image and api.cpp.
+// Rules for the caller's numbers, and the list of those that were broken.
 #pragma once
 
 #include "lib/base/broken_rule.h"
@@ -46,7 +45,8 @@ private:
     BrokenRules broken_;
 };
 
-// A field of a struct, or the one of several that enter the value by which the others can be found: {"width", "* height"}.
+// A field of a struct, or the one of several that enter the value by which the others can be found: {"width", "*
+// height"}.
 struct Member {
     Member(const char *field, const char *others = "") : name(field), with(others) {} // so that a name alone is one
 

@@ -1,4 +1,4 @@
-// Vectors of pt.h; those whose squared length may be beyond double, made harmless. Used by scene and camera.
+// Vectors of pt.h; those whose squared length may be beyond double, made harmless.
 #pragma once
 
 #include <glm/glm.hpp>

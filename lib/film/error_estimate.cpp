@@ -70,9 +70,9 @@ double squared_limit(double mean, double standard_error, double median) {
     // The square of the mean exceeds that of the limit by the variance, on average, and the square of the standard
     // error is what estimates the variance, so their difference has the right expectation. (For equal parts it is the
     // product of their means.) It keeps a pixel with a rare bright sample, a firefly, from hiding its error by it.
-    // Half as much again is taken off, since the error is divided by it, and of the two the larger goes with the
-    // larger. Where it happens to be small, the neighbours know better, and a fraction of the mean bounds what is
-    // made of a pixel that a single sample lit.
+    // Half as much again is taken off: the limit and the error correlate positively, so that dividing by the unbiased
+    // limit would bias the ratio low; 1.5 was calibrated. Where the difference happens to be small, the neighbours give
+    // a better limit, and a fraction of the mean bounds what a pixel counts that a single sample lit.
     const double least = 0.25 * mean;
     const double limit =
         std::max({mean * mean - 1.5 * standard_error * standard_error, median * median, least * least});

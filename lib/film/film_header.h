@@ -1,5 +1,5 @@
-// What a film's bytes say before its sums: of which picture it is, and which samples of which pixels it has. Text, a line for
-// each fact; FORMAT.md describes it. Written and read by film_bytes.
+// What a film's bytes say before its sums: of which picture it is, and which samples of which pixels it has. Text, a
+// line for each fact; FORMAT.md describes it. Written and read by film_bytes.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -46,7 +46,8 @@ struct FilmHeader {
 // Ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
-// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if it is not that, letter by letter, or of another version.
+// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if it is not that, letter by letter, or of another
+// version.
 FilmHeader parsed_film_header(std::string_view text);
 
 } // namespace pt

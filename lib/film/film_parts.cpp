@@ -16,8 +16,8 @@ std::uint64_t multiple_from(std::uint64_t index, std::uint64_t factor) {
 
 } // namespace
 
-// Of two numbers the common leading digits, a one, and zeros: no other number above the first, and not above the second,
-// ends with as many zeros.
+// Of two numbers the common leading digits, a one, and zeros: no other number above the first, and not above the
+// second, ends with as many zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

@@ -23,8 +23,8 @@ using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 // begin at a multiple of 2^(k - 1): the best sets that a sequence has.
 //
 // Among the indices within a range just one has the most zeros, since between two with equally many lies one with more.
-// So the split of a film that is made of others either is the split of one of them too, or that one lies on one side of it
-// as a whole. Two parts for each film are all that is needed to add films in any order with the same result.
+// So the split of a film that is made of others either is the split of one of them too, or that one lies on one side of
+// it as a whole. Two parts for each film are all that is needed to add films in any order with the same result.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);

@@ -1,4 +1,4 @@
-// The measured accuracy of the kernel's elementary functions on a device, against double precision. Used by Renderer.
+// The measured accuracy of the kernel's elementary functions on a device, against double precision.
 #pragma once
 
 #include "lib/vulkan/device.h"
@@ -18,7 +18,7 @@ struct ElementaryFunction {
     double (*exact)(double);
     double bound;                  // on its error on every device that conforms to Vulkan, in ulp of the exact value
     float first, last;             // its arguments lie between the two, which have the same sign; |last| > |first|
-    std::span<const float> places; // where its evaluation changes course
+    std::span<const float> places; // where its evaluation switches to another formula
 };
 
 std::span<const ElementaryFunction> elementary_functions();

@@ -14,8 +14,8 @@ namespace pt {
 
 struct GpuScene {
     Features features;
-    // The scene buffer. Positions are taken relative to the camera in double before they are rounded, so that a scene far
-    // from the origin looks like one at it; motion is restricted to the time in which the shutter is open.
+    // The scene buffer. Positions are taken relative to the camera in double before they are rounded, so that a scene
+    // far from the origin looks like one at it; motion is restricted to the time in which the shutter is open.
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame; // what does not change from slice to slice
     double film_unit;

@@ -176,7 +176,7 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
     return ticket;
 }
 
-// Folds range by range too: only where the pass has been added to all pixels is the film read.
+// Folds range by range too, which is safe because the film is read only after the pass has been added to all pixels.
 vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, const SampleRange &hull) {
     const Batch batch{sample, 1, 0};
     const SampleRange extended = hull_of(hull, batch.range());
@@ -195,7 +195,7 @@ vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, 
     return ticket;
 }
 
-// Before the pass, so that adding it cannot fail for want of them.
+// Built before the pass starts, so that adding it cannot fail for lack of pipelines.
 void Kernel::build_commit() {
     pipelines_.commit();
     pipelines_.fold();

@@ -19,8 +19,8 @@ namespace {
 
 constexpr const char *module_name = "libpt-glsl.so";
 
-// With a slash at its end, of the file that this function is in: the shared library, or the program that it is linked
-// into. Empty if that was started or found by a relative path, which may mean another file by now.
+// The folder, with a slash at its end, of the file that contains this function: the shared library, or the program
+// that it is linked into. Empty if that was found by a relative path, which may name another file by now.
 std::string own_directory() {
     Dl_info info{};
     const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
@@ -28,9 +28,9 @@ std::string own_directory() {
     return path.starts_with('/') ? path.substr(0, path.rfind('/') + 1) : "";
 }
 
-// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries;
-// never in the working directory, as a path without the library's would mean. It stays loaded: what glslang keeps for
-// the next compilation is in there.
+// The module beside the library, so that an installed tree can be moved, else where the system looks for libraries,
+// but never in the working directory, where a relative path would lead. It stays loaded, because glslang keeps tables
+// for the next compilation.
 pt_compile_glsl_fn load_compiler() {
     const std::string directory = own_directory();
     std::string reasons;

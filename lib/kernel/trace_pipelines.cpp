@@ -17,9 +17,8 @@ constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::Descrip
                                  vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eUniformBufferDynamic};
 
-// A kernel of a scene's own takes about 0.3 s to build and then saves about a third of the time: after a second it
-// would have paid for itself. Waiting for just that long costs at most twice of what knowing the future would (the ski
-// rental problem).
+// A kernel for one scene takes about 0.3 s to build and then saves about a third of the time, so that it pays after a
+// second. Waiting just that long costs at most twice what knowing the future would (the ski rental problem).
 constexpr double seconds_before_own_kernel = 1.0;
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
@@ -45,7 +44,7 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
 const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> &place,
                                                      std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
-    place.reset(); // so that it holds nothing if this one cannot be built
+    place.reset(); // leaves it empty if the new one cannot be built
     const Clock::time_point start = Clock::now();
     vulkan::ComputePipeline pipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants);
     device_.log().info([&] {

@@ -1,4 +1,4 @@
-// What decides the bits of a picture's samples. Made by Renderer for the films that it saves and adds.
+// What decides the bits of a picture's samples.
 #pragma once
 
 #include "lib/film/film_header.h"

@@ -29,7 +29,8 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     under_way_.reserve(device_.policy().queue_depth);
 }
 
-// Before what the work under way uses goes. Where it does not end, that is left alone (vulkan/device_object.h).
+// Waits for work in flight before what it uses is destroyed; if the device hangs, that is leaked
+// (vulkan/device_object.h).
 RenderDevice::~RenderDevice() {
     if (!device_.comes_to_rest())
         device_.abandon();
@@ -63,7 +64,7 @@ void RenderDevice::set_film(DeviceFilm film) {
 }
 
 void RenderDevice::discard_samples() noexcept {
-    if (!device_.hangs()) // else it is up to the destructor, by when the work may have ended
+    if (!device_.hangs()) // else the destructor sees to it, by when the work may have ended
         kernel_.reset();
     pass_pixels_ = 0;
     uncommitted_pixels_ = 0;

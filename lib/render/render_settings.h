@@ -1,4 +1,4 @@
-// Render settings that obey the rules of pt.h, with defaults applied. Made by api.cpp, held by Renderer.
+// Render settings that obey the rules of pt.h, with defaults applied.
 #pragma once
 
 #include <pt/pt.h>

@@ -39,11 +39,11 @@ Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
     return {pass_pixels_done, static_cast<std::uint32_t>(std::min(left, workgroups * granularity)), 1, false};
 }
 
-// A submission takes an overhead, about 0.1 ms, and a time per path; the two cannot be told apart from one
-// measurement. So what a slice took more, or less, than its share of the target is taken to be what a slice of the
-// whole budget would have taken more: exact for slices of that size, and small slices, which are mostly overhead,
-// change little. Repeated, it converges to the budget that takes target_seconds with its overhead: the step is x -> x
-// t / (o + x / r) for overhead o and rate r, whose only stable fixed point is x = r (t - o).
+// A submission takes an overhead, about 0.1 ms, and a time per path, and one measurement cannot tell the two apart.
+// So the excess over the expected time is treated as fixed overhead: exact for slices of the whole budget, while
+// small slices, which are mostly overhead, change little. Repeated, it converges to the budget that takes
+// target_seconds with its overhead: for overhead o and rate r the step is x -> x t / (o + x / r), whose only stable
+// fixed point is x = r (t - o).
 void Schedule::measured(const Slice &slice, double seconds) {
     if (!(seconds >= 0.0))
         return;

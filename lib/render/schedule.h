@@ -30,7 +30,7 @@ public:
     // it goes on from there, whatever the budget has become.
     Slice next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_done) const;
 
-    // Learns from the time a slice took. Times that are no numbers >= 0 tell nothing and are passed over.
+    // Learns from the time a slice took. Times that are negative or NaN are ignored.
     void measured(const Slice &slice, double seconds);
 
 private:

@@ -58,7 +58,7 @@ void check_fields(const pt_camera &camera) {
     subject.check("vertical_fov", camera.vertical_fov, fov_rule);
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
-    // Written so that NaN, which has its own line already, passes.
+    // Written so that NaN passes: it has a line of its own already.
     subject.require(!(camera.shutter_close < camera.shutter_open), "shutter_close", camera.shutter_close,
                     "must be >= shutter_open (" + number_text(camera.shutter_open) + ")");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);

@@ -1,5 +1,4 @@
-// A camera that obeys the rules of pt.h, with defaults applied. Made by api.cpp, held by Renderer, read by seen_scene
-// and gpu_scene.
+// A camera that obeys the rules of pt.h, with defaults applied.
 #pragma once
 
 #include <pt/pt.h>

@@ -1,5 +1,4 @@
-// A plane, or a sphere so large that the scene sees it as a plane with a slight curvature. Used by seen_scene, twins and
-// gpu_scene.
+// A plane, or a sphere so large that the scene sees it as a plane with a slight curvature.
 #pragma once
 
 #include "lib/scene/camera.h"
@@ -23,8 +22,8 @@ struct CurvedPlane {
 // With its normal towards the camera.
 CurvedPlane curved_plane(const Plane &plane, const Camera &camera);
 
-// Of a sphere that is_flat: in float32, its centre and radius would put its surface off by 2^-24 of the radius, this does
-// by 2^-24 of what the scene measures.
+// Of a sphere that is_flat: in float32, its centre and radius would put its surface off by 2^-24 of the radius, this
+// does by 2^-24 of what the scene measures.
 CurvedPlane curved_plane(const SeenSphere &sphere);
 
 } // namespace pt

@@ -1,4 +1,4 @@
-// Bounds what is in view from the near side; see ray_start.h.
+// Finds how near the first surface in view can be; see ray_start.h.
 #include "lib/scene/ray_start.h"
 
 #include <algorithm>
@@ -13,8 +13,9 @@ namespace {
 
 constexpr double out_of_view = std::numeric_limits<double>::infinity();
 
-// Farther than any sphere may be, whose centre, way and camera have components up to 1e18; planes that are all but along
-// the view are met farther still. From a start beyond it the squares of distances would not be numbers of float32.
+// Farther than any sphere may be, whose centre, way and camera have components up to 1e18; planes that are all but
+// along the view are met farther still. From a start beyond it the squares of distances would not be numbers of
+// float32.
 constexpr double farthest_start = 6e18;
 
 // Components of a direction are off by 2^-24: from here on, by more than 1/1024 of a pixel.
@@ -45,9 +46,10 @@ double nearest_depth(const CurvedPlane &plane, const View &view) {
     return nearest;
 }
 
-// Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it is
-// inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)), whose
-// product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about its way.
+// Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it
+// is inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)),
+// whose product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about
+// its way.
 double nearest_depth(const SeenSphere &sphere, const View &view) {
     const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
     const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
@@ -85,7 +87,8 @@ Camera starting_ahead(const SeenScene &seen, const Camera &camera, const RenderS
         depth = std::min(depth, nearest_depth(plane, view));
     if (depth > farthest_start)
         return camera;
-    // As far before the first surface as the view is wide there, so that rounding puts no start behind it.
+    // Keeps a distance from the first surface as large as the view is wide there, so that rounding puts no start behind
+    // the surface.
     Camera ahead = camera;
     ahead.start_distance = std::max(1.0 - std::tan(view.half_angle), 0.0) * depth;
     ahead.position += ahead.start_distance * camera.forward;

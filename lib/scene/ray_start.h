@@ -1,4 +1,4 @@
-// Where camera rays start in narrow views of what is far away. Used by gpu_scene.
+// Where camera rays start in narrow views of what is far away.
 #pragma once
 
 #include "lib/render/render_settings.h"
@@ -7,10 +7,10 @@
 
 namespace pt {
 
-// The camera with its position moved ahead, along its axis, to where the first surface in view may be, if the view is so
-// narrow that the rounding of directions and of far coordinates would show. The kernel's coordinates begin there, and its
-// rays on the plane across the view there: the same rays, known to the rounding of what is in view instead of that of
-// its distance. The scene as that camera sees it.
+// The camera with its position moved ahead, along its axis, to where the first surface in view may be, if the view is
+// so narrow that the rounding of directions and of far coordinates would show. The kernel's coordinates begin there,
+// and its rays on the plane across the view there: the same rays, known to the rounding of what is in view instead of
+// that of its distance. The scene as that camera sees it.
 Camera starting_ahead(const SeenScene &seen, const Camera &camera, const RenderSettings &settings);
 
 } // namespace pt

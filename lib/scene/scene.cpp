@@ -147,7 +147,7 @@ Scene validated_scene(const pt_scene &scene) {
     const Subject whole(violations, "scene");
     whole.require(surface_count < max_surface_count, {"sphere_count", "+ plane_count"}, surface_count,
                   "must be < 2^30");
-    // With such counts it is not believable that the arrays are there.
+    // With counts like these the arrays are hardly there: they are not read.
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);

@@ -1,4 +1,4 @@
-// A scene that obeys the rules of pt.h, owned. Made by api.cpp, held by PreparedScene.
+// A scene that obeys the rules of pt.h, owned.
 #pragma once
 
 #include <pt/pt.h>

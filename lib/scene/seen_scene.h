@@ -1,4 +1,4 @@
-// A scene as the camera sees it: every sphere and plane relative to it. Made by gpu_scene, used by twins and ray_start.
+// A scene as the camera sees it: every sphere and plane relative to it.
 #pragma once
 
 #include "lib/scene/camera.h"

@@ -12,15 +12,16 @@ namespace {
 constexpr double nearly_flat = 32.0;
 
 // A lamp that is held by its centre is sampled by the cone that it subtends; one held as a plane is found by directions
-// alone. That serves as well where it fills half of the view, but few directions find its rim, so noise rises there. So
-// it begins where the centre's precision ends: here its surface is off by 2^-24 R, 1/256 of the distance.
+// alone. That is as good where the lamp fills half of the view, but direction sampling rarely hits the rim, so that
+// noise rises there. It therefore begins where the centre's precision ends: here the surface is off by 2^-24 R, 1/256
+// of the distance.
 constexpr double nearly_flat_lamp = 65536.0;
 
 bool is_large(const SeenSphere &sphere, double ratio) {
     return sphere.radius > ratio * std::abs(sphere.height());
 }
 
-// One that moves is seen as if the camera moved the other way, so what it moves counts like a distance.
+// A moving sphere is seen as if the camera moved the other way, so that its way counts like a distance.
 bool moves_little(const SeenSphere &sphere) {
     return sphere.radius > nearly_flat * glm::length(sphere.way);
 }

@@ -1,4 +1,4 @@
-// A sphere as the camera sees it while the shutter is open. Part of SeenScene, used by all that asks where spheres are.
+// A sphere as the camera sees it while the shutter is open.
 #pragma once
 
 #include "lib/scene/camera.h"

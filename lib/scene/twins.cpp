@@ -13,20 +13,21 @@ namespace pt {
 
 namespace {
 
-// Relative differences that count as none: 64 times the rounding of float32, as a distance along a ray is off by a dozen
-// roundings of its length, and paths look at a surface from a few times as far away as the camera. Of a sphere's own size.
+// Relative differences that count as none: 64 times the rounding of float32, as a distance along a ray is off by a
+// dozen roundings of its length, and paths look at a surface from a few times as far away as the camera. Of a sphere's
+// own size.
 constexpr double same_size = 0x1p-18;
 // Of its distance from the camera: four times the spacing of the numbers that hold its centre.
 constexpr double same_place = 0x1p-21;
 // Spheres that differ by more than this share of their radii are two, however far away. A distance d is known to a few
-// roundings, 2^-22 d, and that is as much only from d = 2^20 radii on: there the rounding of a centre, 2^-24 d, is a 16th
-// of the radius, and shows whatever is done about twins.
+// roundings, 2^-22 d, and that is as much only from d = 2^20 radii on: there the rounding of a centre, 2^-24 d, is a
+// 16th of the radius, and shows whatever is done about twins.
 constexpr double two_spheres = 0.25;
 // Planes that differ by more than this share are told apart by their vertices, whose places are known to 2^-22 of their
 // distance. Planes at this angle to each other are nearer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance
-// about the line where they meet; parallel ones, this share of the camera's height above them apart, from 2^14 heights on,
-// which is a strip of 2^-14 below the horizon. Either is less than a pixel of an image that is a right angle wide in 2^14
-// pixels.
+// about the line where they meet; parallel ones, this share of the camera's height above them apart, from 2^14 heights
+// on, which is a strip of 2^-14 below the horizon. Either is less than a pixel of an image that is a right angle wide
+// in 2^14 pixels.
 constexpr double two_planes = 0x1p-8;
 
 // Spheres on a lattice have different places along a line in this direction, whose components are incommensurable.
@@ -37,8 +38,8 @@ double tolerance(const SeenSphere &sphere) {
     return std::min(same_size * sphere.radius + same_place * sphere.distance, two_spheres * sphere.radius);
 }
 
-// The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature have centres and
-// radii that agree to three times that, where the offset is small against the radius.
+// The same, if it may be held as a plane. Planes that agree to same_size in normal, offset and curvature have centres
+// and radii that agree to three times that, where the offset is small against the radius.
 double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }
@@ -80,7 +81,7 @@ double reach(const CurvedPlane &) {
     return same_size;
 }
 
-// Indices of elements in the order of their places, which those alike have nearly alike.
+// Indices of elements in the order of their places on a line, which are nearly equal for elements that are alike.
 class Line {
 public:
     // From any order of the indices, best nearly the right one.
@@ -96,7 +97,7 @@ public:
     std::size_t size() const { return points_.size(); }
     std::uint32_t index(std::size_t i) const { return points_[i].index; }
 
-    // Whether one of those within reach of the i-th, other than that, has a property.
+    // Whether some other element within reach of the i-th has a property.
     template <typename Property>
     bool any_near(std::size_t i, double reach, Property &&property) const {
         for (std::size_t k = i; k > 0 && points_[i].place - points_[k - 1].place <= reach; --k)

@@ -1,5 +1,4 @@
-// Surfaces so near to each other that float32 cannot tell, or all but cannot tell, which of them a ray meets first. Used
-// by gpu_scene.
+// Surfaces so near to each other that float32 cannot tell, or all but cannot tell, which of them a ray meets first.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -15,8 +14,8 @@ namespace pt {
 std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres);
 
 // A scene with twins taken for one surface: of spheres, or of planes, that float32 cannot tell apart as the camera sees
-// them the first of the array stands for all. Otherwise rounding would choose among them, differently for the rays of one
-// path, and count light twice or never.
+// them the first of the array stands for all. Otherwise rounding would choose among them, differently for the rays of
+// one path, and count light twice or never.
 struct DistinctScene {
     SeenScene seen;
     bool close_lamps;  // some emitting sphere and another one differ by less than a quarter of their radii

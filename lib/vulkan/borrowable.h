@@ -1,4 +1,4 @@
-// A Vulkan object that is either the library's own or the caller's. Held by Instance and LogicalDevice.
+// A Vulkan object that is either the library's own or the caller's.
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,4 @@
-// A compute kernel, specialised, with the buffers that it is bound to. Made by TracePipelines, and to measure accuracy.
+// A compute kernel, specialised, with the buffers that it is bound to.
 #pragma once
 
 #include "lib/vulkan/buffer.h"
@@ -19,7 +19,7 @@ public:
 private:
     friend class ComputePipeline;
     DeviceObject<vk::raii::DescriptorPool> pool_;
-    vk::DescriptorSet set_; // goes with its pool
+    vk::DescriptorSet set_; // freed with its pool
 };
 
 class ComputePipeline {

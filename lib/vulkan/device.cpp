@@ -129,7 +129,7 @@ void Device::require_alive() const {
         throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-// It is lost, whether or not there is memory left for the reason.
+// Marks the device as lost even if there is no memory for the message that says why.
 void Device::lose(const std::function<std::string()> &reason) {
     lost_ = true;
     lost_message_ += ": " + reason();
@@ -184,7 +184,7 @@ bool Device::comes_to_rest() noexcept {
         } catch (const vk::DeviceLostError &) {
             submission.pending = false;
         } catch (...) {
-            gave_up_ = true; // nobody knows what becomes of it
+            gave_up_ = true; // it may still be running
             return false;
         }
     }
@@ -195,7 +195,8 @@ void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &
     commands.reset(); // the last recording may have failed half-way
     commands.begin({.flags = vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
     // A submission makes visible what the host wrote before it (Vulkan specification, "Host Write Ordering
-    // Guarantees"), but not what earlier submissions wrote: their fence makes that available, to nobody in particular.
+    // Guarantees"), but not what earlier submissions wrote: their fence makes that available but not visible; this
+    // barrier makes it visible.
     write_barrier(commands, device_stages, device_accesses);
     record(commands);
     write_barrier(commands, Stage::eHost, Access::eHostRead | Access::eHostWrite);
@@ -206,8 +207,8 @@ std::uint64_t Device::wait_nanoseconds() const {
     return static_cast<std::uint64_t>(std::min(wait_step, policy_.patience).count());
 }
 
-// Only what was overdue before a look at it is given up, here and in comes_to_rest(): a process that was stopped, or got
-// no processor for long, may find its patience over and the work done.
+// Work is given up, here and in comes_to_rest(), only if it is overdue and a look after that finds it unfinished: a
+// process that was stopped, or got no processor for long, may find the time over and the work done.
 void Device::wait(const Submission &submission) {
     try {
         for (bool was_overdue = false;
@@ -222,7 +223,7 @@ void Device::wait(const Submission &submission) {
             }
         handle().resetFences(*submission.fence);
     } catch (const vk::SystemError &error) {
-        // Whatever the error is, nobody knows what became of the work; but what it uses may be destroyed from here on.
+        // Whatever the error is: waits for the work, so that what it uses may be destroyed from here on.
         comes_to_rest();
         lose([&] { return error.what(); });
     }

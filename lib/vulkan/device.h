@@ -21,10 +21,10 @@ struct Limits {
     std::uint64_t max_allocation_bytes;
     std::uint32_t max_uniform_range;   // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
     std::uint32_t max_workgroup_count; // along x
-    std::uint64_t loop_trip_budget;    // loop trips after which the driver stops an invocation, without a word
+    std::uint64_t loop_trip_budget;    // loop trips after which the driver silently stops an invocation
 };
 
-// How a device is used. Tests choose other than the default, to reach what their device alone would not show.
+// How a device is used. Tests choose other values than a device's own, to reach paths that it would not take.
 struct DevicePolicy {
     std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
@@ -57,7 +57,8 @@ public:
     // must not be destroyed then.
     bool hangs() const;
 
-    // Leaves the device, and all that is still to be destroyed on it, to the end of the process, whatever ends meanwhile.
+    // Leaves the device, and all that is still to be destroyed on it, to the end of the process, whatever ends
+    // meanwhile.
     void abandon() noexcept { abandoned_ = true; }
 
     // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, from the moment that the device was lost.
@@ -98,7 +99,7 @@ private:
         vk::raii::CommandBuffer commands;
         vk::raii::Fence fence;
         Clock::time_point start;
-        bool pending; // its end was not seen
+        bool pending; // not yet seen to have ended
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;

@@ -177,8 +177,8 @@ std::vector<std::string> listed(const std::string &wanted) {
     return items;
 }
 
-// The one of the chosen devices that is the same as another: listed at the same place, or by a second driver of the same
-// name for the same hardware, which shows in the UUID.
+// The one of the chosen devices that is the same as another: listed at the same place, or by a second driver of the
+// same name for the same hardware, which shows in the UUID.
 std::optional<std::size_t> same_device_among(std::span<const pt_device_info> devices,
                                              std::span<const std::size_t> chosen, std::size_t other) {
     const std::string uuid = uuid_digits(devices[other]);

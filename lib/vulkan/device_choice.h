@@ -1,4 +1,4 @@
-// Describes the Vulkan devices and picks one. Used by Renderer and list_devices.
+// Describes the Vulkan devices and picks one.
 #pragma once
 
 #include "lib/vulkan/api.h"

@@ -1,4 +1,4 @@
-// A Vulkan object made on a Device. Held by buffers, pipelines and descriptor sets.
+// A Vulkan object made on a Device.
 #pragma once
 
 #include "lib/vulkan/device.h"

@@ -67,7 +67,7 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     vk::InstanceCreateFlags flags;
     if (contains(context.enumerateInstanceExtensionProperties(), &vk::ExtensionProperties::extensionName,
                  VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
-        // Layered implementations are listed only to those who ask.
+        // Implementations layered over another interface are listed only for instances that ask for them.
         extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
         flags |= vk::InstanceCreateFlagBits::eEnumeratePortabilityKHR;
     }

@@ -1,5 +1,4 @@
-// The Vulkan instance: the library's own, with the validation layer's messages going to the log, or the caller's. Made
-// by Renderer and list_devices.
+// The Vulkan instance: the library's own, with the validation layer's messages going to the log, or the caller's.
 #pragma once
 
 #include "lib/base/log.h"

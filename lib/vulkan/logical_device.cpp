@@ -13,7 +13,7 @@ namespace pt::vulkan {
 
 namespace {
 
-// A family that computes, of those the one that does least else: it is the one for work in the background.
+// A family that computes, preferably one that does not draw: that is the one for work in the background.
 std::uint32_t compute_family(const vk::raii::PhysicalDevice &device) {
     const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
     std::uint32_t best = 0;

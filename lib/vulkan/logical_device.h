@@ -1,4 +1,4 @@
-// A VkDevice with the one queue of it that is used: made by the library, or the caller's. Held by Device.
+// A VkDevice with the one queue of it that is used: made by the library, or the caller's.
 #pragma once
 
 #include "lib/vulkan/borrowable.h"
@@ -19,7 +19,7 @@ public:
     const vk::raii::Device &handle() const { return *device_; }
     std::uint32_t queue_family() const { return queue_family_; }
 
-    // The one use of the queue: holds it for this thread meanwhile. Returns the time from which it did.
+    // Submits to the queue, and locks it for this thread meanwhile. Returns the time at which it had the lock.
     std::chrono::steady_clock::time_point submit(const vk::SubmitInfo &work, vk::Fence fence) const;
 
     // Leaves the device to the end of the process, whoever made it.

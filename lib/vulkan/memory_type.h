@@ -1,4 +1,4 @@
-// Which of a device's types of memory a buffer gets. Used by Buffer.
+// Which of a device's types of memory a buffer gets.
 #pragma once
 
 #include "lib/base/error.h"
@@ -10,8 +10,8 @@
 
 namespace pt::vulkan {
 
-// Indices of the types among those allowed (bit i stands for type i) that have all of some wanted properties: those with
-// the first of them come first, and each comes once. Throws PT_ERROR_UNSUPPORTED if there is none.
+// Indices of the types among those allowed (bit i stands for type i) that have all of some wanted properties: those
+// with the first of them come first, and each comes once. Throws PT_ERROR_UNSUPPORTED if there is none.
 std::vector<std::uint32_t> memory_types(const vk::PhysicalDeviceMemoryProperties &memory, std::uint32_t allowed,
                                         std::span<const vk::MemoryPropertyFlags> wanted_best_first);
 

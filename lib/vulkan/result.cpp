@@ -6,7 +6,7 @@ namespace pt::vulkan {
 pt_result result_of(vk::Result result) {
     switch (result) {
     case vk::Result::eErrorOutOfHostMemory:
-    case vk::Result::eErrorMemoryMapFailed: // there are no addresses left
+    case vk::Result::eErrorMemoryMapFailed: // out of address space
         return PT_ERROR_OUT_OF_HOST_MEMORY;
     case vk::Result::eErrorOutOfDeviceMemory:
     case vk::Result::eErrorFragmentation:

@@ -19,10 +19,10 @@
  *   context and create another) and that pt_accumulate may have taken some of its samples. Every failure has a message,
  *   see pt_last_error. Any function can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL, and with
  *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
- * - Threads: different contexts are independent; one context is used by one thread at a time. A call on a context that
- *   another thread is in a call on is refused (PT_ERROR_INVALID_STATE). The library starts no threads (drivers do),
- *   prints nothing, reads no files but those of pt_create_info.shader_dir and has no globals. Calls need less than 256
- *   KiB of stack on Mesa's lavapipe.
+ * - Threads: different contexts are independent; one context is used by one thread at a time. While one thread is in a
+ *   call on a context, calls of other threads on it are refused (PT_ERROR_INVALID_STATE). The library starts no
+ *   threads (drivers do), prints nothing, reads no files but those of pt_create_info.shader_dir and has no globals.
+ *   Calls need less than 256 KiB of stack on Mesa's lavapipe.
  * - Processes: after fork a child may make contexts of its own, but must not use those of its parent, nor destroy them:
  *   the threads of their driver are not in the child, and a call may wait for them for ever.
  * - Callbacks: run inside the call, on the calling thread, must not call back into the same context, which is refused
@@ -180,10 +180,10 @@ typedef struct pt_render {
 
 /** Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
  *
- * It stays as it is after submissions that take no sample: those that empty the image's memory before the first one,
- * and those that add a sample to the image which took several submissions. What a driver does besides is not cut: it
- * builds a kernel before the first call of this function. Mesa's lavapipe takes a third of a second for that, and as
- * long again in the first submission that takes samples unless its cache has the kernel.
+ * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
+ * sample, and those that add to the image a sample which took several submissions. Before the first call of this
+ * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a third of a second for that,
+ * and as long again in the first submission that takes samples unless its cache has the kernel.
  *
  * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
  * at the most, and with several devices those that complete the samples begun. user is
@@ -206,10 +206,10 @@ typedef struct pt_accumulate_info {
 /** Values of pt_image.quantity. */
 enum {
     PT_QUANTITY_RADIANCE = 0, /**< mean of the samples */
-    /** standard error of that mean, from the samples in two parts, of which the first has the largest power of two
-     * below their number: from the difference of the parts' means, and if they are of one size half of its magnitude.
-     * It has one degree of freedom, so in a single pixel it is a hint and no more: it is below a third of the true one
-     * in a quarter of all values. INFINITY where a part has no sample: of up to 8 all are in the first. */
+    /** standard error of that mean, from the difference of the means of two parts of the samples; for parts of equal
+     * size it is half of its magnitude. The first part has the largest power of two below the number of samples. One
+     * difference has one degree of freedom, so in a single pixel this is no more than a hint: a quarter of all values
+     * are below a third of the true one. INFINITY where a part has no sample: of up to 8 all are in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1
 };
 
@@ -278,8 +278,8 @@ PT_API pt_result pt_create(const pt_create_info *info, pt_context **context);
 
 /** Message of the last call on this context that failed ("" if none did), valid until the next call on it.
  *
- * If this thread's last call on the context was refused because the context was in a call already, it is the message of
- * that; and from a thread that may not use the context now, it says so.
+ * If this thread's last call on the context was refused because another call was under way, it is the message of that
+ * refusal. A thread that asks while another one is in a call on the context is told so instead.
  *
  * With NULL: of this thread's last failed call without a context (pt_create, pt_get_devices), valid until the next such
  * call. UTF-8, never NULL, owned by the library. Of a context: the thread that uses the context; never fails. */

@@ -24,7 +24,8 @@ enum {
  * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
  * of 95% confidence. Light that no sample has met yet is not in it. Nothing is known with fewer than 16 samples, nor
  * where more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower
- * bounds are 0, the others INFINITY. A struct that ends before these fields spares the read-out that they take. */
+ * bounds are 0, the others INFINITY. These fields take a read-out of the image, which a struct_size that ends before
+ * them avoids. */
 typedef struct pt_stats {
     uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
     uint32_t sample_count;     /**< whole samples in every pixel */
