@@ -2,8 +2,6 @@
 #include "tests/fuzz/examine.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <random>
 #include <utility>
 
@@ -36,13 +34,6 @@ void examine_neighbourhood(const Input &input, std::span<const std::uint8_t> byt
         family.push_back(std::move(neighbour));
     }
     examine(family);
-}
-
-void require(bool holds, std::string_view what) {
-    if (holds)
-        return;
-    std::fprintf(stderr, "does not hold: %.*s\n", static_cast<int>(what.size()), what.data());
-    std::abort();
 }
 
 } // namespace fuzz

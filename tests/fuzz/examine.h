@@ -3,10 +3,10 @@
 #pragma once
 
 #include "tests/fuzz/input.h"
+#include "tests/fuzz/require.h"
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 
 namespace fuzz {
 
@@ -20,10 +20,5 @@ void examine(std::span<const Input> family);
 
 // How many neighbours are worth their time.
 extern const std::uint32_t neighbour_count;
-
-// -- of both --
-
-// Prints what and aborts, unless it holds.
-void require(bool holds, std::string_view what);
 
 } // namespace fuzz

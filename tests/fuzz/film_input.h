@@ -1,0 +1,30 @@
+// Films from a fuzzer's bytes. Used by the targets of films.
+#pragma once
+
+#include "lib/base/digest.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace fuzz {
+
+// What follows the first byte, which says whether its checksum is made to fit: hardly any other change of a film would
+// get past it.
+inline std::vector<std::byte> film_input(std::span<const std::byte> before, std::span<const std::byte> bytes) {
+    std::vector<std::byte> film(before.begin(), before.end());
+    if (bytes.empty())
+        return film;
+    film.insert(film.end(), bytes.begin() + 1, bytes.end());
+    std::uint64_t checksum = 0;
+    if ((bytes.front() & std::byte{1}) == std::byte{0} || film.size() < sizeof checksum)
+        return film;
+    const auto end = std::span(film).last(sizeof checksum);
+    checksum = pt::checksum(std::span(film).first(film.size() - sizeof checksum));
+    std::memcpy(end.data(), &checksum, sizeof checksum);
+    return film;
+}
+
+} // namespace fuzz

@@ -1,0 +1,11 @@
+// What a target expects to hold. Used by all targets.
+#pragma once
+
+#include <string_view>
+
+namespace fuzz {
+
+// Prints what and aborts, unless it holds.
+void require(bool holds, std::string_view what);
+
+} // namespace fuzz
