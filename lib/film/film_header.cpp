@@ -16,6 +16,9 @@ constexpr std::string_view version = "1";
 constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 
+// Several times what there are: each takes many times the memory of a short line.
+constexpr std::size_t max_facts = 100;
+
 [[noreturn]] void refuse(const std::string &message) {
     throw Error(PT_ERROR_INCOMPATIBLE, "film: " + message);
 }
@@ -54,7 +57,9 @@ void read_tile(std::string_view value, FilmHeader &header) {
     if (!sides)
         refuse("tile is not four numbers");
     const auto [x, y, width, height] = *sides;
-    if (x + width > UINT32_MAX || y + height > UINT32_MAX || width == 0 || height == 0 || width > UINT32_MAX / height)
+    const bool lies_within_an_image =
+        x <= UINT32_MAX && y <= UINT32_MAX && width <= UINT32_MAX - x && height <= UINT32_MAX - y;
+    if (!lies_within_an_image || width == 0 || height == 0 || width > UINT32_MAX / height)
         refuse("tile = " + std::string(value) + ": must have from 1 to 2^32 - 1 pixels");
     header.tiles.push_back({{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
                              static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)},
@@ -67,11 +72,25 @@ void read_samples(std::string_view value, FilmHeader &header) {
         refuse("samples are not two numbers after a tile");
     const SampleRange range{(*ends)[0], (*ends)[1]};
     SampleSet &samples = header.tiles.back().samples;
-    if (range.first >= range.end || range.end > sample_index_end || samples.overlap(range))
-        refuse("samples = " + std::string(value) + ": must be a range of indices below 2^32, apart from the others");
+    const bool follows = samples.empty() || samples.hull().end < range.first;
+    if (range.first >= range.end || range.end > sample_index_end || !follows)
+        refuse("samples = " + std::string(value) +
+               ": must be a range of indices below 2^32 that begins beyond the end of the one before");
     samples.add(range);
-    if (samples.count() > UINT32_MAX)
-        refuse("samples: a pixel holds at most 2^32 - 1");
+}
+
+// Of each tile, and of all together: they are pixels of one image.
+void require_counts(const std::vector<FilmTile> &tiles) {
+    std::uint64_t pixels = 0;
+    for (const FilmTile &tile : tiles) {
+        pixels += tile.pixels.pixel_count();
+        if (pixels > UINT32_MAX)
+            refuse("its tiles have more than 2^32 - 1 pixels");
+        if (tile.samples.empty())
+            refuse("a tile has no samples");
+        if (tile.samples.count() > UINT32_MAX)
+            refuse("samples: a pixel holds at most 2^32 - 1");
+    }
 }
 
 } // namespace
@@ -108,9 +127,12 @@ FilmHeader parsed_film_header(std::string_view text) {
             read_tile(value, header);
         else if (name == samples_name)
             read_samples(value, header);
-        else
+        else if (header.identity.size() < max_facts)
             header.identity.push_back({std::string(name), std::string(value)});
+        else
+            refuse("its header has more than " + std::to_string(max_facts) + " lines of other names");
     }
+    require_counts(header.tiles);
     if (text_of(header) != text)
         refuse("its header is not written as the format asks");
     return header;

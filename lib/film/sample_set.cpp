@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace pt {
 
@@ -39,10 +40,15 @@ std::optional<SampleRange> SampleSet::overlap(const SampleRange &range) const {
     return std::nullopt;
 }
 
+// Along both: a film's header may have a great many ranges.
 std::optional<SampleRange> SampleSet::overlap(const SampleSet &other) const {
-    for (const SampleRange &range : other.ranges_)
-        if (const auto common = overlap(range))
-            return common;
+    auto own = ranges_.begin();
+    for (const SampleRange &range : other.ranges_) {
+        while (own != ranges_.end() && own->end <= range.first)
+            ++own;
+        if (own != ranges_.end() && own->first < range.end)
+            return SampleRange{std::max(own->first, range.first), std::min(own->end, range.end)};
+    }
     return std::nullopt;
 }
 
@@ -72,8 +78,15 @@ void SampleSet::add(const SampleRange &range) {
 }
 
 void SampleSet::add(const SampleSet &other) {
-    for (const SampleRange &range : other.ranges_)
-        add(range);
+    assert(!overlap(other));
+    std::vector<SampleRange> all;
+    std::ranges::merge(ranges_, other.ranges_, std::back_inserter(all), {}, &SampleRange::first, &SampleRange::first);
+    ranges_.clear();
+    for (const SampleRange &range : all)
+        if (!ranges_.empty() && ranges_.back().end == range.first)
+            ranges_.back().end = range.end;
+        else
+            ranges_.push_back(range);
 }
 
 void SampleSet::remove(const SampleRange &range) {

@@ -1,6 +1,7 @@
 #include "lib/render/film_identity.h"
 
 #include "lib/base/digest.h"
+#include "lib/base/error.h"
 #include "lib/base/rules.h"
 
 #include <algorithm>
@@ -110,6 +111,8 @@ void require_same(const FilmIdentity &film, const FilmIdentity &context) {
         if (std::ranges::find(context, fact.name, &FilmFact::name) == context.end())
             violations.add({.subject = "film", .member = fact.name, .value = fact.value, .rule = "must not be there"});
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
+    if (film != context)
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: lines of its header are repeated, or in another order");
 }
 
 } // namespace pt

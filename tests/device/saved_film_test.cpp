@@ -1,4 +1,5 @@
 // Films that are saved and added: the bits of renders that were never cut, and refusals that change nothing.
+#include "lib/base/digest.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/shared_context.h"
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -245,6 +247,22 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         EXPECT_EQ(std::string(pt_last_error(context())).substr(0, message.size()), message);
         ASSERT_TRUE(picture_of(context()) == before) << message;
     }
+}
+
+// Each line by itself says what it should.
+TEST_F(SavedFilm, RepeatedLinesAreRefused) {
+    Bytes film = part(12, 20);
+    set_up(context(), settings(0));
+    const std::string line = "seed 0\n";
+    const auto place = std::search(film.begin(), film.end(), line.begin(), line.end());
+    ASSERT_NE(place, film.end());
+    film.insert(place, line.begin(), line.end());
+    uint64_t checksum = 0;
+    const std::size_t checked = film.size() - sizeof checksum;
+    checksum = pt::checksum(std::as_bytes(std::span(film).first(checked)));
+    std::memcpy(&film[checked], &checksum, sizeof checksum);
+    EXPECT_EQ(add(context(), film), PT_ERROR_INCOMPATIBLE);
+    EXPECT_EQ(pt_last_error(context()), std::string("film: lines of its header are repeated, or in another order"));
 }
 
 TEST_F(SavedFilm, ABitThatFlippedIsRefused) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -155,14 +156,22 @@ TEST(FilmBytes, HeadersHaveOneForm) {
         {"pt film 1\ntile 0 0 65536 65536\n\n", "film: tile = 0 0 65536 65536: must have from 1 to 2^32 - 1 pixels"},
         {"pt film 1\nsamples 0 1\n\n", "film: samples are not two numbers after a tile"},
         {"pt film 1\ntile 0 0 1 1\nsamples 1 1\n\n",
-         "film: samples = 1 1: must be a range of indices below 2^32, apart from the others"},
+         "film: samples = 1 1: must be a range of indices below 2^32 that begins beyond the end of the one before"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967297\n\n",
-         "film: samples = 0 4294967297: must be a range of indices below 2^32, apart from the others"},
+         "film: samples = 0 4294967297: must be a range of indices below 2^32 that begins beyond the end of the one "
+         "before"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 2\nsamples 1 3\n\n",
-         "film: samples = 1 3: must be a range of indices below 2^32, apart from the others"},
+         "film: samples = 1 3: must be a range of indices below 2^32 that begins beyond the end of the one before"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 4294967296\n\n", "film: samples: a pixel holds at most 2^32 - 1"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 2 3\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
-        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n", "film: its header is not written as the format asks"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 2 3\nsamples 0 1\n\n",
+         "film: samples = 0 1: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+        {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nsamples 1 2\n\n",
+         "film: samples = 1 2: must be a range of indices below 2^32 that begins beyond the end of the one before"},
+        {"pt film 1\ntile 0 0 1 1\n\n", "film: a tile has no samples"},
+        {"pt film 1\ntile 18446744073709551615 0 2 1\nsamples 0 1\n\n",
+         "film: tile = 18446744073709551615 0 2 1: must have from 1 to 2^32 - 1 pixels"},
+        {"pt film 1\ntile 0 0 1 4294967295\nsamples 0 1\ntile 1 0 1 1\nsamples 0 1\n\n",
+         "film: its tiles have more than 2^32 - 1 pixels"},
         {"pt film 1\ntile 0 0 1 01\nsamples 0 1\n\n", "film: its header is not written as the format asks"},
         {"pt film 1\ntile 0 0 1 1\nsamples 0 1\nseed 1\n\n", "film: its header is not written as the format asks"},
     };
@@ -179,6 +188,30 @@ TEST(FilmBytes, HeadersHaveOneForm) {
     pt::PixelSums sums;
     sums.resize(1);
     EXPECT_EQ(error_of([&] { film.read(0, 0, sums); }).code(), PT_ERROR_INCOMPATIBLE) << "a sample that is not there";
+}
+
+// What has been sent to exhaust its reader takes time and memory in proportion to its length. 300,000 ranges of which
+// each was compared with all took half a minute.
+TEST(FilmBytes, LongHeadersAreReadInProportionToTheirLength) {
+    std::string header = "pt film 1\ntile 0 0 1 1\n";
+    for (int i = 0; i < 300'000; ++i)
+        header += "samples " + std::to_string(2 * i) + ' ' + std::to_string(2 * i + 1) + '\n';
+    const std::clock_t start = std::clock();
+    const pt::FilmHeader parsed = pt::parsed_film_header(header + '\n');
+    EXPECT_EQ(parsed.tiles.front().samples.count(), 300'000U);
+    pt::SampleSet others;
+    others.add(pt::SampleRange{1'000'001, 1'000'002});
+    EXPECT_FALSE(parsed.tiles.front().samples.overlap(others));
+    others.add(parsed.tiles.front().samples);
+    EXPECT_EQ(others.count(), 300'001U);
+    EXPECT_TRUE(parsed.tiles.front().samples.overlap(others));
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5.0);
+
+    std::string facts = "pt film 1\n";
+    for (int i = 0; i < 300'000; ++i)
+        facts += "a \n";
+    EXPECT_EQ(error_of([&] { pt::parsed_film_header(facts + '\n'); }).what(),
+              std::string("film: its header has more than 100 lines of other names"));
 }
 
 } // namespace

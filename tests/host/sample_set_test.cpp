@@ -61,6 +61,33 @@ TEST(SampleSet, IsTheSetOfItsIndices) {
     }
 }
 
+// As range by range.
+TEST(SampleSet, SetsAreAddedToSets) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 1000; ++round) {
+        SampleSet a;
+        SampleSet b;
+        SampleSet expected;
+        for (std::uint64_t index = random() % 3; index < 40;) {
+            const SampleRange range{index, index + 1 + random() % 4};
+            if (const auto to = random() % 3; to > 0) {
+                (to == 1 ? a : b).add(range);
+                expected.add(range);
+            }
+            index = range.end + random() % 2;
+        }
+        ASSERT_FALSE(a.overlap(b)) << pt::text_of(a) << " and " << pt::text_of(b);
+        const SampleSet before = a;
+        a.add(b);
+        ASSERT_EQ(a, expected);
+        for (const SampleRange &range : b.ranges()) {
+            ASSERT_FALSE(before.overlap(range));
+            ASSERT_EQ(a.overlap(SampleSet({range.end - 1, range.end + 1}))->first, range.end - 1);
+        }
+        ASSERT_EQ(a.overlap(b).has_value(), !b.empty());
+    }
+}
+
 TEST(SampleSet, ReachesToTheLastIndex) {
     SampleSet set({0, pt::sample_index_end});
     EXPECT_EQ(set.count(), std::uint64_t{1} << 32);
