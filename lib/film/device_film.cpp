@@ -88,15 +88,29 @@ void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums 
         sums.fold_into(parts_.split() < split ? older_part : newer_part);
 }
 
-void DeviceFilm::write(std::uint32_t first_pixel, const PixelSums &sums) {
-    for (Strip &strip : strips_) {
+DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
+    for (const Strip &strip : film.strips_)
+        words_.emplace_back(device, vulkan::BufferUse::Storage, strip.words.size(), "sum of films");
+}
+
+void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums) {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+        const Strip &strip = film_.strips_[i];
         const Overlap pixels(strip, first_pixel, sums.pixel_count());
         for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
             for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
-                strip.words.upload(
+                words_[i].upload(
                     std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
                     word_offset(strip, part, plane, pixels.first));
     }
+}
+
+void DeviceFilm::NewSums::replace(const PartUse &parts) {
+    device_.submit([&](const vk::raii::CommandBuffer &commands) {
+        for (std::size_t i = 0; i < words_.size(); ++i)
+            film_.strips_[i].words.copy(commands, words_[i]);
+    });
+    film_.set_parts(parts);
 }
 
 std::uint64_t DeviceFilm::rejected_samples() {

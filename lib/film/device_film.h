@@ -50,8 +50,24 @@ public:
     // others.
     void read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums);
 
-    // Replaces the sums of consecutive pixels, part by part as in memory.
-    void write(std::uint32_t first_pixel, const PixelSums &sums);
+    // Sums of all pixels that are to replace those of a film: in memory of their own, so that whatever fails before
+    // leaves the film as it was.
+    class NewSums {
+    public:
+        // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+        NewSums(vulkan::Device &device, DeviceFilm &film);
+
+        // Sets those of consecutive pixels, part by part as in memory.
+        void write(std::uint32_t first_pixel, const PixelSums &sums);
+
+        // In a single submission, once all have been written.
+        void replace(const PartUse &parts);
+
+    private:
+        vulkan::Device &device_;
+        DeviceFilm &film_;
+        std::vector<vulkan::Buffer> words_; // of each strip
+    };
 
     // Over both parts and all pixels.
     std::uint64_t rejected_samples();

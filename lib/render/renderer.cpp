@@ -226,6 +226,7 @@ void Renderer::take_samples(std::uint64_t count, Job &job) {
             return false;
         SampleRange next = dealt.next_missing(settings_->first_sample);
         next.end = std::min(next.end, next.first + (count - std::min(count, dealt.count())));
+        dealt.prepare_add(); // what is started must be counted
         dealt.add({next.first, next.first + device.start(next, dealt.hull())});
         return true;
     };
@@ -235,9 +236,10 @@ void Renderer::take_samples(std::uint64_t count, Job &job) {
                 while (deal(*device)) {
                 }
         } while (finish_slice(job));
-        samples_ = dealt;
+        SampleSet whole = dealt;
         if (is_in_pass())
-            samples_.remove(devices_.front()->pass());
+            whole.remove(devices_.front()->pass());
+        samples_ = std::move(whole);
         error_.reset();
     };
     try {
@@ -334,11 +336,13 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     require_addable(film, pixels(), samples_);
     RenderDevice &device = *devices_.front();
     const SampleSet &added = film.header().tiles.front().samples;
+    SampleSet all = samples_;
+    all.add(added);
     DeviceFilm &device_film = device.film();
     if (is_in_pass() && added.overlap(device.pass()))
         device.discard_pass();
-    add(film, hull_of(samples_.hull(), added.hull()), device_film);
-    samples_.add(added);
+    add(film, all.hull(), device.device(), device_film);
+    samples_ = std::move(all);
     error_.reset();
 }
 

@@ -50,9 +50,10 @@ void require_addable(const FilmReader &film, const Rectangle &pixels, const Samp
     });
 }
 
-void add(const FilmReader &film, const SampleRange &hull, DeviceFilm &to) {
+void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to) {
     const std::uint64_t split = split_of(hull);
     const std::uint64_t film_split = split_of(film.header().tiles.front().samples.hull());
+    DeviceFilm::NewSums all(device, to);
     PixelSums sums;
     PixelSums added;
     for_each_piece(to.pixel_count(), [&](std::uint32_t first, std::uint32_t count) {
@@ -63,11 +64,11 @@ void add(const FilmReader &film, const SampleRange &hull, DeviceFilm &to) {
         if (film_split != split)
             added.fold_into(film_split < split ? older_part : newer_part);
         sums.add(added);
-        to.write(first, sums);
+        all.write(first, sums);
     });
     PartUse parts;
     parts.extend(hull);
-    to.set_parts(parts);
+    all.replace(parts);
 }
 
 } // namespace pt

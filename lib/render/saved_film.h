@@ -17,7 +17,8 @@ void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::spa
 // sums that its samples cannot have.
 void require_addable(const FilmReader &film, const Rectangle &pixels, const SampleSet &present);
 
-// Adds a film of one tile to one in memory; hull: of the samples of both, and of all films that are rendered together.
-void add(const FilmReader &film, const SampleRange &hull, DeviceFilm &to);
+// Adds a film of one tile to one in a device's memory, all of it or nothing; hull: of the samples of both, and of all films
+// that are rendered together.
+void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
 
 } // namespace pt

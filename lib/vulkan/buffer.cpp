@@ -189,4 +189,8 @@ void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset
     commands.fillBuffer(handle(), offset, bytes, 0);
 }
 
+void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other) const {
+    commands.copyBuffer(other.handle(), handle(), vk::BufferCopy{.size = size()});
+}
+
 } // namespace pt::vulkan

@@ -43,6 +43,9 @@ public:
     // Records that bytes become 0. Offset and size likewise.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
+    // Records that its bytes become those of another of its size.
+    void copy(const vk::raii::CommandBuffer &commands, const Buffer &other) const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;

@@ -6,6 +6,8 @@
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
 
+#include <pt/film.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,6 +20,7 @@ namespace {
 
 constexpr uint32_t width = 24;
 constexpr uint32_t height = 20;
+constexpr uint32_t other_film_end = 12; // of its samples: some of them are in either part of the film
 
 // A lamp, a glossy ball that moves, and a floor: long paths, so that a millisecond does not suffice for all pixels.
 struct Scene {
@@ -74,7 +77,9 @@ Steps Life::all_steps() {
             "pt_accumulate, to a target",
             "pt_get_stats",
             "pt_get_accuracy",
+            "pt_save_film",
             "pt_set_scene, again",
+            "pt_add_film",
             "pt_set_camera, again",
             "pt_set_render, smaller",
             "pt_accumulate, again",
@@ -136,9 +141,12 @@ void Life::tell() {
         return pt_get_accuracy(context_, rows.data(), &row_count);
     });
 
-    // All setters again, which discard samples.
+    save_film("pt_save_film");
+
+    // All setters again, which discard samples. A film is added to a sample that is there.
     call("pt_set_scene, again", set_scene);
     accumulate_to("", 1, 0.0);
+    add_film("pt_add_film");
     call("pt_set_camera, again", set_camera);
     accumulate_to("", 1, 0.0);
     the_render.row_count = height / 2;
@@ -221,6 +229,23 @@ void Life::readback(const std::string &step, uint32_t quantity) {
     EXPECT_EQ(image, images.at(state().sample_count)) << step;
 }
 
+void Life::save_film(const std::string &step) {
+    if (!left_.contains(step))
+        return;
+    Film film(expected_.film.size());
+    uint64_t size = film.size();
+    call(
+        step, [&] { return pt_save_film(context_, film.data(), &size); },
+        [&] { EXPECT_EQ(size, film.size()) << step; });
+    EXPECT_TRUE(film == expected_.film) << step << ": other bytes";
+}
+
+void Life::add_film(const std::string &step) {
+    call(step, [&] { return pt_add_film(context_, expected_.other_film.data(), expected_.other_film.size()); });
+    EXPECT_EQ(state().sample_count, other_film_end) << step;
+    expect_image(step, other_film_end);
+}
+
 void Life::destroy() {
     const bool injects = left_.erase("pt_destroy") > 0;
     if (injects)
@@ -272,11 +297,23 @@ void Life::expect_image(const std::string &step, uint32_t sample_count) {
     EXPECT_TRUE(std::equal(image.begin(), image.end(), whole.begin())) << step << ": another image";
 }
 
+namespace {
+
+Film film_of(pt_context *context) {
+    uint64_t size = 0;
+    EXPECT_EQ(pt_save_film(context, nullptr, &size), PT_OK) << pt_last_error(context);
+    Film film(size);
+    EXPECT_EQ(pt_save_film(context, film.data(), &size), PT_OK) << pt_last_error(context);
+    return film;
+}
+
+} // namespace
+
 ExpectedImages undisturbed_images() {
     const Scene scene;
     const pt_scene the_scene = scene.scene();
     const pt_camera the_camera = camera();
-    const pt_render the_render = render();
+    pt_render the_render = render();
     pt_context *context = nullptr;
     EXPECT_EQ(pt_create(nullptr, &context), PT_OK) << pt_last_error(nullptr);
     EXPECT_EQ(pt_set_scene(context, &the_scene), PT_OK) << pt_last_error(context);
@@ -293,6 +330,12 @@ ExpectedImages undisturbed_images() {
             (quantity == PT_QUANTITY_RADIANCE ? images.radiance : images.standard_error)[count] = image;
         }
     }
+    images.film = film_of(context);
+    the_render.first_sample = 1;
+    const pt_accumulate_info others{sizeof others, other_film_end - 1, nullptr, nullptr, 0};
+    EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(pt_accumulate(context, &others), PT_OK) << pt_last_error(context);
+    images.other_film = film_of(context);
     pt_destroy(context);
     return images;
 }

@@ -21,11 +21,14 @@ struct Setting {
 };
 
 using Image = std::vector<float>;
+using Film = std::vector<char>;
 
-// Images of the life's scene by sample count, from a life in which nothing happens.
+// Images of the life's scene by sample count, from a life in which nothing happens, and films.
 struct ExpectedImages {
     std::map<uint32_t, Image> radiance;
     std::map<uint32_t, Image> standard_error;
+    Film film;       // of all samples
+    Film other_film; // of those that follow the first
 };
 
 ExpectedImages undisturbed_images();
@@ -77,6 +80,8 @@ private:
     void call(const std::string &step, const Function &function, const std::function<void()> &after_failure);
     void accumulate_to(const std::string &step, uint32_t sample_count, double target_error);
     void readback(const std::string &step, uint32_t quantity);
+    void save_film(const std::string &step);
+    void add_film(const std::string &step);
     void destroy();
     void expect_lost();
     State state();
