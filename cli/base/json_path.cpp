@@ -105,8 +105,8 @@ private:
     // Whether the search goes on.
     bool look() {
         const std::size_t depth = levels_.size();
-        const bool leads_there = depth >= depth_ && depth <= path_.size() &&
-                                 std::equal(levels_.rbegin(), levels_.rend(), path_.rend() - levels_.size());
+        const bool leads_there =
+            depth >= depth_ && depth <= path_.size() && std::equal(levels_.begin(), levels_.end(), path_.begin());
         if (!leads_there) {
             return true;
         }

@@ -232,7 +232,8 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     std::vector<std::string> warnings;
     const pt_stats &stats = report.stats;
     if (stats.rejected_samples > 0) {
-        const double sample_count = static_cast<double>(radiance.size() / 3) * stats.sample_count;
+        const std::size_t pixel_count = radiance.size() / 3;
+        const double sample_count = static_cast<double>(pixel_count) * stats.sample_count;
         const double share = static_cast<double>(stats.rejected_samples) / sample_count;
         warnings.push_back(std::to_string(stats.rejected_samples) + " samples (" + percent_text(share) +
                            ") were left out: not finite, negative or too bright");

@@ -22,7 +22,8 @@ struct Overlap {
 
 // Of a pixel's word in the buffer of a strip, in bytes.
 std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
-    const std::uint64_t words = (part * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
+    const std::uint64_t words =
+        (std::uint64_t{part} * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
     return words * sizeof(std::uint32_t);
 }
 

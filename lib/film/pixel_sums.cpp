@@ -73,11 +73,11 @@ void add_part(PixelSums &to, std::uint32_t to_part, const PixelSums &from, std::
 } // namespace
 
 std::span<std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) {
-    return std::span(words_).subspan((part * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+    return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
 }
 
 std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) const {
-    return std::span(words_).subspan((part * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+    return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
 }
 
 void PixelSums::add(const PixelSums &other) {

@@ -30,8 +30,9 @@ constexpr double two_spheres = 0.25;
 // in 2^14 pixels.
 constexpr double two_planes = 0x1p-8;
 
-// Spheres on a lattice have different places along a line in this direction, whose components are incommensurable.
-const glm::dvec3 generic_direction = glm::normalize(glm::dvec3(1.0, std::sqrt(2.0), std::sqrt(3.0)));
+// Spheres on a lattice have different places along a line in this direction, whose components are incommensurable: 1, the
+// roots of 2 and 3, over that of 6.
+constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 // By how much the centre of a twin may be elsewhere.
 double tolerance(const SeenSphere &sphere) {

@@ -150,7 +150,7 @@ class Steps:
         return fast, slow
 
     def subproject(self):
-        """add_subdirectory. Built without optimisation, for the compiler's time."""
+        """add_subdirectory. Built without optimisation and folder by folder, for the compiler's time."""
         folder = self.folder("subproject")
         # The library is optimised where the project leaves that open, and only then; never the project.
         for number, (settings, expected) in enumerate((
@@ -161,7 +161,7 @@ class Steps:
             found = self.configure_subproject(folder / str(number), *settings)
             require(found == expected, f"with {settings}, (optimised, not optimised) are {found}")
         build = folder / "build"
-        found = self.configure_subproject(build, "-DCMAKE_CXX_FLAGS=-O0")
+        found = self.configure_subproject(build, "-DCMAKE_CXX_FLAGS=-O0", "-DPT_UNITY=ON")
         require(found == (set(), {"lib", "tests"}), f"with -O0, (optimised, not optimised) are {found}")
         run(self.options.cmake, "--build", build, "-j2")
         for program in "enclosure_shared", "enclosure_static", "enclosure_cpp":
