@@ -293,19 +293,36 @@ TEST_F(FilmStrips, AreReadAsOne) {
                     ASSERT_EQ(sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i],
                               100 * plane + first + i)
                         << first << ", " << count;
-            // Written back, one greater, and read again.
-            for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
-                for (std::uint32_t &word : sums.plane(1, plane))
-                    ++word;
-            pt::PixelSums again = sums;
-            film.write(first, sums);
-            film.read(first, 0, again);
-            ASSERT_TRUE(again == sums);
-            for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
-                for (std::uint32_t &word : sums.plane(1, plane))
-                    --word;
-            film.write(first, sums);
         }
+}
+
+// In pieces that meet anywhere, and all at once.
+TEST_F(FilmStrips, AreReplacedAsOne) {
+    pt::DeviceFilm film(device(), 4, 4, 6);
+    const auto filled = [](std::uint32_t first, std::uint32_t count, std::uint32_t offset) {
+        pt::PixelSums sums;
+        sums.resize(count);
+        for (std::uint32_t plane = 0; plane < pt::PixelSums::words_per_pixel; ++plane)
+            for (std::uint32_t i = 0; i < count; ++i)
+                sums.plane(plane / pt::gpu::FILM_WORDS, plane % pt::gpu::FILM_WORDS)[i] =
+                    100 * plane + first + i + offset;
+        return sums;
+    };
+    const auto all = [&] {
+        pt::PixelSums sums;
+        sums.resize(film.pixel_count());
+        film.read(0, 0, sums);
+        return sums;
+    };
+    for (std::uint32_t cut = 1; cut < film.pixel_count(); ++cut) {
+        const pt::PixelSums before = all();
+        pt::DeviceFilm::NewSums sums(device(), film);
+        sums.write(0, filled(0, cut, cut));
+        sums.write(cut, filled(cut, film.pixel_count() - cut, cut));
+        ASSERT_TRUE(all() == before) << cut;
+        sums.replace({});
+        ASSERT_TRUE(all() == filled(0, film.pixel_count(), cut)) << cut;
+    }
 }
 
 } // namespace

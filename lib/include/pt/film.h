@@ -34,7 +34,8 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  *
  * One thread at a time per context. PT_ERROR_INCOMPATIBLE: they are no film, damaged, cut short, of another picture, or
  * have samples that the context has already; the message has a line for each difference. PT_ERROR_INVALID_STATE: something
- * is not set. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */
+ * is not set. PT_ERROR_OUT_OF_DEVICE_MEMORY: for the time of the call the sums are there twice, and there is no room.
+ * PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
 
 #ifdef __cplusplus
