@@ -136,6 +136,25 @@ TEST_F(SavedFilm, AContextGoesOnWithTheSamplesThatAreMissing) {
     EXPECT_FALSE(whole(99) == expected);
 }
 
+// The hull of the samples is then all that there is.
+TEST_F(SavedFilm, FilmsReachToTheLastIndex) {
+    constexpr uint32_t first_of_last = UINT32_MAX - 39;
+    const Bytes early = part(0, 30);
+    set_up(context(), settings(first_of_last));
+    accumulate_on(context(), 40);
+    const Bytes last = film_of(context());
+    ASSERT_EQ(add(context(), early), PT_OK) << pt_last_error(context());
+    const Picture expected = picture_of(context());
+    set_up(context(), settings(first_of_last));
+    accumulate_on(context(), 17);
+    ASSERT_EQ(add(context(), early), PT_OK) << pt_last_error(context());
+    EXPECT_EQ(add(context(), last), PT_ERROR_INCOMPATIBLE);
+    accumulate_on(context(), 23);
+    EXPECT_TRUE(picture_of(context()) == expected);
+    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0};
+    EXPECT_EQ(pt_accumulate(context(), &one), PT_ERROR_INVALID_ARGUMENT);
+}
+
 // Several devices, each with a film of its own, of which one gets what is added.
 TEST_F(SavedFilm, DevicesThatShareTheWorkAddToTheSameBytes) {
     const Picture expected = whole(200);
