@@ -123,6 +123,16 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
+// A scene that would be longer is in the storage buffer, where surfaces of one material share its words:
+//   geometry[S]
+//   emission[E]       of the E surfaces that may emit: lamps, skies, and with PLANES_EMIT the planes
+//   motion[spheres]
+//   curvature[planes]
+//   index[S]          four to a word: MATERIAL_INDEX_BITS + the surface's place in the table, as the bits of a float
+//   table             for each material its word of diffuse and, with GLOSS, that of specular
+// Emission is not in the table, as the many lamps of such a scene are asked for it one after the other.
+// The bits of 1.0: any index below 2^30 makes a finite number of them, and none that a device may flush to 0.
+PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
 // Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.

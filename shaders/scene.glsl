@@ -88,30 +88,55 @@ vec4 scene_word_among(uint first, uint count, uint index)
     return word;
 }
 
-// Blocks of the scene buffer.
+// Whether surfaces share the words of materials, which pays in large scenes; in small ones finding them costs more.
+const bool HAS_TABLE = SCENE_SOURCE == SCENE_IN_STORAGE;
+
+// Blocks of the scene buffer, ...
 const uint EMISSION = SURFACE_COUNT;
+const uint EMITTING_SPHERES = LAMP_COUNT + SKY_COUNT;
 const uint DIFFUSE = 2u * SURFACE_COUNT;
 const uint SPECULAR = 3u * SURFACE_COUNT;
-const uint MOTIONS = (3u + GLOSS) * SURFACE_COUNT;
+const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
+// ... and those of the storage buffer alone.
+const uint INDICES = CURVATURES + CURVATURE * PLANE_COUNT;
+const uint TABLE = INDICES + (SURFACE_COUNT + 3u) / 4u;
 
-// Radiance and its mean.
-vec4 emission_of(uint surface) { return scene_word_among(EMISSION, SURFACE_COUNT, surface); }
-vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
+// Where the words of a surface's material begin in the storage buffer.
+uint material_words(uint surface)
+{
+    uint bits = floatBitsToUint(scene_storage.words[INDICES + surface / 4u][surface % 4u]);
+    return TABLE + (1u + GLOSS) * (bits - MATERIAL_INDEX_BITS);
+}
 
 // Whether a surface may emit: lamps and skies do, other spheres do not.
 bool may_emit(uint surface)
 {
-    return surface < LAMP_COUNT + SKY_COUNT || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
+    return surface < EMITTING_SPHERES || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
 }
 
+// Radiance and its mean, of a surface that may emit.
+vec4 emission_of(uint surface)
+{
+    if (!HAS_TABLE)
+        return scene_word_among(EMISSION, SURFACE_COUNT, surface);
+    return scene_word(EMISSION + (surface < SPHERE_COUNT ? surface : surface - SPHERE_COUNT + EMITTING_SPHERES));
+}
+
+vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
+
 // Of the diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
-vec4 diffuse_of(uint surface) { return scene_word_among(DIFFUSE, SURFACE_COUNT, surface); }
+vec4 diffuse_of(uint surface)
+{
+    return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
+}
 
 // Of the specular reflection, its factor times (n + 2) / (2 pi), and the glossiness n.
 vec4 specular_of(uint surface)
 {
-    return GLOSS == 1 ? scene_word_among(SPECULAR, SURFACE_COUNT, surface) : vec4(0.0);
+    if (GLOSS == 0)
+        return vec4(0.0);
+    return HAS_TABLE ? scene_word(material_words(surface) + 1u) : scene_word_among(SPECULAR, SURFACE_COUNT, surface);
 }
 
 // Centre and radius of a sphere at a time, from 0 (shutter opens) to 1 (shutter closes): tracing, lamp sampling and

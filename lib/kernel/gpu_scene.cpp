@@ -2,11 +2,13 @@
 #include "lib/kernel/gpu_scene.h"
 
 #include "lib/base/mixed.h"
+#include "lib/kernel/scene_blocks.h"
 #include "lib/scene/ray_start.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/scene/twins.h"
 
 #include <algorithm>
+#include <bit>
 #include <numbers>
 #include <utility>
 
@@ -32,54 +34,84 @@ float specular_probability(const Material &material) {
 // Writes the words of the surface with a kernel index.
 class Writer {
 public:
-    Writer(std::vector<glm::vec4> &words, const Features &features) : words_(words), features_(features) {}
+    Writer(std::vector<glm::vec4> &words, const Features &features) :
+        words_(words),
+        features_(features),
+        blocks_(features) {}
 
-    void material(std::uint32_t surface, const Material &material) {
-        const std::uint64_t count = features_.surface_count();
+    void emission(std::uint32_t surface, const Material &material) {
         // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
-        words_[count + surface] = glm::vec4(material.emission + 0.0F, mean(material.emission));
+        if (features_.scene_in_uniform || may_emit(surface))
+            words_[emission_word(surface)] = glm::vec4(material.emission + 0.0F, mean(material.emission));
+    }
+
+    // Of a surface, or of a material of the table.
+    void reflection(std::uint32_t index, const Material &material) {
         // The constants of the two parts of f are in the words, for the kernel to spare them.
         const double lobe = (material.glossiness + 2.0) / (2.0 * std::numbers::pi);
         const glm::dvec3 diffuse = glm::dvec3(material.diffuse) / std::numbers::pi;
-        words_[2 * count + surface] = glm::vec4(glm::vec3(diffuse), specular_probability(material));
+        const std::uint64_t word = blocks_.reflection_step * index;
+        words_[blocks_.diffuse + word] = glm::vec4(glm::vec3(diffuse), specular_probability(material));
         if (features_.gloss)
-            words_[3 * count + surface] =
+            words_[blocks_.specular + word] =
                 glm::vec4(glm::vec3(glm::dvec3(material.specular) * lobe), material.glossiness);
+    }
+
+    void material_index(std::uint32_t surface, std::uint32_t index) {
+        words_[blocks_.index + surface / 4][static_cast<int>(surface % 4)] =
+            std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + index);
     }
 
     void sphere(std::uint32_t surface, const SeenSphere &sphere) {
         words_[surface] = glm::vec4(glm::vec3(sphere.open), static_cast<float>(sphere.radius));
         if (features_.motion)
-            words_[motion_words() + surface] = glm::vec4(glm::vec3(sphere.way), 0.0F);
+            words_[blocks_.motion + surface] = glm::vec4(glm::vec3(sphere.way), 0.0F);
     }
 
     void plane(std::uint32_t surface, const CurvedPlane &plane) {
         words_[surface] = glm::vec4(glm::vec3(plane.normal), static_cast<float>(plane.offset));
         if (features_.curvature)
-            words_[curvature_words() + surface - features_.sphere_count] =
+            words_[blocks_.curvature + surface - features_.sphere_count] =
                 glm::vec4(static_cast<float>(plane.curvature), glm::vec3(plane.way));
     }
 
 private:
-    std::uint64_t motion_words() const { return (features_.gloss ? 4 : 3) * std::uint64_t{features_.surface_count()}; }
-    std::uint64_t curvature_words() const { return motion_words() + (features_.motion ? features_.sphere_count : 0); }
+    bool may_emit(std::uint32_t surface) const {
+        return surface < features_.emitting_spheres() || (features_.planes_emit && surface >= features_.sphere_count);
+    }
+
+    std::uint64_t emission_word(std::uint32_t surface) const {
+        if (features_.scene_in_uniform || surface < features_.sphere_count)
+            return blocks_.emission + surface;
+        return blocks_.emission + features_.emitting_spheres() + surface - features_.sphere_count;
+    }
 
     std::vector<glm::vec4> &words_;
     const Features &features_;
+    const SceneBlocks blocks_;
 };
 
-std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const Scene &scene, const Features &features) {
-    std::vector<glm::vec4> words(scene_word_count(features));
+std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Features &features) {
+    std::vector<glm::vec4> words(SceneBlocks(features).word_count);
     Writer writer(words, features);
     std::uint32_t surface = 0;
+    const auto write_material = [&](std::uint32_t material) {
+        writer.emission(surface, scene.scene.materials[material]);
+        if (features.scene_in_uniform)
+            writer.reflection(surface, scene.scene.materials[material]);
+        else
+            writer.material_index(surface, scene.used_indices[material]);
+    };
     for (const SeenSphere &sphere : surfaces.spheres) {
-        writer.material(surface, scene.materials[sphere.material]);
+        write_material(sphere.material);
         writer.sphere(surface++, sphere);
     }
     for (const CurvedPlane &plane : surfaces.planes) {
-        writer.material(surface, scene.materials[plane.material]);
+        write_material(plane.material);
         writer.plane(surface++, plane);
     }
+    for (std::uint32_t i = 0; i < features.table_materials; ++i)
+        writer.reflection(i, scene.used_materials[i]);
     return words;
 }
 
@@ -112,7 +144,7 @@ GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, co
                    const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen);
     const Features features = features_of(distinct, surfaces, scene, start, settings);
-    return {features, words_of(surfaces, scene.scene, features), frame_constants(start, settings, scene.film_unit),
+    return {features, words_of(surfaces, scene, features), frame_constants(start, settings, scene.film_unit),
             scene.film_unit};
 }
 

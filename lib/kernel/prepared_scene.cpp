@@ -11,17 +11,13 @@ namespace pt {
 
 namespace {
 
-// Of the materials that some surface has.
-std::vector<Material> used_materials(const Scene &scene) {
-    std::vector<bool> is_used(scene.materials.size());
+// Of the scene's materials, whether some surface has them.
+std::vector<bool> is_used(const Scene &scene) {
+    std::vector<bool> used(scene.materials.size());
     for (const Sphere &sphere : scene.spheres)
-        is_used[sphere.material] = true;
+        used[sphere.material] = true;
     for (const Plane &plane : scene.planes)
-        is_used[plane.material] = true;
-    std::vector<Material> used;
-    for (std::size_t i = 0; i < is_used.size(); ++i)
-        if (is_used[i])
-            used.push_back(scene.materials[i]);
+        used[plane.material] = true;
     return used;
 }
 
@@ -40,9 +36,14 @@ double film_unit(const std::vector<Material> &materials) {
 } // namespace
 
 PreparedScene::PreparedScene(Scene of) : scene(std::move(of)), sphere_order(order_along_line(scene.spheres)) {
-    const std::vector<Material> materials = used_materials(scene);
-    film_unit = pt::film_unit(materials);
-    gloss = std::ranges::any_of(materials, is_glossy);
+    const std::vector<bool> used = is_used(scene);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        used_indices.push_back(static_cast<std::uint32_t>(used_materials.size()));
+        if (used[i])
+            used_materials.push_back(scene.materials[i]);
+    }
+    film_unit = pt::film_unit(used_materials);
+    gloss = std::ranges::any_of(used_materials, is_glossy);
     moves = std::ranges::any_of(scene.spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); });
 }
 

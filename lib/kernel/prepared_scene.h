@@ -14,6 +14,8 @@ struct PreparedScene {
     // [2^7, 2^8) units, so that samples 2^20 times as bright are still accepted and samples 2^-44 times as bright are
     // exact, whatever the scene's unit of light is.
     double film_unit;
+    std::vector<Material> used_materials;    // those that some surface has, in the scene's order
+    std::vector<std::uint32_t> used_indices; // where in used_materials those of the scene are, if they are
     bool gloss;                              // some material in use has a specular lobe
     bool moves;                              // some sphere does
     std::vector<std::uint32_t> sphere_order; // along the line of twins.h

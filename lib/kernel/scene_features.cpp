@@ -2,6 +2,7 @@
 #include "lib/kernel/scene_features.h"
 
 #include "lib/kernel/point_sequence.h"
+#include "lib/kernel/scene_blocks.h"
 
 #include <pt/stats.h>
 
@@ -103,14 +104,12 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.sampler = render.sampler;
     features.gloss = scene.gloss;
     features.motion = scene.moves && camera.shutter_close > camera.shutter_open;
-    features.scene_in_uniform = scene_word_count(features) <= gpu::UNIFORM_SCENE_WORDS;
+    features.scene_in_uniform = true;
+    if (SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
+        features.scene_in_uniform = false;
+        features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
+    }
     return features;
-}
-
-std::uint64_t scene_word_count(const Features &features) {
-    const std::uint64_t words_per_surface = features.gloss ? 4 : 3;
-    return words_per_surface * features.surface_count() + (features.motion ? features.sphere_count : 0) +
-           (features.curvature ? features.plane_count : 0);
 }
 
 std::uint32_t branch_count(const Features &features) {

@@ -36,11 +36,13 @@ struct Features {
     bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
-    bool scene_in_uniform; // the scene fits into a uniform buffer
+    bool scene_in_uniform; // the scene, with the words of a material for each surface, fits into a uniform buffer
+    std::uint32_t table_materials; // if it does not: the materials that its surfaces share
 
     bool operator==(const Features &) const = default;
 
     std::uint32_t surface_count() const { return sphere_count + plane_count; }
+    std::uint32_t emitting_spheres() const { return lamp_count + sky_count; }
 };
 
 // A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in the
@@ -57,10 +59,6 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct);
 
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
-
-// Length of the scene buffer in words of four floats (gpu_layout.h has its layout): up to 5 words for each of 2^30
-// surfaces.
-std::uint64_t scene_word_count(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the
 // noise, and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework

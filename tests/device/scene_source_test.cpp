@@ -1,6 +1,7 @@
 // The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
 // buffer.
 #include "tests/device/kernel_render.h"
+#include "tests/device/table_words.h"
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
@@ -35,6 +36,11 @@ struct Comparison {
 
     bool holds(std::uint32_t source, const std::vector<glm::vec4> &words) const {
         return render.film(source, words) == film;
+    }
+
+    // The storage buffer is that of large scenes, whose surfaces share materials.
+    bool holds_in_storage() const {
+        return holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), render.words()));
     }
 };
 
@@ -72,7 +78,7 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
-    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+    EXPECT_TRUE(same.holds_in_storage());
 
     // Negative control: one number is off by its last bit.
     std::vector<glm::vec4> words = render.words();
@@ -80,6 +86,20 @@ TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     radius = std::nextafter(radius, std::numeric_limits<float>::infinity());
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_UNIFORM, words));
     EXPECT_FALSE(same.holds(gpu::SCENE_IN_CONSTANTS, words));
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), words)));
+}
+
+// The floor, the last surface, has the ball's material instead of its own: the index alone says so.
+TEST_F(SceneSource, ShowsAWrongMaterial) {
+    const KernelRender render = render_of_scene(diffuse_scene());
+    const Comparison same(render);
+    std::vector<glm::vec4> words = table_words(render.features(), render.words());
+    const std::uint32_t ball = render.features().lamp_count;
+    const std::uint32_t floor = render.features().surface_count() - 1;
+    ASSERT_EQ(floor, ball + 1);
+    glm::vec4 *const indices = &words[first_index_word(render.features())];
+    indices[floor / 4][static_cast<int>(floor % 4)] = indices[ball / 4][static_cast<int>(ball % 4)];
+    EXPECT_FALSE(same.holds(gpu::SCENE_IN_STORAGE, words));
 }
 
 // With one lamp its radiance, place and size are constants everywhere, which invites compilers to move them about in
@@ -94,7 +114,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     EXPECT_TRUE(render.features().motion && render.features().gloss && render.features().curvature);
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
-    EXPECT_TRUE(same.holds(gpu::SCENE_IN_STORAGE, render.words()));
+    EXPECT_TRUE(same.holds_in_storage());
 }
 
 // With two lamps that are alike but for their places, what is selected among their radiances is the same for both.
@@ -127,7 +147,10 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     const KernelRender render = render_of_scene(scene);
     EXPECT_TRUE(render.features().gloss);
     EXPECT_EQ(render.features().surface_count(), 4U);
-    EXPECT_TRUE(Comparison(render).holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(render.features().planes_emit);
+    const Comparison same(render);
+    EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
+    EXPECT_TRUE(same.holds_in_storage());
 }
 
 // With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.

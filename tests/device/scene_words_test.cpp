@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -72,33 +73,60 @@ struct SurfaceRead {
 };
 
 constexpr std::uint32_t lamps = 2;
-constexpr std::uint32_t spheres = 3;
+constexpr std::uint32_t skies = 1;
+constexpr std::uint32_t spheres = 4;
 constexpr std::uint32_t planes = 2;
 constexpr std::uint32_t surfaces = spheres + planes;
 constexpr glm::vec4 point{1, 2, 3, 0};
 
 struct Variant {
-    bool gloss, motion, curvature;
+    bool gloss, motion, curvature, planes_emit;
 };
 
-std::uint32_t word_count(const Variant &variant) {
-    return (variant.gloss ? 4 : 3) * surfaces + (variant.motion ? spheres : 0) + (variant.curvature ? planes : 0);
-}
+// In the table that the storage buffer has, and the material of each surface there.
+constexpr std::uint32_t materials = 3;
+constexpr std::array<std::uint32_t, surfaces> material_of = {1, 0, 2, 2, 1, 0};
 
-// By the layout that gpu_layout.h describes. The numbers are whole ones and halves, so that all sums are exact.
-std::vector<SurfaceRead> expected(const Variant &variant, const Words &words) {
-    const glm::vec4 *emission = &words[surfaces];
-    const glm::vec4 *diffuse = emission + surfaces;
-    const glm::vec4 *specular = diffuse + surfaces;
-    const glm::vec4 *motion = specular + (variant.gloss ? surfaces : 0);
+// The first word of each block, by the layout that gpu_layout.h describes.
+struct Blocks {
+    bool has_table;
+    std::uint32_t emission, motion, curvature, index, diffuse, specular, reflection_step, end;
+
+    Blocks(const Variant &variant, std::uint32_t source) : has_table(source == gpu::SCENE_IN_STORAGE) {
+        const std::uint32_t gloss = variant.gloss ? 1 : 0;
+        emission = surfaces;
+        motion = has_table ? emission + lamps + skies + (variant.planes_emit ? planes : 0) : (3 + gloss) * surfaces;
+        curvature = motion + (variant.motion ? spheres : 0);
+        index = curvature + (variant.curvature ? planes : 0);
+        diffuse = has_table ? index + 2 : 2 * surfaces; // indices of four surfaces, and of two
+        specular = has_table ? diffuse + 1 : 3 * surfaces;
+        reflection_step = has_table ? 1 + gloss : 1;
+        end = has_table ? diffuse + reflection_step * materials : index;
+    }
+
+    std::uint32_t emission_of(std::uint32_t surface) const {
+        return emission + (has_table && surface >= spheres ? surface - spheres + lamps + skies : surface);
+    }
+
+    float &index_of(Words &words, std::uint32_t surface) const {
+        return words[index + surface / 4][static_cast<int>(surface % 4)];
+    }
+};
+
+// The numbers are whole ones and halves, so that all sums are exact.
+std::vector<SurfaceRead> expected(const Variant &variant, const Blocks &blocks, Words words) {
+    const glm::vec4 *motion = &words[blocks.motion];
     const glm::vec4 *curvature = motion + (variant.motion ? spheres : 0);
     std::vector<SurfaceRead> reads(surfaces);
     for (std::uint32_t i = 0; i < surfaces; ++i) {
         SurfaceRead &read = reads[i];
-        read.emission = emission[i];
-        read.lamp_emission = i < lamps ? emission[i] : glm::vec4(0);
-        read.diffuse = diffuse[i];
-        read.specular = variant.gloss ? specular[i] : glm::vec4(0);
+        const bool may_emit = i < lamps + skies || (variant.planes_emit && i >= spheres);
+        read.emission = may_emit || !blocks.has_table ? words[blocks.emission_of(i)] : glm::vec4(0);
+        read.lamp_emission = i < lamps ? read.emission : glm::vec4(0);
+        const std::uint32_t index =
+            blocks.has_table ? std::bit_cast<std::uint32_t>(blocks.index_of(words, i)) - gpu::MATERIAL_INDEX_BITS : i;
+        read.diffuse = words[blocks.diffuse + blocks.reflection_step * index];
+        read.specular = variant.gloss ? words[blocks.specular + blocks.reflection_step * index] : glm::vec4(0);
         if (i < spheres) {
             read.sphere = words[i] + (variant.motion ? 0.5F * glm::vec4(glm::vec3(motion[i]), 0) : glm::vec4(0));
             read.sphere_among = read.sphere;
@@ -118,37 +146,54 @@ std::vector<SurfaceRead> expected(const Variant &variant, const Words &words) {
 }
 
 // With small numbers for the planes, lest the squares of their distances be rounded.
-Words surface_words_of(const Variant &variant) {
-    Words words = numbered(word_count(variant));
+Words surface_words_of(const Variant &variant, const Blocks &blocks) {
+    Words words = numbered(blocks.end);
     for (std::uint32_t i = 0; i < planes; ++i) {
         words[spheres + i] = {i + 1, 2, -1, i};
         if (variant.curvature)
-            words[words.size() - planes + i] = {0.5 * (i + 1), 0, 0, 0};
+            words[blocks.curvature + i] = {0.5 * (i + 1), 0, 0, 0};
     }
+    if (blocks.has_table)
+        for (std::uint32_t i = 0; i < surfaces; ++i)
+            blocks.index_of(words, i) = std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + material_of[i]);
     return words;
 }
 
 TEST_P(SceneWords, OfEverySurfaceAreWhereItsBlocksSay) {
-    for (const Variant &variant :
-         {Variant{false, false, false}, Variant{true, true, true}, Variant{false, true, true}}) {
+    for (const Variant &variant : {Variant{false, false, false, false}, Variant{true, true, true, false},
+                                   Variant{false, true, true, true}, Variant{true, false, false, true}}) {
         std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
         constants[gpu::ID_SPHERE_COUNT] = spheres;
         constants[gpu::ID_PLANE_COUNT] = planes;
         constants[gpu::ID_LAMP_COUNT] = lamps;
+        constants[gpu::ID_SKY_COUNT] = skies;
         constants[gpu::ID_GLOSS] = variant.gloss;
         constants[gpu::ID_MOTION] = variant.motion;
         constants[gpu::ID_CURVATURE] = variant.curvature;
-        Words words = surface_words_of(variant);
+        constants[gpu::ID_PLANES_EMIT] = variant.planes_emit;
+        const Blocks blocks(variant, GetParam());
+        Words words = surface_words_of(variant, blocks);
         Probe probe = probe_of(surface_words_spirv, sizeof point, constants, words);
         const auto reads = probe.run<SurfaceRead>({}, surfaces, point, 1);
-        EXPECT_EQ(reads, expected(variant, words))
-            << "gloss " << variant.gloss << ", motion " << variant.motion << ", curvature " << variant.curvature;
+        EXPECT_EQ(reads, expected(variant, blocks, words))
+            << "gloss " << variant.gloss << ", motion " << variant.motion << ", curvature " << variant.curvature
+            << ", emitting planes " << variant.planes_emit;
 
-        // Negative control: each word matters.
-        for (glm::vec4 &word : words) {
-            word.x += 0.5F;
-            EXPECT_NE(reads, expected(variant, words));
-            word.x -= 0.5F;
+        // Negative control: each word matters, ...
+        for (std::uint32_t i = 0; i < words.size(); ++i) {
+            if (blocks.has_table && i >= blocks.index && i < blocks.diffuse)
+                continue;
+            words[i].x += 0.5F;
+            EXPECT_NE(reads, expected(variant, blocks, words)) << i;
+            words[i].x -= 0.5F;
+        }
+        // ... and so does each index.
+        for (std::uint32_t i = 0; blocks.has_table && i < surfaces; ++i) {
+            float &index = blocks.index_of(words, i);
+            const float right =
+                std::exchange(index, std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + (material_of[i] + 1) % materials));
+            EXPECT_NE(reads, expected(variant, blocks, words)) << i;
+            index = right;
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "lib/api/struct_size.h"
 #include "lib/base/error.h"
 #include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
@@ -13,8 +14,10 @@
 #include <pt/stats.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace fuzz {
@@ -132,13 +135,36 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
+// Of large scenes, whose surfaces share the materials of a table.
+void require_indices(std::span<const glm::vec4> indices, const pt::Features &features) {
+    for (std::uint32_t i = 0; i < features.surface_count(); ++i) {
+        const float bits = indices[i / 4][static_cast<int>(i % 4)];
+        require(std::isnormal(bits), "no device flushes the bits of an index to 0");
+        require(std::bit_cast<std::uint32_t>(bits) - pt::gpu::MATERIAL_INDEX_BITS < features.table_materials,
+                "surfaces have a material of the table");
+    }
+}
+
 void require_words(const std::vector<glm::vec4> &words, const pt::Features &features) {
-    require(words.size() == pt::scene_word_count(features), "the scene has as many words as it is said to have");
-    const std::uint64_t specular = features.gloss ? 3 * std::uint64_t{features.surface_count()} : words.size();
-    const std::uint64_t after = features.gloss ? specular + features.surface_count() : words.size();
+    const pt::SceneBlocks blocks(features);
+    require(words.size() == blocks.word_count, "the scene has as many words as it is said to have");
+    require(words.size() <= pt::gpu::UNIFORM_SCENE_WORDS || !features.scene_in_uniform,
+            "the scene fits into the buffer that it is in");
+    const std::uint64_t reflections = features.scene_in_uniform ? features.surface_count() : features.table_materials;
+    const auto is_specular = [&](std::uint64_t word) {
+        const std::uint64_t from_first = word - blocks.specular; // wraps to a large number before it
+        return features.gloss && from_first % blocks.reflection_step == 0 &&
+               from_first / blocks.reflection_step < reflections;
+    };
     for (std::uint64_t i = 0; i < words.size(); ++i)
-        require(is_within(words[i], i >= specular && i < after ? largest_peak : largest_length),
+        require(is_within(words[i], is_specular(i) ? largest_peak : largest_length),
                 "the scene's words are numbers whose squares are numbers, or peaks of lobes");
+    for (std::uint64_t i = 0; i < reflections; ++i) {
+        const float probability = words[blocks.diffuse + i * blocks.reflection_step].w;
+        require(probability >= 0.0F && probability <= 1.0F, "probabilities lie in [0, 1]");
+    }
+    if (!features.scene_in_uniform)
+        require_indices(std::span(words).subspan(blocks.index), features);
     const auto spheres = std::span(words).first(features.sphere_count);
     require(std::ranges::all_of(spheres, [](const glm::vec4 &sphere) { return sphere.w >= 1e-18F * (1 - 0x1p-24F); }),
             "the kernel's radii are at least 1e-18");
@@ -149,9 +175,6 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
                                     return std::abs(glm::length(glm::dvec3(plane)) - 1.0) <= 2 * 0x1p-24;
                                 }),
             "the kernel's normals are unit vectors");
-    const auto diffuse = std::span(words).subspan(2 * features.surface_count(), features.surface_count());
-    require(std::ranges::all_of(diffuse, [](const glm::vec4 &word) { return word.w >= 0.0F && word.w <= 1.0F; }),
-            "probabilities lie in [0, 1]");
 }
 
 void require_frame(const pt::gpu::FrameConstants &frame, double unit) {

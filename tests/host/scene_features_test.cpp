@@ -200,20 +200,6 @@ TEST(FeaturePlanesBlock, IsTrueWithACurvedPlane) {
     EXPECT_FALSE(planes_block({ball_at({0, -14, 0}, 10), lamp_at({0, 3, -5}, 1)}, {})) << "held by its centre";
 }
 
-// Five words for each of as many surfaces as a scene may have are more than a 32-bit number.
-TEST(SceneWordCount, HoldsForTheLargestScenes) {
-    constexpr std::uint32_t most_surfaces = (1U << 30) - 1;
-    pt::Features features{};
-    features.sphere_count = most_surfaces;
-    features.gloss = true;
-    features.motion = true;
-    EXPECT_EQ(pt::scene_word_count(features), std::uint64_t{5} * most_surfaces);
-    features.sphere_count = 1;
-    features.plane_count = most_surfaces - 1;
-    features.curvature = true;
-    EXPECT_EQ(pt::scene_word_count(features), std::uint64_t{5} * most_surfaces);
-}
-
 TEST(FeatureSky, IsALampThatHoldsTheCamera) {
     const auto counts = [](const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0, 1}) {
         const pt::Features features = features_of(spheres, {}, shutter);

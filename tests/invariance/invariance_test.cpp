@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <thread>
@@ -152,6 +153,53 @@ TEST_P(Invariance, ContextsInOtherThreads) {
         thread.join();
     for (int i = 0; i < contexts; ++i)
         EXPECT_EQ(differing_values(together[i], alone[i]), 0U);
+}
+
+// Of balls in so great a number that surfaces share materials in the scene's buffer.
+class InvarianceOfLargeScenes : public ContextFixture {
+protected:
+    static InvarianceScene scene() {
+        InvarianceScene result = InvarianceScene::coursework();
+        result.planes.resize(2);
+        std::fill_n(result.materials[result.planes[1].material].emission, 3, 0.25F);
+        result.camera.shutter_close = 1.0;
+        const auto material = result.spheres.back().material;
+        for (int i = 0; i < 300; ++i)
+            result.spheres.push_back({{i % 20 - 9.5, i / 20 * 0.5 - 3.5, -14.0}, 0.2, {0, 0, 0}, material, 0});
+        return result;
+    }
+
+    // Each surface has a material of its own, equal to what it had.
+    static InvarianceScene with_own_materials(const InvarianceScene &shared) {
+        InvarianceScene result = shared;
+        result.materials.clear();
+        const auto give_own = [&](uint32_t &material) {
+            result.materials.push_back(shared.materials[material]);
+            material = static_cast<uint32_t>(result.materials.size()) - 1;
+        };
+        for (pt_sphere &sphere : result.spheres)
+            give_own(sphere.material);
+        for (pt_plane &plane : result.planes)
+            give_own(plane.material);
+        return result;
+    }
+
+    Image image_of(const InvarianceScene &of) {
+        Image image = render(context(), of);
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
+        EXPECT_EQ(stats.features, PT_FEATURE_LAMPS | PT_FEATURE_GLOSS | PT_FEATURE_MOTION | PT_FEATURE_LARGE);
+        return image;
+    }
+};
+
+TEST_F(InvarianceOfLargeScenes, SharedMaterials) {
+    const Image shared = image_of(scene());
+    InvarianceScene own = with_own_materials(scene());
+    EXPECT_EQ(differing_values(image_of(own), shared), 0U);
+    own.spheres.back().material = own.planes[0].material;
+    EXPECT_GT(differing_values(image_of(own), shared), 0U) << "one ball's material must show";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::Bool(),
