@@ -28,7 +28,8 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
 /** Adds the samples of a film that pt_save_film has written to those of the context.
  *
  * Needs the scene, camera and render settings with which the film was made, but for pt_render.first_sample. Later calls of
- * pt_accumulate take, from pt_render.first_sample on, the samples that are missing.
+ * pt_accumulate take, from pt_render.first_sample on, the samples that are missing. With PT_SAMPLER_SOBOL the error that is
+ * stated (pt_stats) was from 0.76 to 3.7 times the true one for samples that are not the first ones or have gaps.
  *
  * The bytes need not be trusted: they are checked as a whole before anything changes.
  *

@@ -1,0 +1,112 @@
+"""Prints the table in shaders/README.md of the error that is stated of other samples than the first: least, median and
+largest over six seeds of stated / true error, where the truth is an image of 32768 samples of another seed.
+
+    PT_LIBRARY=build/lib/libpt.so python3 tests/render/range_calibration.py MAX_PATH_LENGTH
+"""
+
+import ctypes
+import json
+import math
+import pathlib
+import re
+import statistics
+import sys
+from ctypes import POINTER, byref, c_double, c_uint32, c_uint64, c_void_p
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "lib/examples"))
+import smallest  # noqa: E402
+
+WIDTH, HEIGHT = 96, 48
+RANDOM, SOBOL = 1, 4
+ROWS = [[(0, 100)], [(100, 100)], [(0, 500)], [(1000, 500)], [(1016, 484)], [(1023, 477)], [(0, 256)], [(4096, 256)],
+        [(4088, 264)], [(0, 128)], [(0, 64), (512, 64)], [(0, 64), (700, 64)], [(0, 64), (2**20, 64)], [(0, 192)],
+        [(0, 64), (512, 64), (1024, 64)]]
+
+
+class Stats(smallest.Sized):
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
+                ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
+                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
+                ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
+                ("relative_rmse_high", c_double)]
+
+
+class Renderer(smallest.Renderer):
+    """Of the coursework scene."""
+
+    def __init__(self, max_path_length):
+        super().__init__()
+        self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
+        self.library.pt_save_film.argtypes = [c_void_p, c_void_p, POINTER(c_uint64)]
+        self.library.pt_add_film.argtypes = [c_void_p, c_void_p, c_uint64]
+        self.max_path_length = max_path_length
+        text = (ROOT / "cli/scenes/coursework.json").read_text()
+        scene = json.loads(re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE))
+        names = list(scene["materials"])
+
+        def colour(value):
+            return (ctypes.c_float * 3)(*(value if isinstance(value, list) else [value] * 3))
+
+        self.set_scene(
+            [smallest.pt_material(colour(m.get("diffuse", 0)), colour(m.get("specular", 0)),
+                                  colour(m.get("emission", 0)), m.get("glossiness", 0))
+             for m in scene["materials"].values()],
+            [smallest.pt_sphere((c_double * 3)(*s["center"]), s["radius"], (c_double * 3)(*s.get("motion", [0, 0, 0])),
+                                names.index(s["material"])) for s in scene.get("spheres", [])],
+            [smallest.pt_plane((c_double * 3)(*p["normal"]), p["offset"], names.index(p["material"]))
+             for p in scene.get("planes", [])])
+        camera = scene["camera"]
+        self.set_camera(position=(c_double * 3)(*camera["position"]), target=(c_double * 3)(*camera["look_at"]),
+                        up=(c_double * 3)(*camera.get("up", [0, 1, 0])),
+                        vertical_fov=math.radians(camera["vertical_fov"]))
+
+    def take(self, first, count, **fields):
+        self.set_render(WIDTH, HEIGHT, max_path_length=self.max_path_length, first_sample=first, **fields)
+        if count > 0:
+            self.accumulate(count)
+
+    def film(self):
+        size = c_uint64()
+        self._check(self.library.pt_save_film(self.context, None, byref(size)))
+        data = ctypes.create_string_buffer(size.value)
+        self._check(self.library.pt_save_film(self.context, data, byref(size)))
+        return data.raw
+
+    def take_ranges(self, ranges, **fields):
+        films = []
+        for first, count in ranges:
+            self.take(first, count, **fields)
+            films.append(self.film())
+        self.take(0, 0, **fields)
+        for film in films:
+            self._check(self.library.pt_add_film(self.context, film, len(film)))
+
+    def stated_error(self):
+        stats = Stats()
+        self._check(self.library.pt_get_stats(self.context, byref(stats)))
+        return stats.relative_rmse
+
+    def true_error(self, truth):
+        squares = [(x - t) ** 2 / (t * t + 0.01) for x, t in zip(self.image(), truth)]
+        return math.sqrt(sum(squares) / len(squares))
+
+
+def main():
+    with Renderer(int(sys.argv[1])) as renderer:
+        renderer.take(0, 32768, seed=99, sampler=SOBOL)
+        truth = renderer.image()
+        print("| samples | `random` | `sobol` |\n|---|---|---|")
+        for ranges in ROWS:
+            cells = [", ".join(f"{first}+{count}" for first, count in ranges)]
+            for sampler in (RANDOM, SOBOL):
+                ratios = []
+                for seed in range(11, 17):
+                    renderer.take_ranges(ranges, seed=seed, sampler=sampler)
+                    ratios.append(renderer.stated_error() / renderer.true_error(truth))
+                cells.append(f"{min(ratios):.2f}, {statistics.median(ratios):.2f}, {max(ratios):.2f}")
+            print("| " + " | ".join(cells) + " |", flush=True)
+
+
+if __name__ == "__main__":
+    main()
