@@ -71,6 +71,13 @@ protected:
         return pt_add_film(context, film.data(), film.size());
     }
 
+    // Gives changed bytes the checksum that fits.
+    static void seal(Bytes &film) {
+        const std::size_t checked = film.size() - sizeof(uint64_t);
+        const uint64_t checksum = pt::checksum(std::as_bytes(std::span(film).first(checked)));
+        std::memcpy(&film[checked], &checksum, sizeof checksum);
+    }
+
     static Picture picture_of(pt_context *context, uint32_t rows = height) {
         Picture picture;
         const auto read = [&](std::vector<float> &values, uint32_t quantity) {
@@ -236,6 +243,15 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         std::copy(to.begin(), to.end(), place);
         return film;
     };
+    // As if made by another one: the first letter of its value differs, and the checksum fits.
+    const auto with_another = [](Bytes film, const std::string &name) {
+        const std::string start = "\n" + name + ' ';
+        const auto value = std::search(film.begin(), film.end(), start.begin(), start.end()) +
+                           static_cast<std::ptrdiff_t>(start.size());
+        *value = *value == '7' ? '8' : '7';
+        seal(film);
+        return film;
+    };
     const Bytes good = part(12, 20);
     Bytes truncated = good;
     truncated.pop_back();
@@ -253,6 +269,9 @@ TEST_F(SavedFilm, StrangersAreRefusedAndNothingChanges) {
         {strange_film([](pt_render &, pt_camera &camera) { camera.vertical_fov = 0.5; }), "film.camera = "},
         {part(19, 22), "film.samples = [19, 22): [19, 20) are in this context's film already"},
         {good, "film.samples = [12, 20): [12, 20) are in this context's film already"},
+        {with_another(good, "kernel"), "film.kernel = "},
+        {with_another(good, "device"), "film.device = "},
+        {with_another(good, "estimator_version"), "film.estimator_version = "},
         {truncated, "film: it has "},
         {edited(good, "\nkernel", "\ncernel"), "film: its checksum does not fit its bytes, which have been damaged"},
         {Bytes{}, "film: these bytes are no film"},
@@ -276,10 +295,7 @@ TEST_F(SavedFilm, RepeatedLinesAreRefused) {
     const auto place = std::search(film.begin(), film.end(), line.begin(), line.end());
     ASSERT_NE(place, film.end());
     film.insert(place, line.begin(), line.end());
-    uint64_t checksum = 0;
-    const std::size_t checked = film.size() - sizeof checksum;
-    checksum = pt::checksum(std::as_bytes(std::span(film).first(checked)));
-    std::memcpy(&film[checked], &checksum, sizeof checksum);
+    seal(film);
     EXPECT_EQ(add(context(), film), PT_ERROR_INCOMPATIBLE);
     EXPECT_EQ(pt_last_error(context()), std::string("film: lines of its header are repeated, or in another order"));
 }
