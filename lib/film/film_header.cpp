@@ -1,6 +1,7 @@
 #include "lib/film/film_header.h"
 
 #include "lib/base/error.h"
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::string_view first_line_start = "pt film ";
 constexpr std::string_view version = "1";
+constexpr std::string_view planes_line = "planes red 4 green 4 blue 4 accepted 1 rejected 1";
+static_assert(3 * gpu::FILM_SUM_WORDS == gpu::FILM_ACCEPTED && gpu::FILM_REJECTED + 1 == gpu::FILM_WORDS);
 constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 
@@ -97,6 +100,7 @@ void require_counts(const std::vector<FilmTile> &tiles) {
 
 std::string text_of(const FilmHeader &header) {
     std::string text = std::string(first_line_start).append(version) + '\n';
+    text.append(planes_line) += '\n';
     for (const FilmFact &fact : header.identity)
         text += fact.name + ' ' + fact.value + '\n';
     for (const FilmTile &tile : header.tiles) {
@@ -118,6 +122,8 @@ FilmHeader parsed_film_header(std::string_view text) {
     const std::string_view first = take_line(rest);
     if (first.substr(first_line_start.size()) != version)
         refuse("its version is not " + std::string(version) + ", which this library reads");
+    if (take_line(rest) != planes_line)
+        refuse("its planes are not \"" + std::string(planes_line) + "\", which this library reads");
     FilmHeader header;
     for (std::string_view line = take_line(rest); !line.empty(); line = take_line(rest)) {
         const std::size_t blank = std::min(line.find(' '), line.size());
