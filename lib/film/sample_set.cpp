@@ -32,12 +32,10 @@ SampleRange SampleSet::hull() const {
 }
 
 std::optional<SampleRange> SampleSet::overlap(const SampleRange &range) const {
-    for (const SampleRange &own : ranges_) {
-        const SampleRange common{std::max(own.first, range.first), std::min(own.end, range.end)};
-        if (common.first < common.end)
-            return common;
-    }
-    return std::nullopt;
+    const auto own = std::ranges::upper_bound(ranges_, range.first, {}, &SampleRange::end);
+    if (range.empty() || own == ranges_.end() || own->first >= range.end)
+        return std::nullopt;
+    return SampleRange{std::max(own->first, range.first), std::min(own->end, range.end)};
 }
 
 // Along both: a film's header may have a great many ranges.
