@@ -64,7 +64,6 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     sampler_(settings.sampler),
     seed_(settings.seed),
     first_pixel_(settings.first_row * settings.width),
-    film_unit_(gpu_scene_->film_unit),
     frame_(gpu_scene_->frame),
     table_bytes_(device.limits().max_uniform_range),
     sharers_(sharers_of_pixel(device, film.pixel_count())),

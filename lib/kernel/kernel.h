@@ -28,7 +28,6 @@ public:
            const RenderSettings &settings);
 
     const Features &features() const { return features_; }
-    double film_unit() const { return film_unit_; }
 
     // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the
     // driver refuses that.
@@ -74,7 +73,6 @@ private:
     std::uint32_t sampler_;
     std::uint64_t seed_;
     std::uint32_t first_pixel_; // of the film, in the image
-    double film_unit_;
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees
     std::uint32_t sharers_;              // invocations to a pixel

@@ -43,11 +43,6 @@ void require_addable(const FilmReader &film, const Rectangle &pixels, const Samp
         refuse("samples", text_of(tile.samples), text_of(*overlap) + " are in this context's film already");
     if (present.count() + tile.samples.count() > UINT32_MAX)
         refuse("samples", text_of(tile.samples), "a pixel holds at most 2^32 - 1");
-    PixelSums sums;
-    for_each_piece(static_cast<std::uint32_t>(pixels.pixel_count()), [&](std::uint32_t first, std::uint32_t count) {
-        sums.resize(count);
-        film.read(0, first, sums);
-    });
 }
 
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to) {

@@ -13,12 +13,11 @@ namespace pt {
 // that FilmLayout asks for.
 void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::span<std::byte> bytes);
 
-// Throws PT_ERROR_INCOMPATIBLE if the film has no tile with just these pixels, or samples that a context has already, or
-// sums that its samples cannot have.
+// Throws PT_ERROR_INCOMPATIBLE if the film has no tile with just these pixels, or samples that a context has already.
 void require_addable(const FilmReader &film, const Rectangle &pixels, const SampleSet &present);
 
-// Adds a film of one tile to one in a device's memory, all of it or nothing; hull: of the samples of both, and of all films
-// that are rendered together.
+// Adds a film of one tile to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that its
+// samples cannot have; hull: of the samples of both, and of all films that are rendered together.
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
 
 } // namespace pt
