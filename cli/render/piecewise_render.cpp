@@ -35,6 +35,7 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
     whole.submit_count = piece.submit_count; // of the context
     whole.device_seconds = piece.device_seconds;
+    whole.uncertain |= piece.uncertain;
     for (double pt_stats::*const error :
          {&pt_stats::rmse, &pt_stats::rmse_low, &pt_stats::rmse_high, &pt_stats::relative_rmse,
           &pt_stats::relative_rmse_low, &pt_stats::relative_rmse_high}) {

@@ -60,6 +60,33 @@ std::string percent_text(double share) {
     return text.data();
 }
 
+std::vector<std::string> uncertainty_names(std::uint32_t uncertain) {
+    struct Uncertainty {
+        std::uint32_t bit;
+        const char *name;
+    };
+    std::vector<std::string> names;
+    for (const auto &[bit, name] :
+         {Uncertainty{PT_UNCERTAIN_RMSE, "rmse"}, Uncertainty{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
+          Uncertainty{PT_UNCERTAIN_UNSEEN, "unseen"}, Uncertainty{PT_UNCERTAIN_UNMET, "unmet"}}) {
+        if ((uncertain & bit) != 0) {
+            names.emplace_back(name);
+        }
+    }
+    return names;
+}
+
+// Why the relative error may be far off; empty if there is no reason.
+std::string uncertainty_text(std::uint32_t uncertain) {
+    if ((uncertain & PT_UNCERTAIN_UNMET) != 0) {
+        return ", uncertain: small lamps are found by chance";
+    }
+    if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0) {
+        return ", uncertain: from few pixels";
+    }
+    return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: light may be unseen" : "";
+}
+
 std::string estimate_text(const pt_stats &stats) {
     if (!std::isfinite(stats.relative_rmse)) {
         const std::uint32_t first_check = pt_next_check(0);
@@ -67,7 +94,7 @@ std::string estimate_text(const pt_stats &stats) {
         return "error unknown" + (stats.sample_count < first_check ? reason : "");
     }
     return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
-           percent_text(stats.relative_rmse_high) + ")";
+           percent_text(stats.relative_rmse_high) + ")" + uncertainty_text(stats.uncertain);
 }
 
 std::string target_text(const RenderReport &report) {
@@ -112,6 +139,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"relative_rmse", number_or_null(report.stats.relative_rmse)},
             {"relative_rmse_low", number_or_null(report.stats.relative_rmse_low)},
             {"relative_rmse_high", number_or_null(report.stats.relative_rmse_high)},
+            {"uncertain", uncertainty_names(report.stats.uncertain)},
             {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
             {"target_reached", report.target_reached()},
             {"seconds",

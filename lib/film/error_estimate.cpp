@@ -1,13 +1,12 @@
-// Estimates the error of an image from the standard errors of its pixels; see error_estimate.h.
 #include "lib/film/error_estimate.h"
 
-#include <pt/pt.h>
+#include "lib/film/pixel_sums.h"
+
+#include <pt/stats.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace pt {
@@ -16,32 +15,34 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Pixels of a tile's side: large against what neighbours share, small enough for hundreds of tiles in a small image.
-constexpr std::size_t tile_size = 8;
-
-// Keeps black pixels from counting without bound.
-constexpr double relative_offset = 0.01;
-
 // Of the normal distribution: 95% lie within.
 constexpr double normal_95 = 1.96;
 
-// Median of the values of one channel in the pixels of a band that touch a pixel, and its own.
-double median_about(const std::vector<float> &band, std::size_t row_values, std::size_t row, std::size_t value) {
-    std::array<float, 9> values{};
-    std::size_t count = 0;
-    const std::size_t rows = band.size() / row_values;
-    for (std::size_t y = row - (row > 0 ? 1 : 0); y <= row + 1 && y < rows; ++y)
-        for (std::size_t x = value - (value >= 3 ? 3 : 0); x <= value + 3 && x < row_values; x += 3)
-            values[count++] = band[y * row_values + x];
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
-    std::nth_element(values.begin(), middle, values.begin() + static_cast<std::ptrdiff_t>(count));
-    return static_cast<double>(*middle);
+// How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
+constexpr double uncertain_factor = 2.0;
+
+// An estimate that rests on fewer pixels is uncertain.
+constexpr double few_pixels = 20.0;
+
+// Nor is it certain if light that no sample has met is expected to add more than this share.
+constexpr double much_unseen = 0.1;
+
+// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often as
+// too large, or by more than that if it is the brightest that are missing. A little more than one such share is added,
+// because a stated error that is too small does more harm: calibrated.
+double share_added(double pixel_count) {
+    return 0.6 / std::sqrt(pixel_count);
+}
+
+// Plain Halton points are the same in every pixel, so that errors of neighbours are not independent, and scatter more.
+double margin(std::uint32_t sampler) {
+    return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
 } // namespace
 
 ErrorEstimate unknown_error() {
-    return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}};
+    return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}, 0};
 }
 
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {
@@ -66,83 +67,138 @@ double exaggeration(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(3.0);
 }
 
-double squared_limit(double mean, double standard_error, double median) {
-    // The square of the mean exceeds that of the limit by the variance, on average, and the square of the standard
-    // error is what estimates the variance, so their difference has the right expectation. (For equal parts it is the
-    // product of their means.) It keeps a pixel with a rare bright sample, a firefly, from hiding its error by it.
-    // Half as much again is taken off: the limit and the error correlate positively, so that dividing by the unbiased
-    // limit would bias the ratio low; 1.5 was calibrated. Where the difference happens to be small, the neighbours give
-    // a better limit, and a fraction of the mean bounds what a pixel counts that a single sample lit.
-    const double least = 0.25 * mean;
-    const double limit =
-        std::max({mean * mean - 1.5 * standard_error * standard_error, median * median, least * least});
-    return std::min(mean * mean, limit);
-}
-
-ErrorEstimator::ErrorEstimator(std::uint32_t width) : row_values_(std::size_t{3} * width) {}
-
-void ErrorEstimator::add(std::span<const float> radiance, std::span<const float> standard_error) {
-    const std::size_t band_values = row_values_ * tile_size;
-    while (!radiance.empty()) {
-        const std::size_t taken = std::min(band_values - radiance_.size(), radiance.size());
-        std::ranges::copy(radiance.first(taken), std::back_inserter(radiance_));
-        std::ranges::copy(standard_error.first(taken), std::back_inserter(standard_error_));
-        radiance = radiance.subspan(taken);
-        standard_error = standard_error.subspan(taken);
+void ErrorEstimator::add(const PixelEstimates &pixels) {
+    const std::size_t band_values = 3 * region_size * conditions_.width;
+    for (std::size_t first = 0; first < pixels.radiance.size();) {
+        const std::size_t count = std::min(band_values - radiance_.size(), pixels.radiance.size() - first);
+        const auto append = [&](std::vector<float> &to, const std::vector<float> &from) {
+            const std::span<const float> taken = std::span(from).subspan(first, count);
+            to.insert(to.end(), taken.begin(), taken.end());
+        };
+        append(radiance_, pixels.radiance);
+        append(standard_error_, pixels.standard_error);
+        append(lesser_, pixels.lesser);
+        first += count;
         if (radiance_.size() == band_values)
             finish_band();
     }
 }
 
-// Cuts a row of tiles off; those at the right and bottom edges of the image may be smaller.
 void ErrorEstimator::finish_band() {
-    const std::size_t rows = radiance_.size() / row_values_;
-    for (std::size_t left = 0; left < row_values_; left += 3 * tile_size) {
-        const std::size_t right = std::min(left + 3 * tile_size, row_values_);
-        Tile tile{static_cast<double>(rows * (right - left)), 0.0, 0.0};
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t value = left; value < right; ++value) {
-                const auto mean = static_cast<double>(radiance_[row * row_values_ + value]);
-                const auto error = static_cast<double>(standard_error_[row * row_values_ + value]);
-                const double median = median_about(radiance_, row_values_, row, value);
-                tile.squares += error * error;
-                tile.relative_squares += error * error / (squared_limit(mean, error, median) + relative_offset);
-            }
-        }
-        tiles_.push_back(tile);
-    }
+    const std::size_t height = radiance_.size() / (std::size_t{3} * conditions_.width);
+    for (std::size_t left = 0; left < conditions_.width; left += region_size)
+        add_region(left, std::min<std::size_t>(region_size, conditions_.width - left), height);
     radiance_.clear();
     standard_error_.clear();
+    lesser_.clear();
 }
 
-// The root of the mean over tiles, which are independent of each other: the variance of their sum is estimated by the
-// sum of the squares of their deviations from the mean. That their expectations differ too only adds to it.
-Interval ErrorEstimator::root_mean(double Tile::*squares, double exaggeration) const {
-    double value_count = 0.0;
-    double sum = 0.0;
-    for (const Tile &tile : tiles_) {
-        value_count += tile.value_count;
-        sum += tile.*squares;
+RegionChannel ErrorEstimator::channel_of(std::size_t channel, std::size_t left, std::size_t width,
+                                         std::size_t height) const {
+    RegionChannel region{width, height, {}, {}, {}};
+    for (auto *const values : {&region.mean, &region.standard_error, &region.lesser})
+        values->reserve(width * height);
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = left; x < left + width; ++x) {
+            const std::size_t value = 3 * (y * conditions_.width + x) + channel;
+            region.mean.push_back(static_cast<double>(radiance_[value]));
+            region.standard_error.push_back(static_cast<double>(standard_error_[value]));
+            region.lesser.push_back(static_cast<double>(lesser_[value]));
+        }
+    return region;
+}
+
+void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t height) {
+    std::vector<ValueError> pixels(width * height);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const std::vector<ValueError> values =
+            value_errors(channel_of(channel, left, width, height), static_cast<double>(conditions_.sample_count));
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            pixels[i].square += values[i].square;
+            pixels[i].relative_square += values[i].relative_square;
+            pixels[i].unseen += values[i].unseen;
+        }
     }
-    const double mean = sum / value_count;
-    if (mean == 0.0)
-        return {0.0, 0.0, 0.0};
-    if (!std::isfinite(mean))
+    for (std::size_t top = 0; top < height; top += tile_size)
+        for (std::size_t first = 0; first < width; first += tile_size) {
+            const std::size_t bottom = std::min(top + tile_size, height);
+            const std::size_t last = std::min(first + tile_size, width);
+            ValueError tile{};
+            for (std::size_t y = top; y < bottom; ++y)
+                for (std::size_t x = first; x < last; ++x) {
+                    const ValueError &pixel = pixels[y * width + x];
+                    tile.square += pixel.square;
+                    tile.relative_square += pixel.relative_square;
+                    squares_.add_pixel(pixel.square);
+                    relative_squares_.add_pixel(pixel.relative_square);
+                    unseen_ += pixel.unseen;
+                }
+            const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
+            squares_.add_tile(value_count, tile.square);
+            relative_squares_.add_tile(value_count, tile.relative_square);
+        }
+}
+
+double ErrorEstimator::Squares::sum() const {
+    double sum = 0.0;
+    for (const Tile &tile : tiles_)
+        sum += tile.square;
+    return sum;
+}
+
+// The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 / n.
+double ErrorEstimator::Squares::pixel_count() const {
+    const double sum = this->sum();
+    return sum > 0.0 ? sum * sum / sum_of_pixel_squares_ : infinity;
+}
+
+// Tiles are independent of each other: the variance of their sum is estimated by the sum of the squares of their
+// deviations from the mean. That their expectations differ too only adds to it.
+Interval ErrorEstimator::Squares::root_mean(double other_squares, bool uncertain, double margin,
+                                            double exaggeration) const {
+    const double sum = this->sum();
+    double value_count = 0.0;
+    for (const Tile &tile : tiles_)
+        value_count += tile.value_count;
+    const bool shows_nothing = sum + other_squares == 0.0;
+    if (!std::isfinite(sum) || (shows_nothing && uncertain))
         return unknown_error().rmse;
+    if (shows_nothing)
+        return {0.0, 0.0, 0.0};
     double variance = 0.0;
     for (const Tile &tile : tiles_) {
-        const double deviation = tile.*squares - mean * tile.value_count;
+        const double deviation = tile.square - sum / value_count * tile.value_count;
         variance += deviation * deviation;
     }
-    const double estimate = std::sqrt(mean);
-    const double spread = std::sqrt(1.0 + normal_95 * std::sqrt(variance) / sum);
+    const double estimate =
+        std::sqrt((sum + other_squares) / value_count) * (1.0 + share_added(pixel_count())) * margin;
+    const double relative_deviation = sum > 0.0 ? std::sqrt(variance) / sum : 0.0;
+    const double spread = std::sqrt(1.0 + normal_95 * relative_deviation) * (uncertain ? uncertain_factor : 1.0);
     return {estimate, estimate / (spread * exaggeration), estimate * spread};
 }
 
-ErrorEstimate ErrorEstimator::result(double exaggeration) {
+ErrorEstimate ErrorEstimator::result() {
     if (!radiance_.empty())
         finish_band();
-    return {root_mean(&Tile::squares, exaggeration), root_mean(&Tile::relative_squares, exaggeration)};
+    const bool few = squares_.pixel_count() < few_pixels;
+    const bool few_relative = relative_squares_.pixel_count() < few_pixels;
+    const bool unseen = unseen_ > much_unseen * relative_squares_.sum();
+    std::uint32_t uncertain = 0;
+    if (few)
+        uncertain |= PT_UNCERTAIN_RMSE;
+    if (few_relative)
+        uncertain |= PT_UNCERTAIN_RELATIVE_RMSE;
+    if (unseen)
+        uncertain |= PT_UNCERTAIN_UNSEEN;
+    if (conditions_.may_miss_lamps)
+        uncertain |= PT_UNCERTAIN_UNMET;
+    constexpr std::uint32_t rmse_bits = PT_UNCERTAIN_RMSE | PT_UNCERTAIN_UNMET;
+    constexpr std::uint32_t relative_bits = PT_UNCERTAIN_RELATIVE_RMSE | PT_UNCERTAIN_UNSEEN | PT_UNCERTAIN_UNMET;
+    const double exaggeration = pt::exaggeration(conditions_.sampler);
+    return {squares_.root_mean(0.0, (uncertain & rmse_bits) != 0, margin(conditions_.sampler), exaggeration),
+            relative_squares_.root_mean(unseen_, (uncertain & relative_bits) != 0, margin(conditions_.sampler),
+                                        exaggeration),
+            uncertain};
 }
 
 } // namespace pt

@@ -1,6 +1,8 @@
-// The error of an image, estimated from the standard errors of its pixels. Pure arithmetic; Renderer feeds it with
-// the film.
+// The error of an image, estimated from the means of the film's two parts. Pure arithmetic; Renderer feeds it with the
+// film.
 #pragma once
+
+#include "lib/film/error_region.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +10,8 @@
 #include <vector>
 
 namespace pt {
+
+struct PixelEstimates;
 
 // An estimate and its bounds of 95% confidence.
 struct Interval {
@@ -17,8 +21,9 @@ struct Interval {
 };
 
 struct ErrorEstimate {
-    Interval rmse;          // root of the mean of (x - r)^2 over pixels and channels
-    Interval relative_rmse; // of (x - r)^2 / (r^2 + 0.01)
+    Interval rmse;           // root of the mean of (x - r)^2 over pixels and channels
+    Interval relative_rmse;  // of (x - r)^2 / (r^2 + 0.01)
+    std::uint32_t uncertain; // PT_UNCERTAIN_* of pt.h
 };
 
 // With fewer samples the difference of the film's parts says too little.
@@ -40,35 +45,58 @@ bool is_check(std::uint64_t sample_count);
 // Factor >= 1 by which the error that the film's parts show may exceed the true one, with a sampler of pt.h.
 double exaggeration(std::uint32_t sampler);
 
-// Square of a pixel's limit, for the denominator of the relative error, in one channel of a pixel: from its mean and
-// standard error, and the median of the means about it.
-double squared_limit(double mean, double standard_error, double median);
+// What an image's samples were.
+struct SampleConditions {
+    std::uint32_t width; // pixels
+    std::uint64_t sample_count;
+    std::uint32_t sampler;
+    bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
+};
 
 class ErrorEstimator {
 public:
-    explicit ErrorEstimator(std::uint32_t width);
+    explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
 
-    // Takes consecutive pixels, the first being the first of the image: R, G, B of radiance and of its standard error.
-    void add(std::span<const float> radiance, std::span<const float> standard_error);
+    // Takes consecutive pixels with their standard errors, the first being the first of the image.
+    void add(const PixelEstimates &pixels);
 
     // Of all pixels taken: whole rows, at least one.
-    ErrorEstimate result(double exaggeration);
+    ErrorEstimate result();
 
 private:
-    // Sums over a part of the image.
-    struct Tile {
-        double value_count;
-        double squares; // of errors
-        double relative_squares;
+    // Squares that are expected of errors, summed over an image.
+    class Squares {
+    public:
+        void add_tile(double value_count, double square) { tiles_.push_back({value_count, square}); }
+        void add_pixel(double square) { sum_of_pixel_squares_ += square * square; }
+
+        double sum() const;
+        // How many pixels with equal errors would make the sum as uncertain.
+        double pixel_count() const;
+        // The root of their mean, if other squares are added to the sum.
+        Interval root_mean(double other_squares, bool uncertain, double margin, double exaggeration) const;
+
+    private:
+        struct Tile {
+            double value_count;
+            double square;
+        };
+
+        std::vector<Tile> tiles_;
+        double sum_of_pixel_squares_ = 0.0;
     };
 
     void finish_band();
-    Interval root_mean(double Tile::*squares, double exaggeration) const;
+    void add_region(std::size_t left, std::size_t width, std::size_t height);
+    RegionChannel channel_of(std::size_t channel, std::size_t left, std::size_t width, std::size_t height) const;
 
-    std::size_t row_values_;
-    std::vector<float> radiance_; // of a band of tiles that is not complete
+    SampleConditions conditions_;
+    std::vector<float> radiance_; // of a band of regions that is not complete
     std::vector<float> standard_error_;
-    std::vector<Tile> tiles_;
+    std::vector<float> lesser_;
+    Squares squares_;
+    Squares relative_squares_;
+    double unseen_ = 0.0;
 };
 
 } // namespace pt

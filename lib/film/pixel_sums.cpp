@@ -45,13 +45,11 @@ private:
     std::size_t pixel_;
 };
 
-// Of a mean over a + b samples, from the means of its first a and its other b. If every sample has the variance v, the
-// square of their difference has the expectation v / a + v / b, and the mean has the variance v / (a + b): that square
-// times a b / (a + b)^2.
-double standard_error(double sum_a, double a, double sum_b, double b) {
-    if (a == 0.0 || b == 0.0)
-        return std::numeric_limits<double>::infinity();
-    return std::abs(sum_a / a - sum_b / b) * std::sqrt(a * b) / (a + b);
+// Of a + b samples, whose means are those of the first a and the other b. If every sample has the variance v, the square
+// of the difference of the means has the expectation v / a + v / b, and the mean of all has the variance v / (a + b):
+// that square times a b / (a + b)^2.
+double standard_error(double mean_a, double a, double mean_b, double b) {
+    return std::abs(mean_a - mean_b) * std::sqrt(a * b) / (a + b);
 }
 
 // Adds the words of one part to those of another, plane by plane: a sum's carries go from each word to the next.
@@ -120,7 +118,8 @@ bool PixelSums::holds(const PartCounts &expected) const {
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
     PixelEstimates estimates;
     estimates.radiance.reserve(3 * pixel_count_);
-    estimates.standard_error.reserve(with_standard_error ? 3 * pixel_count_ : 0);
+    for (auto *const values : {&estimates.standard_error, &estimates.lesser})
+        values->reserve(with_standard_error ? 3 * pixel_count_ : 0);
     for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
         const PartPixel a(*this, older_part, pixel);
         const PartPixel b(*this, newer_part, pixel);
@@ -134,10 +133,16 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
             estimates.radiance.push_back(static_cast<float>(mean * unit));
             if (!with_standard_error)
                 continue;
-            const double error = knows_error ? standard_error(fixed_point_value(sum_a), a.accepted(),
-                                                              fixed_point_value(sum_b), b.accepted())
-                                             : std::numeric_limits<double>::infinity();
+            if (!(knows_error && a.accepted() > 0 && b.accepted() > 0)) {
+                estimates.standard_error.push_back(std::numeric_limits<float>::infinity());
+                estimates.lesser.push_back(0.0F);
+                continue;
+            }
+            const double mean_a = fixed_point_value(sum_a) / a.accepted();
+            const double mean_b = fixed_point_value(sum_b) / b.accepted();
+            const double error = standard_error(mean_a, a.accepted(), mean_b, b.accepted());
             estimates.standard_error.push_back(static_cast<float>(error * unit));
+            estimates.lesser.push_back(static_cast<float>(std::min(mean_a, mean_b) * unit));
         }
     }
     return estimates;

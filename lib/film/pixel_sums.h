@@ -17,6 +17,7 @@ struct PixelEstimates {
     std::vector<float> radiance;       // mean of all samples; black where all were rejected
     std::vector<float> standard_error; // of that mean, from the difference of its parts; infinity where one is empty
                                        // and with up to 8 samples; nothing if it was not asked for
+    std::vector<float> lesser;         // the smaller of the means of its parts, with the standard error
     std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 

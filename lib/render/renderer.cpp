@@ -6,6 +6,7 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/saved_film.h"
+#include "lib/scene/lamp_share.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
@@ -159,19 +160,29 @@ std::vector<DeviceFilm *> Renderer::films() const {
     return films;
 }
 
+bool Renderer::may_miss_lamps() const {
+    constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
+    const std::uint32_t estimator = settings_->estimator;
+    const bool by_chance =
+        estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF;
+    const double samples =
+        static_cast<double>(samples_.count()) * static_cast<double>(devices_.front()->film().pixel_count());
+    return by_chance && samples * smallest_lamp_share(scene_->scene, *camera_) < enough_meetings;
+}
+
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
-        ErrorEstimator estimator(settings_->width);
+        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps()});
         std::uint64_t rejected = 0;
         read_films(films(), samples_, [&](const PixelSums &sums) {
             const PixelEstimates pixels = sums.estimates(scene_->film_unit, true);
-            estimator.add(pixels.radiance, pixels.standard_error);
+            estimator.add(pixels);
             rejected += pixels.rejected;
         });
         const std::uint64_t samples = samples_.count() * devices_.front()->film().pixel_count();
-        error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result(exaggeration(settings_->sampler));
+        error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result();
     }
     return *error_;
 }
@@ -366,6 +377,7 @@ pt_stats Renderer::stats(bool with_error) {
     stats.relative_rmse = error.relative_rmse.estimate;
     stats.relative_rmse_low = error.relative_rmse.low;
     stats.relative_rmse_high = error.relative_rmse.high;
+    stats.uncertain = error.uncertain;
     return stats;
 }
 

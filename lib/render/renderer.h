@@ -112,6 +112,7 @@ private:
     FilmIdentity identity() const;
     Rectangle pixels() const;
     FilmHeader film_header() const;
+    bool may_miss_lamps() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
     void take_samples(std::uint64_t count, Job &job);

@@ -253,6 +253,7 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->relative_rmse_high = stats->rmse_high;
     stats->relative_rmse = stats->rmse;
     stats->relative_rmse_low = stats->rmse_low;
+    stats->uncertain = 0;
     return call(context, "stats");
 }
 

@@ -111,6 +111,22 @@ TEST(RenderReport, ErrorText) {
     EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
 }
 
+TEST(RenderReport, AnUncertainErrorIsCalledSo) {
+    cli::RenderReport report = example();
+    set_error(report, 0.0042, 0.0040, 0.0044);
+    EXPECT_EQ(cli::stats_json(report).at("uncertain"), nlohmann::json::array());
+    const auto text_with = [&](std::uint32_t uncertain) {
+        report.stats.uncertain = uncertain;
+        return cli::error_text(report);
+    };
+    EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)"); // the relative one is known
+    EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE), "error 0.42% (0.4% to 0.44%), uncertain: from few pixels");
+    EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN), "error 0.42% (0.4% to 0.44%), uncertain: light may be unseen");
+    EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: small lamps are found by chance");
+    EXPECT_EQ(cli::stats_json(report).at("uncertain"),
+              (std::vector<std::string>{"rmse", "relative_rmse", "unseen", "unmet"}));
+}
+
 struct Attributes {
     std::map<std::string, std::string> texts;
     std::map<std::string, double> numbers;

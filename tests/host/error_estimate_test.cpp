@@ -1,31 +1,101 @@
 // Arithmetic of the error estimate on small images whose result is known.
 #include "lib/film/error_estimate.h"
+#include "lib/film/pixel_sums.h"
 
 #include <gtest/gtest.h>
-#include <pt/pt.h>
+#include <pt/stats.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 namespace {
 
-pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radiance,
-                           const std::vector<float> &standard_error, double exaggeration = 1.0) {
-    pt::ErrorEstimator estimator(width);
-    estimator.add(radiance, standard_error);
-    return estimator.result(exaggeration);
+// So many samples that light unseen by them counts for nothing.
+constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
+
+pt::PixelEstimates pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
+    pt::PixelEstimates pixels{radiance, standard_error, {}, 0};
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        pixels.lesser.push_back(std::isfinite(standard_error[i]) ? radiance[i] - standard_error[i] : 0.0F);
+    return pixels;
 }
 
-// 3^2 + 4^2 over 6 values; relative to 10^2 + 0.01 and to 0.01.
+pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radiance,
+                           const std::vector<float> &standard_error, std::uint32_t sampler = PT_SAMPLER_RANDOM,
+                           bool may_miss_lamps = false) {
+    pt::ErrorEstimator estimator({width, sample_count, sampler, may_miss_lamps});
+    estimator.add(pixels_of(radiance, standard_error));
+    return estimator.result();
+}
+
+// What is added to a root of squares that as much as so many equal pixels make up (error_estimate.cpp).
+double raised(double root, double pixel_count) {
+    return root * (1.0 + 0.6 / std::sqrt(pixel_count));
+}
+
+// 3^2 and 4^2 in two of six values; the pixels' squares, 9 and 16, make up the sum like 25^2 / (9^2 + 16^2) equal ones.
 TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
     const pt::ErrorEstimate found = estimate(2, {10, 10, 10, 10, 10, 10}, {3, 0, 0, 4, 0, 0});
-    EXPECT_DOUBLE_EQ(found.rmse.estimate, std::sqrt(25.0 / 6.0));
-    EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, std::sqrt(25.0 / 6.0 / 100.01));
-    const pt::ErrorEstimate dark = estimate(2, std::vector<float>(6), {0.5F, 0, 0, 0, 0, 0});
-    EXPECT_DOUBLE_EQ(dark.relative_rmse.estimate, std::sqrt(0.25 / 6.0 / 0.01));
+    const double pixel_count = 625.0 / 337.0;
+    EXPECT_DOUBLE_EQ(found.rmse.estimate, raised(std::sqrt(25.0 / 6.0), pixel_count));
+    EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt(25.0 / 6.0 / 100.01), pixel_count));
+}
+
+TEST(ErrorEstimate, IsUncertainIfItComesFromFewPixels) {
+    std::vector<float> errors(3 * 32 * 32, 0.0F);
+    const std::vector<float> radiance(errors.size(), 1.0F);
+    for (int pixel = 0; pixel < 19; ++pixel)
+        errors[3 * 50 * static_cast<std::size_t>(pixel)] = 0.1F;
+    const pt::ErrorEstimate few = estimate(32, radiance, errors);
+    EXPECT_EQ(few.uncertain, unsigned{PT_UNCERTAIN_RMSE} | unsigned{PT_UNCERTAIN_RELATIVE_RMSE});
+    errors[3 * 50 * 19] = errors[3 * 50 * 20] = 0.1F;
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U);
+}
+
+TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
+    const std::vector<float> errors(3 * 32 * 32, 0.1F);
+    const std::vector<float> radiance(errors.size(), 1.0F);
+    const pt::ErrorEstimate met = estimate(32, radiance, errors);
+    const pt::ErrorEstimate missed = estimate(32, radiance, errors, PT_SAMPLER_RANDOM, true);
+    EXPECT_EQ(met.uncertain, 0U);
+    EXPECT_EQ(missed.uncertain, unsigned{PT_UNCERTAIN_UNMET});
+    EXPECT_EQ(missed.rmse.estimate, met.rmse.estimate);
+    EXPECT_DOUBLE_EQ(missed.rmse.high, 2.0 * met.rmse.high);
+    EXPECT_DOUBLE_EQ(missed.relative_rmse.low, 0.5 * met.relative_rmse.low);
+    // A picture that is black so far tells nothing.
+    const std::vector<float> black(errors.size(), 0.0F);
+    EXPECT_EQ(estimate(32, black, black).relative_rmse.high, 0.0);
+    EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
+}
+
+// One bright column on black ground, after 16 samples: the columns beside it may have unseen parts of its light.
+TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
+    std::vector<float> radiance(3 * 32 * 32, 0.0F);
+    std::vector<float> errors(radiance.size(), 0.0F);
+    for (std::size_t row = 0; row < 32; ++row)
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            radiance[3 * (32 * row + 16) + channel] = 160.0F;
+            errors[3 * (32 * row + 16) + channel] = 1.0F;
+        }
+    pt::ErrorEstimator estimator({32, 16, PT_SAMPLER_SOBOL, false});
+    estimator.add(pixels_of(radiance, errors));
+    const pt::ErrorEstimate found = estimator.result();
+    const double seen = 1.0 / (159.0 * 159.0 + 0.01);
+    const double unseen = std::log1p(10.0 * 10.0 / 0.01) / 32.0; // in each of two columns
+    EXPECT_DOUBLE_EQ(found.relative_rmse.estimate, raised(std::sqrt((seen + 2.0 * unseen) / 32.0), 32.0));
+    EXPECT_EQ(found.uncertain, unsigned{PT_UNCERTAIN_UNSEEN});
+    EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U); // with many samples more
+}
+
+TEST(ErrorEstimate, OfPlainHaltonIsStatedAFifthLarger) {
+    const std::vector<float> errors(3 * 32 * 32, 0.1F);
+    const std::vector<float> radiance(errors.size(), 1.0F);
+    const pt::Interval own = estimate(32, radiance, errors, PT_SAMPLER_HALTON_CP).rmse;
+    const pt::Interval common = estimate(32, radiance, errors, PT_SAMPLER_HALTON).rmse;
+    EXPECT_DOUBLE_EQ(common.estimate, 1.2 * own.estimate);
+    EXPECT_DOUBLE_EQ(common.high, 1.2 * own.high);
 }
 
 TEST(ErrorEstimate, OfAnImageWithoutDifferencesIsZero) {
@@ -54,27 +124,29 @@ TEST(ErrorEstimate, IsHiddenByMoreThanOneLeftOutSampleInAMillion) {
 }
 
 // Two tiles of 8 x 8 pixels with the squares 64 * 3 * 1 and 64 * 3 * 4: their mean is 2.5 a value; their deviations
-// from it are 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum.
+// from it are 64 * 3 * 1.5, whose root sum of squares is 1.5 sqrt(2) / 5 of the sum. The pixels are worth
+// (64 * 5)^2 / (64 * 17) equal ones.
 TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     std::vector<float> errors;
     for (int pixel = 0; pixel < 8 * 16; ++pixel)
         errors.insert(errors.end(), 3, pixel % 16 < 8 ? 1.0F : 2.0F);
-    const std::vector<float> radiance(errors.size(), 1.0F);
+    const std::vector<float> radiance(errors.size(), 4.0F);
     const pt::Interval found = estimate(16, radiance, errors).rmse;
+    const double root = raised(std::sqrt(2.5), 64.0 * 25.0 / 17.0);
     const double spread = std::sqrt(1.0 + 1.96 * 1.5 * std::sqrt(2.0) / 5.0);
-    EXPECT_DOUBLE_EQ(found.estimate, std::sqrt(2.5));
-    EXPECT_DOUBLE_EQ(found.high, std::sqrt(2.5) * spread);
-    EXPECT_DOUBLE_EQ(found.low, std::sqrt(2.5) / spread);
-    const pt::Interval adjusted = estimate(16, radiance, errors, 2.0).rmse;
-    EXPECT_EQ(adjusted.estimate, found.estimate);
-    EXPECT_EQ(adjusted.high, found.high);
-    EXPECT_DOUBLE_EQ(adjusted.low, found.low / 2.0);
+    EXPECT_DOUBLE_EQ(found.estimate, root);
+    EXPECT_DOUBLE_EQ(found.high, root * spread);
+    EXPECT_DOUBLE_EQ(found.low, root / spread);
+    const pt::Interval of_nets = estimate(16, radiance, errors, PT_SAMPLER_SOBOL).rmse;
+    EXPECT_EQ(of_nets.estimate, found.estimate);
+    EXPECT_EQ(of_nets.high, found.high);
+    EXPECT_DOUBLE_EQ(of_nets.low, found.low / std::sqrt(3.0));
 }
 
-// However the pixels are cut into pieces; with tiles cut off at the right and at the bottom.
+// However the pixels are cut into pieces; with regions and tiles cut off at the right and at the bottom.
 TEST(ErrorEstimate, DoesNotDependOnThePieces) {
-    constexpr std::uint32_t width = 19;
-    constexpr std::uint32_t height = 21;
+    constexpr std::uint32_t width = 43;
+    constexpr std::uint32_t height = 69;
     std::vector<float> radiance;
     std::vector<float> errors;
     for (std::uint32_t i = 0; i < 3 * width * height; ++i) {
@@ -82,32 +154,20 @@ TEST(ErrorEstimate, DoesNotDependOnThePieces) {
         errors.push_back(static_cast<float>(i * 104729 % 97) * 0.01F);
     }
     const pt::ErrorEstimate whole = estimate(width, radiance, errors);
-    pt::ErrorEstimator estimator(width);
+    pt::ErrorEstimator estimator({width, sample_count, PT_SAMPLER_RANDOM, false});
     for (std::size_t first = 0; first < radiance.size(); first += 3 * 50) {
-        const std::size_t count = std::min<std::size_t>(3 * 50, radiance.size() - first);
-        estimator.add(std::span(radiance).subspan(first, count), std::span(errors).subspan(first, count));
+        const std::size_t end = std::min(radiance.size(), first + 3 * 50);
+        const auto part = [&](const std::vector<float> &values) {
+            return std::vector(values.begin() + static_cast<std::ptrdiff_t>(first),
+                               values.begin() + static_cast<std::ptrdiff_t>(end));
+        };
+        estimator.add(pixels_of(part(radiance), part(errors)));
     }
-    const pt::ErrorEstimate pieces = estimator.result(1.0);
+    const pt::ErrorEstimate pieces = estimator.result();
     EXPECT_EQ(pieces.rmse.estimate, whole.rmse.estimate);
     EXPECT_EQ(pieces.relative_rmse.estimate, whole.relative_rmse.estimate);
     EXPECT_EQ(pieces.relative_rmse.high, whole.relative_rmse.high);
     EXPECT_GT(whole.relative_rmse.high, whole.relative_rmse.estimate);
-}
-
-TEST(SquaredLimit, IsThatOfThePixelWhereItsHalvesAgree) {
-    EXPECT_EQ(pt::squared_limit(3.0, 0.0, 3.0), 9.0);
-    EXPECT_EQ(pt::squared_limit(3.0, 0.0, 0.0), 9.0); // a bright spot on a dark ground
-    EXPECT_EQ(pt::squared_limit(3.0, 0.0, 9.0), 9.0); // a dark spot on a bright ground
-}
-
-TEST(SquaredLimit, LeavesOutTheVarianceAndAHalf) {
-    EXPECT_EQ(pt::squared_limit(8.0, 4.0, 0.5), 40.0);
-}
-
-TEST(SquaredLimit, OfAFireflyIsThatOfItsNeighbours) {
-    EXPECT_EQ(pt::squared_limit(8.0, 7.5, 4.0), 16.0);
-    EXPECT_EQ(pt::squared_limit(8.0, 8.0, 0.5), 4.0);  // but not below a quarter of its mean
-    EXPECT_EQ(pt::squared_limit(8.0, 24.0, 0.5), 4.0); // of few samples among many
 }
 
 TEST(Exaggeration, IsThatOfNetsForSequencesOnly) {

@@ -1,0 +1,128 @@
+// What single pixels say about the error of an image, in regions whose result is known.
+#include "lib/film/error_region.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t side = pt::region_size;
+constexpr double many_samples = 1e12;
+
+// All pixels have the same mean, which both parts of the film agree on.
+pt::RegionChannel flat(double mean) {
+    constexpr std::size_t count = side * side;
+    return {side, side, std::vector<double>(count, mean), std::vector<double>(count, 0.0),
+            std::vector<double>(count, mean)};
+}
+
+std::size_t index_of(std::size_t x, std::size_t y) {
+    return y * side + x;
+}
+
+// One of the two parts has all of the pixel's light.
+void light_in_one_part(pt::RegionChannel &channel, std::size_t pixel, double mean, double lesser) {
+    channel.mean[pixel] = mean;
+    channel.standard_error[pixel] = mean - lesser;
+    channel.lesser[pixel] = lesser;
+}
+
+double relative_square(const pt::RegionChannel &channel, std::size_t pixel) {
+    return pt::value_errors(channel, many_samples)[pixel].relative_square;
+}
+
+constexpr std::size_t middle = 13 * side + 11;
+
+TEST(ErrorRegion, APixelWhosePartsAgreeIsItsOwnLimit) {
+    for (const double ground : {0.0, 1.0, 9.0}) { // a bright or dark spot
+        pt::RegionChannel channel = flat(ground);
+        channel.mean[middle] = 3.0;
+        channel.lesser[middle] = 2.9;
+        channel.standard_error[middle] = 0.1;
+        const double limit = ground > 2.9 ? 9.0 : 2.9 * 2.9;
+        EXPECT_DOUBLE_EQ(relative_square(channel, middle), 0.01 / (limit + 0.01)) << ground;
+    }
+}
+
+TEST(ErrorRegion, AFireflyIsMeasuredByWhatIsAboutIt) {
+    pt::RegionChannel channel = flat(0.5);
+    light_in_one_part(channel, middle, 8.0, 0.5);
+    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 7.5 * 7.5 / (0.25 + 0.01));
+    light_in_one_part(channel, middle, 8.0, 0.0); // the other part knows less than the pixels about
+    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 64.0 / 0.26 * 0.5 * std::log(0.26 / 0.01));
+}
+
+// Where hits are rare and most pixels are black, the level is the mean of the tile, of 64 pixels, without the brightest
+// of the others; where one of those has most of the tile's light, it is that of the region.
+TEST(ErrorRegion, AmongRareHitsTheLevelIsThatOfTheTileOrTheRegion) {
+    pt::RegionChannel channel = flat(0.0);
+    for (const std::size_t x : {8, 11, 14})
+        light_in_one_part(channel, index_of(x, 9), 16.0, 0.0);
+    double level = 16.0 / 63.0;
+    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(8, 9)),
+                     256.0 / (level * level + 0.01) * std::max(1.0, 0.5 * std::log((level * level + 0.01) / 0.01)));
+
+    channel = flat(0.0);
+    for (std::size_t tile = 0; tile < 4; ++tile)
+        for (const std::size_t x : {1, 6})
+            light_in_one_part(channel, index_of(8 * tile + x, 4), 64.0, 0.0);
+    level = 64.0 * 6.0 / 1023.0; // of seven others, one is left out; in the tile there is one other
+    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(1, 4)),
+                     64.0 * 64.0 / (level * level + 0.01) * 0.5 * std::log((level * level + 0.01) / 0.01));
+}
+
+// At the edge of something bright, one sample of which hit the pixel: integrated over what share of it is bright.
+TEST(ErrorRegion, AnEdgePixelCountsMoreThanItsOwnMeanSays) {
+    pt::RegionChannel channel = flat(100.0);
+    light_in_one_part(channel, middle, 5.0, 0.001);
+    const double square = (5.0 - 0.001) * (5.0 - 0.001);
+    EXPECT_NEAR(relative_square(channel, middle), square / 25.01 * 0.5 * std::log(25.01 / 0.010001), 1e-12);
+}
+
+// NEGATIVE CONTROL of the formula: the integral that the comment derives, taken numerically.
+TEST(ErrorRegion, TheFactorOfAnEdgeIsTheIntegralToWithinThird) {
+    for (const double ratio : {20.0, 100.0, 1e4}) { // T / k
+        double integral = 0.0;
+        constexpr double step = 1e-3;
+        for (double log_y = -20.0 + 0.5 * step; log_y < 5.0; log_y += step) {
+            const double y = std::exp(log_y);
+            integral += step * y * y * std::exp(-y) / (y * y + 1.0 / (ratio * ratio));
+        }
+        EXPECT_NEAR(std::log(ratio) / integral, 1.17, 0.17) << ratio;
+    }
+}
+
+TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
+    pt::RegionChannel channel = flat(1.0);
+    channel.mean[middle] = 1000.0;
+    constexpr double samples = 64.0;
+    const std::vector<pt::ValueError> found = pt::value_errors(channel, samples);
+    const double share = 1000.0 / samples;
+    const double expected = std::log((1.01 + share * share) / 1.01) / (2.0 * samples);
+    for (std::size_t y = 10; y < 17; ++y)
+        for (std::size_t x = 8; x < 15; ++x) {
+            const bool beside = x >= 10 && x <= 12 && y >= 12 && y <= 14 && index_of(x, y) != middle;
+            EXPECT_NEAR(found[index_of(x, y)].unseen, beside ? expected : 0.0, 1e-12) << x << " " << y;
+        }
+    for (const pt::ValueError &error : pt::value_errors(channel, 1024.0)) // a sample of 1000 would show
+        EXPECT_EQ(error.unseen, 0.0);
+}
+
+// A small piece of an image is a region too, down to a pixel.
+TEST(ErrorRegion, MayBeAsSmallAsAPixel) {
+    for (const std::size_t width : {1, 2, 9})
+        for (const std::size_t height : {1, 2, 9}) {
+            const std::size_t count = width * height;
+            const pt::RegionChannel channel{width, height, std::vector<double>(count, 2.0),
+                                            std::vector<double>(count, 0.5), std::vector<double>(count, 1.5)};
+            for (const pt::ValueError &error : pt::value_errors(channel, many_samples)) {
+                EXPECT_EQ(error.square, 0.25);
+                EXPECT_NEAR(error.relative_square, 0.25 / (count > 2 ? 4.01 : 2.26), count > 2 ? 0.07 : 0.06);
+            }
+        }
+}
+
+} // namespace
