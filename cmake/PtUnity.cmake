@@ -4,8 +4,11 @@ option(PT_UNITY "Compile the sources of each folder of the library and the progr
 
 # pt_unite_folders(TARGET [folders that are compiled as one])
 function(pt_unite_folders target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${PT_UNITY} UNITY_BUILD_MODE GROUP)
-  if(PT_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  if(NOT PT_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage) # a fault of headers, for which it takes the sources
   endif()
   get_target_property(sources ${target} SOURCES)
