@@ -1,3 +1,7 @@
+# Sources of tests that are compiled as one file hide no names of each other by theirs.
+set(pt_in_batches
+    $<AND:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<NOT:$<STREQUAL:$<TARGET_PROPERTY:UNITY_BUILD_MODE>,GROUP>>>
+)
 # Compiler settings of this project's own targets, which link pt_warnings privately: users of the library do not get them.
 add_library(pt_warnings INTERFACE)
 target_compile_options(
@@ -5,8 +9,8 @@ target_compile_options(
   INTERFACE -Wall
             -Wextra
             -Wpedantic
-            -Wshadow
             -Wconversion
+            $<IF:${pt_in_batches},$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
             $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
 )
 # Without a build type CMake does not optimise, and a project that adds this one as a folder may have none: these targets

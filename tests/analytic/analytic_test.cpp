@@ -51,7 +51,7 @@ struct Bounds {
     double of_batches;
 };
 
-bool agrees(const Measurement &measured, const Exact &exact) {
+bool measurement_agrees(const Measurement &measured, const Exact &exact) {
     const double difference = std::abs(measured.radiance.mean - exact.radiance);
     return agrees(measured.radiance.mean, exact, measured.sample_count) &&
            difference <= batch_bound(measured.radiance, exact, batch_count);
@@ -107,10 +107,10 @@ protected:
     void expect_to_see_errors(cli::SceneFile scene, const Pixel &pixel, const Measurement &measured) {
         for (const double factor : {0.97, 1.03}) {
             const Exact wrong{pixel.exact.radiance * factor, pixel.exact.relative_std};
-            EXPECT_FALSE(agrees(measured, wrong)) << pixel.x << ", " << pixel.y;
+            EXPECT_FALSE(measurement_agrees(measured, wrong)) << pixel.x << ", " << pixel.y;
         }
         brighten(scene, 1.03F);
-        EXPECT_FALSE(agrees(measure(scene, pixel), pixel.exact)) << pixel.x << ", " << pixel.y;
+        EXPECT_FALSE(measurement_agrees(measure(scene, pixel), pixel.exact)) << pixel.x << ", " << pixel.y;
     }
 };
 
@@ -121,7 +121,7 @@ TEST_P(Analytic, PixelsAreExact) {
     for (const Pixel &pixel : expectation.pixels) {
         const Measurement measured = measure(scene, pixel);
         print(expectation.scene, pixel, measured);
-        const bool exact = agrees(measured, pixel.exact);
+        const bool exact = measurement_agrees(measured, pixel.exact);
         EXPECT_TRUE(exact) << pixel.x << ", " << pixel.y << ": " << measured.radiance.mean << " +- "
                            << measured.radiance.standard_error << ", expected " << pixel.exact.radiance;
         if (!exact)

@@ -22,7 +22,7 @@ namespace {
 
 using namespace analytic;
 
-constexpr std::uint32_t batch_count = 16;
+constexpr std::uint32_t range_batch_count = 16;
 
 class DISABLED_OperatingRange : public AnalyticFixture {
 protected:
@@ -49,7 +49,7 @@ protected:
         }
         Batches batches;
         std::uint64_t rejected = 0;
-        for (render.seed = 1; render.seed <= batch_count; ++render.seed) {
+        for (render.seed = 1; render.seed <= range_batch_count; ++render.seed) {
             std::vector<float> image(std::size_t{3} * crop.width * crop.height);
             ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
             accumulate(samples);
@@ -59,7 +59,7 @@ protected:
         }
         const Estimate found = estimate_of_pixel(batches, 0);
         const double error = found.mean / expected - 1.0;
-        const double bound = batch_bound(found, {expected, 0.0}, batch_count) / expected;
+        const double bound = batch_bound(found, {expected, 0.0}, range_batch_count) / expected;
         const bool holds = std::abs(error) <= bound && bound < 0.01 && rejected == 0;
         const char *verdict = holds ? "" : std::abs(error) <= bound ? "  TOO NOISY" : "  FAILS";
         std::printf("  %8.1e expected %-13.8g measured %-13.8g off by %8.1e, noise allows %7.1e%s%s\n", value, expected,
@@ -78,8 +78,8 @@ protected:
         set_up(scene.scene(), scene.camera);
         double sum = 0.0;
         for (const std::vector<double> &image :
-             render_batches(render_of(1, 1, *scene.max_path_length), batch_count, 1 << 18))
-            sum += image[0] / batch_count;
+             render_batches(render_of(1, 1, *scene.max_path_length), range_batch_count, 1 << 18))
+            sum += image[0] / range_batch_count;
         return sum;
     }
 

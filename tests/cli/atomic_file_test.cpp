@@ -20,7 +20,7 @@ std::span<const std::byte> bytes(std::string_view text) {
 }
 
 // The message, or nothing if the file can be written.
-std::string refusal(const std::string &path) {
+std::string refusal_of(const std::string &path) {
     try {
         AtomicFile::check_writable(path);
     } catch (const cli::Failure &failure) {
@@ -70,7 +70,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
 
 TEST(AtomicFile, CheckLeavesNothing) {
     const TemporaryFolder folder;
-    EXPECT_EQ(refusal(folder.file("a")), "");
+    EXPECT_EQ(refusal_of(folder.file("a")), "");
     EXPECT_EQ(folder.count(), 0);
 }
 
@@ -79,13 +79,14 @@ TEST(AtomicFile, RefusesWhatCannotBeReplaced) {
     std::filesystem::create_directory(folder.file("folder"));
     ASSERT_EQ(mkfifo(folder.file("pipe").c_str(), 0600), 0);
     folder.write("plain", "");
-    EXPECT_EQ(refusal(folder.file("folder")), "cannot write " + folder.file("folder") + ": Is a directory");
-    EXPECT_EQ(refusal(folder.file("pipe")), "cannot write " + folder.file("pipe") + ": not a regular file");
-    EXPECT_EQ(refusal(folder.file("none/a")), "cannot write " + folder.file("none/a") + ": No such file or directory");
-    EXPECT_EQ(refusal(folder.file("plain/a")), "cannot write " + folder.file("plain/a") + ": Not a directory");
-    EXPECT_NE(refusal("/proc/a"), "");
-    EXPECT_NE(refusal("/dev/null"), "");
-    EXPECT_EQ(refusal(folder.file("plain")), "");
+    EXPECT_EQ(refusal_of(folder.file("folder")), "cannot write " + folder.file("folder") + ": Is a directory");
+    EXPECT_EQ(refusal_of(folder.file("pipe")), "cannot write " + folder.file("pipe") + ": not a regular file");
+    EXPECT_EQ(refusal_of(folder.file("none/a")),
+              "cannot write " + folder.file("none/a") + ": No such file or directory");
+    EXPECT_EQ(refusal_of(folder.file("plain/a")), "cannot write " + folder.file("plain/a") + ": Not a directory");
+    EXPECT_NE(refusal_of("/proc/a"), "");
+    EXPECT_NE(refusal_of("/dev/null"), "");
+    EXPECT_EQ(refusal_of(folder.file("plain")), "");
 }
 
 // A full disk, as far as a test without a disk of its own can have one.

@@ -12,7 +12,7 @@ cli::BenchRun run(double seconds, double mse) {
     return {seconds, 2.0 * seconds, {mse, 10.0 * mse}};
 }
 
-cli::BenchReport example() {
+cli::BenchReport example_bench() {
     cli::BenchReport report{};
     report.render.width = 4;
     report.render.height = 2;
@@ -29,7 +29,7 @@ cli::BenchReport example() {
 }
 
 TEST(BenchReport, Rows) {
-    const auto rows = cli::bench_rows(example());
+    const auto rows = cli::bench_rows(example_bench());
     ASSERT_EQ(rows.size(), 3U);
     EXPECT_EQ(rows[0].sampler, "sobol");
     EXPECT_EQ(rows[0].round_count, 3U);
@@ -44,7 +44,7 @@ TEST(BenchReport, Rows) {
 }
 
 TEST(BenchReport, ErrorsNearTheReferencesOwnAreMarked) {
-    auto report = example();
+    auto report = example_bench();
     EXPECT_FALSE(cli::bench_rows(report)[0].near_reference_noise); // 2 >= 3 * 0.1
     EXPECT_TRUE(cli::bench_rows(report)[1].near_reference_noise);  // 0.125 < 3 * 0.1
     EXPECT_NE(cli::bench_table(report).find("raise --reference-spp"), std::string::npos);
@@ -54,9 +54,9 @@ TEST(BenchReport, ErrorsNearTheReferencesOwnAreMarked) {
 }
 
 TEST(BenchReport, Forms) {
-    const std::string csv = cli::bench_csv(example());
+    const std::string csv = cli::bench_csv(example_bench());
     EXPECT_NE(csv.find("\nsobol,mis,16,3,2,4,2,20,0.025,,0\n"), std::string::npos) << csv;
-    const auto json = cli::bench_json(example());
+    const auto json = cli::bench_json(example_bench());
     EXPECT_EQ(json.at("cells").size(), 3U);
     EXPECT_TRUE(json.at("cells")[0].at("slope").is_null());
     EXPECT_EQ(json.at("reference").at("own_error").at("mse"), 0.1);

@@ -11,7 +11,7 @@
 
 namespace {
 
-cli::RenderReport example() {
+cli::RenderReport example_render() {
     cli::RenderReport report{};
     report.scene = "scene.json";
     report.render.width = 256;
@@ -40,7 +40,7 @@ void set_error(cli::RenderReport &report, double estimate, double low, double hi
 }
 
 TEST(RenderReport, StatsJson) {
-    const auto json = cli::stats_json(example());
+    const auto json = cli::stats_json(example_render());
     EXPECT_EQ(json.at("scene"), "scene.json");
     EXPECT_EQ(json.at("spp"), 32);
     EXPECT_EQ(json.at("spp_requested"), 64);
@@ -55,7 +55,7 @@ TEST(RenderReport, StatsJson) {
 }
 
 TEST(RenderReport, ToneMapAndWarningsInJson) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     EXPECT_TRUE(cli::stats_json(report).at("tone_map").is_null()); // EXR alone
     EXPECT_EQ(cli::stats_json(report).at("warnings"), nlohmann::json::array());
     report.tone_map = cli::ToneMap{-3.13, cli::ToneCurve::agx, std::nullopt};
@@ -70,7 +70,7 @@ TEST(RenderReport, ToneMapAndWarningsInJson) {
 }
 
 TEST(RenderReport, ErrorInJson) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     report.stats.rmse = report.stats.rmse_high = report.stats.relative_rmse = report.stats.relative_rmse_high =
         infinity;
     auto json = cli::stats_json(report);
@@ -93,7 +93,7 @@ TEST(RenderReport, ErrorInJson) {
 }
 
 TEST(RenderReport, ErrorText) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     set_error(report, infinity, 0.0, infinity);
     EXPECT_EQ(cli::error_text(report), "error unknown");
     report.stats.sample_count = 15;
@@ -145,7 +145,7 @@ Attributes attributes_of(const cli::ImageMetadata &metadata) {
 }
 
 TEST(RenderReport, MetadataKeepsAllDigits) {
-    const auto [texts, numbers] = attributes_of({example(), PT_QUANTITY_RADIANCE, nullptr});
+    const auto [texts, numbers] = attributes_of({example_render(), PT_QUANTITY_RADIANCE, nullptr});
     EXPECT_EQ(texts.at("pt.quantity"), "radiance");
     EXPECT_EQ(texts.at("pt.seed"), "18446744073709551615");
     EXPECT_EQ(texts.at("pt.firstSample"), "4294967295");
@@ -160,24 +160,24 @@ TEST(RenderReport, MetadataKeepsAllDigits) {
 }
 
 TEST(RenderReport, MetadataSayWhatWasMadeForADisplay) {
-    const Attributes linear = attributes_of({example(), PT_QUANTITY_RADIANCE, nullptr});
+    const Attributes linear = attributes_of({example_render(), PT_QUANTITY_RADIANCE, nullptr});
     for (const char *name : {"pt.toneMap", "pt.exposure", "pt.encoding", "pt.gamma"}) {
         EXPECT_EQ(linear.texts.count(name) + linear.numbers.count(name), 0U) << name;
     }
     cli::ToneMap map{-2.5, cli::ToneCurve::agx, std::nullopt};
-    const Attributes mapped = attributes_of({example(), PT_QUANTITY_RADIANCE, &map});
+    const Attributes mapped = attributes_of({example_render(), PT_QUANTITY_RADIANCE, &map});
     EXPECT_EQ(mapped.texts.at("pt.quantity"), "tone-mapped radiance");
     EXPECT_EQ(mapped.texts.at("pt.toneMap"), "agx");
     EXPECT_EQ(mapped.texts.at("pt.encoding"), "sRGB");
     EXPECT_EQ(mapped.numbers.at("pt.exposure"), -2.5);
     map.gamma = 2.2;
-    const Attributes power = attributes_of({example(), PT_QUANTITY_RADIANCE, &map});
+    const Attributes power = attributes_of({example_render(), PT_QUANTITY_RADIANCE, &map});
     EXPECT_EQ(power.numbers.at("pt.gamma"), 2.2);
     EXPECT_EQ(power.texts.count("pt.encoding"), 0U);
 }
 
 TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     report.scene = "folder/scene.json";
     const Attributes first = attributes_of({report, PT_QUANTITY_RADIANCE, nullptr});
     EXPECT_EQ(first.texts.at("pt.scene"), "scene.json");
@@ -197,7 +197,7 @@ TEST(RenderReport, MetadataOfEqualRunsAreEqual) {
 }
 
 TEST(RenderReport, MetadataStateTheErrorIfItIsKnown) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     set_error(report, infinity, 0.0, infinity);
     EXPECT_EQ(attributes_of({report, PT_QUANTITY_RADIANCE, nullptr}).numbers.count("pt.relativeError"), 0U);
     set_error(report, 0.0042, 0.0040, 0.0044);
@@ -205,7 +205,7 @@ TEST(RenderReport, MetadataStateTheErrorIfItIsKnown) {
 }
 
 TEST(RenderReport, Texts) {
-    EXPECT_EQ(cli::summary_text(example()), "256x128, 32 spp in 2.50 s on a device");
+    EXPECT_EQ(cli::summary_text(example_render()), "256x128, 32 spp in 2.50 s on a device");
     const std::uint8_t uuid[16] = {0x00, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77,
                                    0x88, 0x99, 0xaa, 0xbb, 0xcc, 0xdd, 0xee, 0xff};
     EXPECT_EQ(cli::uuid_text(uuid), "00112233-4455-6677-8899-aabbccddeeff");

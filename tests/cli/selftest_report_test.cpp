@@ -10,7 +10,7 @@
 
 namespace {
 
-cli::SelftestReport example() {
+cli::SelftestReport example_selftest() {
     cli::SelftestReport report{};
     std::strcpy(report.device.name, "a device");
     std::strcpy(report.device.driver, "its driver 1.2");
@@ -31,7 +31,7 @@ TEST(SelftestReport, AnErrorAtItsBoundPassesAndBeyondFails) {
 }
 
 TEST(SelftestReport, HasWhatAReportOfAFaultNeeds) {
-    const std::string text = cli::selftest_text(example());
+    const std::string text = cli::selftest_text(example_selftest());
     for (const char *part : {"device  a device\n", "driver  its driver 1.2\n", "kind    discrete GPU\n",
                              "memory  3.0 GiB\n", "pass  sine ", "worst at 0.5\n", "\npassed: all 2 checks\n"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
@@ -40,7 +40,7 @@ TEST(SelftestReport, HasWhatAReportOfAFaultNeeds) {
 }
 
 TEST(SelftestReport, OneFailureIsTheVerdict) {
-    cli::SelftestReport report = example();
+    cli::SelftestReport report = example_selftest();
     report.checks[1].error = 1e-9;
     EXPECT_FALSE(report.passed());
     const std::string text = cli::selftest_text(report);
@@ -49,7 +49,7 @@ TEST(SelftestReport, OneFailureIsTheVerdict) {
 }
 
 TEST(SelftestReport, Json) {
-    cli::SelftestReport report = example();
+    cli::SelftestReport report = example_selftest();
     EXPECT_EQ(cli::selftest_json(report).at("passed"), true);
     report.checks[0].error = std::numeric_limits<double>::infinity();
     const auto json = cli::selftest_json(report);

@@ -23,7 +23,7 @@ struct Case {
     double exponent; // of the lobe
 };
 
-constexpr std::uint32_t samples = 1U << 20;
+constexpr std::uint32_t direction_samples = 1U << 20;
 
 std::vector<glm::vec4> draw(const Case &test_case, std::uint32_t seed) {
     struct {
@@ -32,8 +32,8 @@ std::vector<glm::vec4> draw(const Case &test_case, std::uint32_t seed) {
         float glossiness;
         std::uint32_t seed, count;
     } push{glm::vec4(glm::normalize(test_case.axis), 0.0F), test_case.kind, static_cast<float>(test_case.exponent),
-           seed, samples};
-    return Probe(directions_spirv, sizeof push).run<glm::vec4>({}, samples, push, samples);
+           seed, direction_samples};
+    return Probe(directions_spirv, sizeof push).run<glm::vec4>({}, direction_samples, push, direction_samples);
 }
 
 // P(cosine of the angle to the axis < c) for each kind; uniform_sphere takes the z axis.
@@ -86,17 +86,17 @@ double deviate(const Case &test_case, const std::vector<glm::vec4> &directions) 
             std::min(static_cast<int>((azimuth / (2.0 * std::numbers::pi) + 0.5) * sectors), sectors - 1);
         ++observed[static_cast<std::size_t>(band * sectors + sector)];
     }
-    const std::vector<double> expected(observed.size(), static_cast<double>(samples) / (bands * sectors));
+    const std::vector<double> expected(observed.size(), static_cast<double>(direction_samples) / (bands * sectors));
     return statistics::chi_square_deviate(observed, expected);
 }
 
 // One false alarm in a million, over the cases of this file together.
-const double bound = statistics::normal_quantile(1e-6 / 10);
+const double direction_bound = statistics::normal_quantile(1e-6 / 10);
 
 class Directions : public testing::TestWithParam<Case> {};
 
 TEST_P(Directions, FollowTheirDensity) {
-    EXPECT_LT(deviate(GetParam(), draw(GetParam(), 2)), bound);
+    EXPECT_LT(deviate(GetParam(), draw(GetParam(), 2)), direction_bound);
     // Negative control: an inverse mapping wrong by 3% in the polar cosine must not pass.
     std::vector<glm::vec4> wrong = draw(GetParam(), 2);
     const glm::dvec3 axis = GetParam().kind == uniform_sphere ? glm::dvec3(0, 0, 1) : glm::normalize(GetParam().axis);
@@ -111,7 +111,7 @@ TEST_P(Directions, FollowTheirDensity) {
             drawn =
                 glm::vec4(glm::vec3(moved * axis + std::sqrt(std::max(0.0, 1.0 - moved * moved)) / sine * across), 0);
     }
-    EXPECT_GT(deviate(GetParam(), wrong), bound);
+    EXPECT_GT(deviate(GetParam(), wrong), direction_bound);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllSamplers, Directions,

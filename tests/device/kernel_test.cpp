@@ -14,8 +14,8 @@
 
 namespace {
 
-constexpr std::uint32_t width = 50;
-constexpr std::uint32_t height = 21;
+constexpr std::uint32_t kernel_width = 50;
+constexpr std::uint32_t kernel_height = 21;
 
 class KernelTest : public VulkanFixture {
 protected:
@@ -27,9 +27,9 @@ protected:
                                                   .invocations = invocations,
                                                   .queue_depth = 1});
         pt::TracePipelines pipelines(device);
-        pt::DeviceFilm film(device, width, height, pt::max_strip_pixels(device.limits()));
+        pt::DeviceFilm film(device, kernel_width, kernel_height, pt::max_strip_pixels(device.limits()));
         device.submit([&](const vk::raii::CommandBuffer &commands) { film.clear(commands, 0, film.pixel_count()); });
-        const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
+        const pt::RenderSettings settings = pt::validated_render(render_of(kernel_width, kernel_height, 3));
         pt::Kernel kernel(device, pipelines, film, coursework_gpu_scene(settings), settings);
         kernel.finish(kernel.start({0, film.pixel_count(), sample_count, true}, 5, {}));
         pt::PixelSums sums;

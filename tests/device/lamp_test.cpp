@@ -79,10 +79,10 @@ const std::vector<Lamp> uneven_lamps = {
     {{1.0F, 0.2F, -0.5F}, 0.1F, 1e-4F},      // dim
 };
 constexpr std::size_t below_horizon = 4;
-constexpr std::uint32_t samples = 1U << 20;
+constexpr std::uint32_t draws_of_lamps = 1U << 20;
 
 // One false alarm in a million, over the at most 20 chi-squares of this file together.
-const double bound = statistics::normal_quantile(1e-6 / 20);
+const double lamp_bound = statistics::normal_quantile(1e-6 / 20);
 
 // Chi-square deviate of the directions towards one lamp against the density that they state, times density_error,
 // over cells of equal solid angle.
@@ -118,20 +118,20 @@ TEST(LampDirections, FollowTheStatedDensity) {
         if (i == below_horizon)
             continue;
         const std::vector<Lamp> alone = {uneven_lamps[i]};
-        const std::vector<Drawn> drawn = draw(alone, {}, 3, samples);
-        EXPECT_LT(direction_deviate(drawn, alone[0], {}, 1.0), bound) << "lamp " << i;
-        EXPECT_GT(direction_deviate(drawn, alone[0], {}, 1.03), bound) << "a density wrong by 3% must show";
-        EXPECT_GT(direction_deviate(drawn, alone[0], {}, 0.97), bound) << "a density wrong by 3% must show";
+        const std::vector<Drawn> drawn = draw(alone, {}, 3, draws_of_lamps);
+        EXPECT_LT(direction_deviate(drawn, alone[0], {}, 1.0), lamp_bound) << "lamp " << i;
+        EXPECT_GT(direction_deviate(drawn, alone[0], {}, 1.03), lamp_bound) << "a density wrong by 3% must show";
+        EXPECT_GT(direction_deviate(drawn, alone[0], {}, 0.97), lamp_bound) << "a density wrong by 3% must show";
     }
 }
 
 // Also among many lamps: whichever is chosen, the numbers that place the direction are independent of the choice.
 TEST(LampDirections, DoNotDependOnTheChoice) {
     std::vector<Drawn> nearest;
-    for (const Drawn &sample : draw(uneven_lamps, {}, 4, samples))
+    for (const Drawn &sample : draw(uneven_lamps, {}, 4, draws_of_lamps))
         if (sample.lamp == 0)
             nearest.push_back(sample);
-    EXPECT_LT(direction_deviate(nearest, uneven_lamps[0], {}, 1.0), bound);
+    EXPECT_LT(direction_deviate(nearest, uneven_lamps[0], {}, 1.0), lamp_bound);
 }
 
 // The one density is stated twice, for a sample and for a direction that hits the lamp, by the same function: as far
@@ -159,11 +159,11 @@ double probability_sum(const std::vector<Drawn> &drawn, std::size_t lamp_count) 
 }
 
 void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
-    const std::vector<Drawn> drawn = draw(lamps, {}, 7, samples);
+    const std::vector<Drawn> drawn = draw(lamps, {}, 7, draws_of_lamps);
     std::vector<double> counts(lamps.size());
     for (std::size_t i = lamps.size(); i < drawn.size(); ++i)
         ++counts[drawn[i].lamp];
-    const double total = static_cast<double>(samples - lamps.size());
+    const double total = static_cast<double>(draws_of_lamps - lamps.size());
     std::vector<double> observed, expected, wrong;
     for (std::size_t i = 0; i < lamps.size(); ++i)
         if (i == below_horizon) {
@@ -173,8 +173,8 @@ void expect_stated_probabilities(const std::vector<Lamp> &lamps) {
             expected.push_back(total * static_cast<double>(drawn[i].probability));
             wrong.push_back(expected.back() * (i < 3 ? 1.03 : 0.97));
         }
-    EXPECT_LT(statistics::chi_square_deviate(observed, expected), bound);
-    EXPECT_GT(statistics::chi_square_deviate(observed, wrong), bound) << "probabilities wrong by 3% must show";
+    EXPECT_LT(statistics::chi_square_deviate(observed, expected), lamp_bound);
+    EXPECT_GT(statistics::chi_square_deviate(observed, wrong), lamp_bound) << "probabilities wrong by 3% must show";
 }
 
 // Of many lamps, and of so few that the kernel keeps how it sees them.

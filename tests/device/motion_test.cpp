@@ -15,9 +15,9 @@
 namespace {
 
 // One false alarm in a million for the file: each comparison has its share of that.
-constexpr double comparisons = 200;
-double allowed(std::size_t batch_count) {
-    return student_bound(1e-6 / comparisons, batch_count);
+constexpr double motion_comparisons = 200;
+double allowed_deviation(std::size_t batch_count) {
+    return student_bound(1e-6 / motion_comparisons, batch_count);
 }
 
 class Motion : public BatchFixture {
@@ -78,13 +78,13 @@ TEST_F(Motion, DiscCoversTheExactShare) {
         pt_render render = render_of(64, 32, 1);
         render.sampler = sampler;
         const Batches batches = render_batches(render, disc_batches, 512);
-        EXPECT_LT(worst_coverage(batches), allowed(disc_batches)) << "sampler " << sampler;
+        EXPECT_LT(worst_coverage(batches), allowed_deviation(disc_batches)) << "sampler " << sampler;
         EXPECT_TRUE(stats().features & PT_FEATURE_MOTION);
     }
     // Negative control: 3% more speed leaves 3% less time in each pixel.
     set_up_sphere(moving_disc(1.03), 1, 0);
     const Batches batches = render_batches(render_of(64, 32, 1), disc_batches, 512);
-    EXPECT_GT(worst_coverage(batches), allowed(disc_batches));
+    EXPECT_GT(worst_coverage(batches), allowed_deviation(disc_batches));
 }
 
 // Plain Halton has no seed, so its error is bounded as a quadrature: 1024 points in base 2 by 3 by 5 of an indicator
@@ -141,7 +141,7 @@ TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
             const Batches batches = render_batches(render, lamp_batches, lamp_samples);
             for (const std::size_t pixel : floor_pixels)
                 EXPECT_LT(std::abs(deviation(estimate_of_pixel(batches, pixel), expected_on_floor(pixel, moving_lamp))),
-                          allowed(lamp_batches))
+                          allowed_deviation(lamp_batches))
                     << "pixel " << pixel << " estimator " << estimator << " sampler " << sampler;
         }
     // Negative control: 3% more speed.
@@ -151,7 +151,7 @@ TEST_F(Motion, LampLightsTheFloorAsInClosedForm) {
     for (const std::size_t pixel : floor_pixels)
         worst = std::max(worst,
                          std::abs(deviation(estimate_of_pixel(batches, pixel), expected_on_floor(pixel, moving_lamp))));
-    EXPECT_GT(worst, allowed(lamp_batches));
+    EXPECT_GT(worst, allowed_deviation(lamp_batches));
 }
 
 // The mean of frozen times is the integral over time by the midpoint rule. With 64 of them its error is below 1e-4 of
@@ -177,7 +177,8 @@ TEST_F(Motion, LampIsTheMeanOfFrozenTimes) {
     for (const std::size_t pixel : floor_pixels) {
         const Estimate estimate = estimate_of_pixel(moving, pixel);
         const double error = std::hypot(estimate.standard_error, std::sqrt(squares[pixel]), 1e-4 * estimate.mean);
-        EXPECT_LT(std::abs(estimate.mean - frozen[pixel]) / error, allowed(lamp_batches)) << "pixel " << pixel;
+        EXPECT_LT(std::abs(estimate.mean - frozen[pixel]) / error, allowed_deviation(lamp_batches))
+            << "pixel " << pixel;
         std::printf("pixel %zu: %.6f frozen %.6f +- %.6f\n", pixel, estimate.mean, frozen[pixel], error);
     }
 }
@@ -228,7 +229,8 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
             set_up_floor({radius, {length, 0, length}});
             const Estimate moving = light(lamp_batches, 256);
             const double error = std::hypot(still.standard_error, moving.standard_error, 1e-6 * still.mean);
-            EXPECT_LT(std::abs(moving.mean - still.mean) / error, allowed(lamp_batches)) << radius << ' ' << length;
+            EXPECT_LT(std::abs(moving.mean - still.mean) / error, allowed_deviation(lamp_batches))
+                << radius << ' ' << length;
         }
 }
 
@@ -265,10 +267,11 @@ TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
         set_up_floor(floor);
         const Estimate moving = light(lamp_batches, 1024);
         const double error = std::hypot(moving.standard_error, std::sqrt(square), 1e-4 * mean);
-        EXPECT_LT(std::abs(moving.mean - mean) / error, allowed(lamp_batches)) << floor.radius;
+        EXPECT_LT(std::abs(moving.mean - mean) / error, allowed_deviation(lamp_batches)) << floor.radius;
         // Negative control: down instead of up.
         set_up_floor({floor.radius, {floor.motion[0], -floor.motion[1], floor.motion[2]}});
-        EXPECT_GT(std::abs(light(lamp_batches, 1024).mean - mean) / error, allowed(lamp_batches)) << floor.radius;
+        EXPECT_GT(std::abs(light(lamp_batches, 1024).mean - mean) / error, allowed_deviation(lamp_batches))
+            << floor.radius;
     }
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 using Image = std::vector<float>;
 
-constexpr std::uint32_t width = 16;
-constexpr std::uint32_t height = 12;
+constexpr std::uint32_t zero_width = 16;
+constexpr std::uint32_t zero_height = 12;
 
 // A room with a lamp that has no blue, all zeros of whose materials have a sign.
 InvarianceScene scene_with_zeros(float zero) {
@@ -31,13 +31,13 @@ class NegativeZero : public ContextFixture {
 protected:
     Image image_of(const InvarianceScene &zeros, std::uint32_t max_path_length) {
         const pt_scene scene = zeros.scene();
-        const pt_render render = ::render_of(width, height, max_path_length);
+        const pt_render render = ::render_of(zero_width, zero_height, max_path_length);
         EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
         EXPECT_EQ(pt_set_camera(context(), &zeros.camera), PT_OK) << pt_last_error(context());
         EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
         accumulate(16);
         EXPECT_EQ(stats().rejected_samples, 0U);
-        Image image(std::size_t{3} * width * height);
+        Image image(std::size_t{3} * zero_width * zero_height);
         readback(image);
         return image;
     }

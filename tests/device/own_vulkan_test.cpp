@@ -15,13 +15,13 @@
 
 namespace {
 
-constexpr std::uint32_t width = 60;
-constexpr std::uint32_t height = 33;
+constexpr std::uint32_t own_width = 60;
+constexpr std::uint32_t own_height = 33;
 constexpr std::uint32_t samples = 9;
 
 std::vector<float> render(pt_context *context, std::uint64_t seed, std::uint32_t submit_count = 1) {
     const CourseworkScene coursework;
-    pt_render settings = render_of(width, height, 3);
+    pt_render settings = render_of(own_width, own_height, 3);
     settings.seed = seed;
     std::vector<float> image;
     for (std::uint32_t i = 0; i < submit_count; ++i)

@@ -12,8 +12,8 @@
 
 namespace {
 
-constexpr std::uint32_t width = 15;
-constexpr std::uint32_t height = 17;
+constexpr std::uint32_t part_width = 15;
+constexpr std::uint32_t part_height = 17;
 constexpr int workgroups = 4; // the last one in part
 constexpr std::uint32_t most_samples = 18;
 
@@ -25,13 +25,13 @@ protected:
     }
 
     static void set_up(pt::RenderDevice &device) {
-        const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
+        const pt::RenderSettings settings = pt::validated_render(render_of(part_width, part_height, 3));
         device.set_film(device.make_film(settings));
         prepare(device);
     }
 
     static void prepare(pt::RenderDevice &device) {
-        const pt::RenderSettings settings = pt::validated_render(render_of(width, height, 3));
+        const pt::RenderSettings settings = pt::validated_render(render_of(part_width, part_height, 3));
         device.prepare(coursework_gpu_scene(settings), settings);
     }
 

@@ -19,8 +19,8 @@ namespace {
 
 using Bytes = std::vector<char>;
 
-constexpr uint32_t width = 21;
-constexpr uint32_t height = 14;
+constexpr uint32_t film_width = 21;
+constexpr uint32_t film_height = 14;
 
 // What a context has to show.
 struct Picture {
@@ -38,7 +38,7 @@ struct Picture {
 class SavedFilm : public ContextFixture {
 protected:
     static pt_render settings(uint32_t first_sample) {
-        pt_render render = render_of(width, height, 3);
+        pt_render render = render_of(film_width, film_height, 3);
         render.first_sample = first_sample;
         return render;
     }
@@ -78,10 +78,10 @@ protected:
         std::memcpy(&film[checked], &checksum, sizeof checksum);
     }
 
-    static Picture picture_of(pt_context *context, uint32_t rows = height) {
+    static Picture picture_of(pt_context *context, uint32_t rows = film_height) {
         Picture picture;
         const auto read = [&](std::vector<float> &values, uint32_t quantity) {
-            values.resize(std::size_t{3} * width * rows);
+            values.resize(std::size_t{3} * film_width * rows);
             const pt_image image{sizeof image, quantity, values.data(), values.size() * sizeof(float), 0};
             EXPECT_EQ(pt_readback(context, &image), PT_OK) << pt_last_error(context);
         };

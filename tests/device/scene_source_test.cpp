@@ -19,8 +19,8 @@ namespace gpu = pt::gpu;
 
 using FilmWords = KernelRender::FilmWords;
 
-constexpr std::uint32_t width = KernelRender::width;
-constexpr std::uint32_t height = KernelRender::height;
+constexpr std::uint32_t source_width = KernelRender::width;
+constexpr std::uint32_t source_height = KernelRender::height;
 constexpr std::uint32_t sample_count = KernelRender::sample_count;
 
 // Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
@@ -31,7 +31,7 @@ struct Comparison {
 
     explicit Comparison(const KernelRender &of) : render(of), film(of.film(gpu::SCENE_IN_CONSTANTS, of.words())) {
         EXPECT_LE(of.words().size(), gpu::CONSTANT_SCENE_WORDS);
-        EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * width * height], sample_count);
+        EXPECT_EQ(film[std::size_t{gpu::FILM_ACCEPTED} * source_width * source_height], sample_count);
     }
 
     bool holds(std::uint32_t source, const std::vector<glm::vec4> &words) const {
@@ -172,7 +172,8 @@ TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
 class SceneSourceTest : public ContextFixture {
 protected:
     static std::vector<float> image_of(pt_context *on, const InvarianceScene &source) {
-        return render_image(on, source.scene(), source.camera, ::render_of(width, height, 4), sample_count);
+        return render_image(on, source.scene(), source.camera, ::render_of(source_width, source_height, 4),
+                            sample_count);
     }
 };
 

@@ -10,8 +10,8 @@
 
 namespace {
 
-constexpr uint32_t width = 120;
-constexpr uint32_t height = 45;
+constexpr uint32_t shared_width = 120;
+constexpr uint32_t shared_height = 45;
 
 using Image = std::vector<float>;
 
@@ -29,7 +29,7 @@ protected:
         CourseworkScene coursework;
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
-        pt_render render = render_of(width, height, 3);
+        pt_render render = render_of(shared_width, shared_height, 3);
         render.first_row = first_row;
         render.row_count = row_count;
         ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
@@ -43,8 +43,8 @@ protected:
         return pt_accumulate(on, &info);
     }
 
-    static Image image_of(pt_context *on, uint32_t rows = height, uint32_t quantity = PT_QUANTITY_RADIANCE) {
-        Image image(std::size_t{width} * rows * 3);
+    static Image image_of(pt_context *on, uint32_t rows = shared_height, uint32_t quantity = PT_QUANTITY_RADIANCE) {
+        Image image(std::size_t{shared_width} * rows * 3);
         const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
         EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
         return image;
@@ -64,7 +64,7 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     set_up(alone.get());
     ASSERT_EQ(accumulate_on(alone.get(), 77), PT_OK);
     const Image expected = image_of(alone.get());
-    const Image expected_error = image_of(alone.get(), height, PT_QUANTITY_STANDARD_ERROR);
+    const Image expected_error = image_of(alone.get(), shared_height, PT_QUANTITY_STANDARD_ERROR);
     for (const uint32_t submit_milliseconds : {1U, 50U}) {
         const Context shared = context_on(3, submit_milliseconds);
         set_up(shared.get());
@@ -72,7 +72,7 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
         EXPECT_NE(image_of(shared.get()), expected) << "27 missing samples must show";
         ASSERT_EQ(accumulate_on(shared.get(), 27), PT_OK);
         EXPECT_EQ(image_of(shared.get()), expected);
-        EXPECT_EQ(image_of(shared.get(), height, PT_QUANTITY_STANDARD_ERROR), expected_error);
+        EXPECT_EQ(image_of(shared.get(), shared_height, PT_QUANTITY_STANDARD_ERROR), expected_error);
         const pt_stats stats = stats_of(shared.get());
         EXPECT_EQ(stats.device_count, 3U);
         EXPECT_EQ(stats.sample_count, 77U);
@@ -81,12 +81,12 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     }
 }
 
-struct Stopper {
+struct StopperOfOne {
     int calls_left;
     double last = 0;
 
     static int32_t progress(void *user, double fraction) {
-        auto *stopper = static_cast<Stopper *>(user);
+        auto *stopper = static_cast<StopperOfOne *>(user);
         EXPECT_GT(stopper->calls_left, 0) << "called again after it asked to stop";
         EXPECT_TRUE(fraction >= stopper->last && fraction <= 1.0) << fraction;
         stopper->last = fraction;
@@ -101,8 +101,8 @@ TEST_F(SharingTest, StoppingSeveralDevicesLeavesARangeWithoutGaps) {
     uint32_t done = 0;
     int stops = 0;
     while (done < 24) {
-        Stopper stopper{4};
-        const pt_result result = accumulate_on(shared.get(), 24 - done, &Stopper::progress, &stopper);
+        StopperOfOne stopper{4};
+        const pt_result result = accumulate_on(shared.get(), 24 - done, &StopperOfOne::progress, &stopper);
         ASSERT_GE(result, PT_OK) << pt_last_error(shared.get());
         stops += result == PT_CANCELLED;
         done = stats_of(shared.get()).sample_count;
@@ -120,16 +120,16 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     accumulate(16);
     const Image whole = image_of(context());
     for (const auto &[first_row, row_count] : {std::pair{0U, 7U}, {7U, 30U}, {37U, 0U}, {44U, 1U}}) {
-        const uint32_t rows = row_count == 0 ? height - first_row : row_count;
+        const uint32_t rows = row_count == 0 ? shared_height - first_row : row_count;
         set_up(context(), first_row, row_count);
         accumulate(16);
-        const auto begin = whole.begin() + std::ptrdiff_t{width} * first_row * 3;
-        const Image expected(begin, begin + std::ptrdiff_t{width} * rows * 3);
+        const auto begin = whole.begin() + std::ptrdiff_t{shared_width} * first_row * 3;
+        const Image expected(begin, begin + std::ptrdiff_t{shared_width} * rows * 3);
         EXPECT_EQ(image_of(context(), rows), expected) << "rows from " << first_row;
     }
     set_up(context(), 1, 7);
     accumulate(16);
-    EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{width} * 7 * 3));
+    EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
 TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {

@@ -13,6 +13,8 @@
 #include <numeric>
 #include <random>
 
+namespace twins_render {
+
 namespace {
 
 constexpr std::uint32_t batch_count = 8;
@@ -269,3 +271,5 @@ TEST_F(RandomTwins, DISABLED_OfManyScenesSendTheirLightOnce) {
 }
 
 } // namespace
+
+} // namespace twins_render

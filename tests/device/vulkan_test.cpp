@@ -33,7 +33,7 @@ using pt::vulkan::Device;
 using pt::vulkan::DevicePolicy;
 using VulkanTest = VulkanFixture;
 
-void clear(Device &device, const Buffer &buffer) {
+void clear_all(Device &device, const Buffer &buffer) {
     device.submit([&](const vk::raii::CommandBuffer &commands) { buffer.clear(commands, 0, buffer.size()); });
 }
 
@@ -261,7 +261,7 @@ TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
             offsets.upload(std::as_bytes(std::span(words)), std::uint64_t{part} * range);
             expected += part == 1 ? 0 : words[0];
         }
-        clear(device(), values);
+        clear_all(device(), values);
         device().submit([&](const vk::raii::CommandBuffer &commands) {
             for (const std::uint32_t part : {2U, 0U}) {
                 pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1, std::array{part * range});
@@ -302,7 +302,7 @@ TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
     EXPECT_TRUE(names(*error, "1073741824 bytes for the film")) << error->what();
     EXPECT_EQ(device().allocated_bytes(), before);
     messages_.clear(); // the driver reports it too
-    clear(device(), Buffer(device(), BufferUse::Storage, 1U << 20, "film"));
+    clear_all(device(), Buffer(device(), BufferUse::Storage, 1U << 20, "film"));
 }
 #endif
 

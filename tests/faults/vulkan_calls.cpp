@@ -57,7 +57,7 @@ CallFault fault;
 bool posing = false;
 std::set<const void *> lost;                       // devices and queues
 std::set<VkFence> hanging;                         // fences that are not seen to be signalled
-std::map<VkQueue, VkDevice> devices;               // by their queues
+std::map<VkQueue, VkDevice> devices_of_queues;     // by their queues
 std::multiset<std::pair<const void *, Call>> live; // objects and what made them
 PFN_vkDeviceWaitIdle wait_idle = nullptr;
 PFN_vkGetDeviceProcAddr get_device_function = nullptr;
@@ -66,7 +66,7 @@ template <typename... A>
 VkDevice device_of(const std::tuple<A...> &arguments) {
     const auto first = std::get<0>(arguments);
     if constexpr (std::is_same_v<decltype(first), const VkQueue>)
-        return devices[first];
+        return devices_of_queues[first];
     else if constexpr (std::is_same_v<decltype(first), const VkDevice>)
         return first;
     else
@@ -146,7 +146,7 @@ void note_effect(const std::tuple<A...> &arguments) {
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
     if constexpr (call == Call::GetDeviceQueue)
-        devices[*std::get<3>(arguments)] = std::get<0>(arguments);
+        devices_of_queues[*std::get<3>(arguments)] = std::get<0>(arguments);
     if constexpr (call == Call::GetPhysicalDeviceProperties)
         if (posing)
             std::get<1>(arguments)->deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;

@@ -11,8 +11,8 @@
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double camera_nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double camera_infinity = std::numeric_limits<double>::infinity();
 
 // At (0, 0, 1), looking along -z.
 pt_camera valid_camera() {
@@ -39,17 +39,17 @@ void set(double (&to)[3], double x, double y, double z) {
     to[2] = z;
 }
 
-struct Case {
+struct CameraCase {
     const char *name;
     void (*spoil)(pt_camera &camera);
     const char *message;
 };
 
-void PrintTo(const Case &test_case, std::ostream *out) {
+void PrintTo(const CameraCase &test_case, std::ostream *out) {
     *out << test_case.name;
 }
 
-class BrokenCamera : public testing::TestWithParam<Case> {};
+class BrokenCamera : public testing::TestWithParam<CameraCase> {};
 
 TEST_P(BrokenCamera, IsRefusedWithMessage) {
     pt_camera camera = valid_camera();
@@ -61,53 +61,57 @@ TEST_P(BrokenCamera, IsRefusedWithMessage) {
 INSTANTIATE_TEST_SUITE_P(
     Rules, BrokenCamera,
     testing::Values(
-        Case{"Reserved", [](pt_camera &c) { c.reserved = 2; }, "camera.reserved = 2: must be 0"},
-        Case{"PositionNan", [](pt_camera &c) { c.position[1] = nan; }, "camera.position[1] = nan: must be finite"},
-        Case{"PositionLarge", [](pt_camera &c) { c.position[0] = 2e18; },
-             "camera.position[0] = 2e+18: must be 0 or of a magnitude in [1e-18, 1e18]"},
-        Case{"TargetInfinite", [](pt_camera &c) { c.target[2] = infinity; }, "camera.target[2] = inf: must be finite"},
-        Case{"TargetSmall", [](pt_camera &c) { c.target[2] = -1e-20; },
-             "camera.target[2] = -1e-20: must be 0 or of a magnitude in [1e-18, 1e18]"},
-        Case{"TargetIsPosition", [](pt_camera &c) { set(c.target, 0, 0, 1); },
-             "camera.target = (0, 0, 1): must differ from position"},
-        Case{"UpNan", [](pt_camera &c) { c.up[0] = nan; }, "camera.up[0] = nan: must be finite"},
-        Case{"UpParallel", [](pt_camera &c) { set(c.up, 0, 0, 1); },
-             "camera.up = (0, 0, 1): must not be parallel to the viewing direction"},
-        Case{"UpAntiparallel", [](pt_camera &c) { set(c.up, 0, 0, -2.5); },
-             "camera.up = (0, 0, -2.5): must not be parallel to the viewing direction"},
-        Case{"UpAlmostParallel", [](pt_camera &c) { set(c.up, 0, 0x1p-27, 1); },
-             "camera.up = (0, 7.450580596923828e-09, 1): must not be parallel to the viewing direction"},
-        Case{"UpParallelButHuge", [](pt_camera &c) { set(c.up, 0, 0, -1e300); },
-             "camera.up = (0, 0, -1e+300): must not be parallel to the viewing direction"},
-        Case{"DefaultUpParallel", [](pt_camera &c) { set(c.target, 0, -5, 1); },
-             "camera.up = (0, 1, 0): must not be parallel to the viewing direction"},
-        Case{"FovNegative", [](pt_camera &c) { c.vertical_fov = -1; },
-             "camera.vertical_fov = -1: must lie in [1e-8, pi)"},
-        Case{"FovPi", [](pt_camera &c) { c.vertical_fov = std::numbers::pi; },
-             "camera.vertical_fov = 3.141592653589793: must lie in [1e-8, pi)"},
-        Case{"FovDegrees", [](pt_camera &c) { c.vertical_fov = 45; },
-             "camera.vertical_fov = 45: must lie in [1e-8, pi)"},
-        Case{"FovNan", [](pt_camera &c) { c.vertical_fov = nan; }, "camera.vertical_fov = nan: must be finite"},
-        Case{"FovSmall", [](pt_camera &c) { c.vertical_fov = 9e-9; },
-             "camera.vertical_fov = 9e-09: must lie in [1e-8, pi)"},
-        Case{"ShutterOpensEarly", [](pt_camera &c) { c.shutter_open = -0.25; },
-             "camera.shutter_open = -0.25: must be >= 0"},
-        Case{"ShutterClosesLate", [](pt_camera &c) { c.shutter_close = 1.5; },
-             "camera.shutter_close = 1.5: must be <= 1"},
-        Case{"ShutterClosesBeforeItOpens", [](pt_camera &c) { c.shutter_open = 0.5; },
-             "camera.shutter_close = 0: must be >= shutter_open (0.5)"},
-        Case{"ShutterOpenNan", [](pt_camera &c) { c.shutter_open = nan; }, "camera.shutter_open = nan: must be finite"},
-        Case{"ShutterCloseInfinite", [](pt_camera &c) { c.shutter_close = infinity; },
-             "camera.shutter_close = inf: must be finite"},
-        Case{"Several",
-             [](pt_camera &c) {
-                 c.position[0] = nan;
-                 c.vertical_fov = 4;
-                 c.reserved = 1;
-             },
-             "camera.reserved = 1: must be 0\n"
-             "camera.position[0] = nan: must be finite\n"
-             "camera.vertical_fov = 4: must lie in [1e-8, pi)"}),
+        CameraCase{"Reserved", [](pt_camera &c) { c.reserved = 2; }, "camera.reserved = 2: must be 0"},
+        CameraCase{"PositionNan", [](pt_camera &c) { c.position[1] = camera_nan; },
+                   "camera.position[1] = nan: must be finite"},
+        CameraCase{"PositionLarge", [](pt_camera &c) { c.position[0] = 2e18; },
+                   "camera.position[0] = 2e+18: must be 0 or of a magnitude in [1e-18, 1e18]"},
+        CameraCase{"TargetInfinite", [](pt_camera &c) { c.target[2] = camera_infinity; },
+                   "camera.target[2] = inf: must be finite"},
+        CameraCase{"TargetSmall", [](pt_camera &c) { c.target[2] = -1e-20; },
+                   "camera.target[2] = -1e-20: must be 0 or of a magnitude in [1e-18, 1e18]"},
+        CameraCase{"TargetIsPosition", [](pt_camera &c) { set(c.target, 0, 0, 1); },
+                   "camera.target = (0, 0, 1): must differ from position"},
+        CameraCase{"UpNan", [](pt_camera &c) { c.up[0] = camera_nan; }, "camera.up[0] = nan: must be finite"},
+        CameraCase{"UpParallel", [](pt_camera &c) { set(c.up, 0, 0, 1); },
+                   "camera.up = (0, 0, 1): must not be parallel to the viewing direction"},
+        CameraCase{"UpAntiparallel", [](pt_camera &c) { set(c.up, 0, 0, -2.5); },
+                   "camera.up = (0, 0, -2.5): must not be parallel to the viewing direction"},
+        CameraCase{"UpAlmostParallel", [](pt_camera &c) { set(c.up, 0, 0x1p-27, 1); },
+                   "camera.up = (0, 7.450580596923828e-09, 1): must not be parallel to the viewing direction"},
+        CameraCase{"UpParallelButHuge", [](pt_camera &c) { set(c.up, 0, 0, -1e300); },
+                   "camera.up = (0, 0, -1e+300): must not be parallel to the viewing direction"},
+        CameraCase{"DefaultUpParallel", [](pt_camera &c) { set(c.target, 0, -5, 1); },
+                   "camera.up = (0, 1, 0): must not be parallel to the viewing direction"},
+        CameraCase{"FovNegative", [](pt_camera &c) { c.vertical_fov = -1; },
+                   "camera.vertical_fov = -1: must lie in [1e-8, pi)"},
+        CameraCase{"FovPi", [](pt_camera &c) { c.vertical_fov = std::numbers::pi; },
+                   "camera.vertical_fov = 3.141592653589793: must lie in [1e-8, pi)"},
+        CameraCase{"FovDegrees", [](pt_camera &c) { c.vertical_fov = 45; },
+                   "camera.vertical_fov = 45: must lie in [1e-8, pi)"},
+        CameraCase{"FovNan", [](pt_camera &c) { c.vertical_fov = camera_nan; },
+                   "camera.vertical_fov = nan: must be finite"},
+        CameraCase{"FovSmall", [](pt_camera &c) { c.vertical_fov = 9e-9; },
+                   "camera.vertical_fov = 9e-09: must lie in [1e-8, pi)"},
+        CameraCase{"ShutterOpensEarly", [](pt_camera &c) { c.shutter_open = -0.25; },
+                   "camera.shutter_open = -0.25: must be >= 0"},
+        CameraCase{"ShutterClosesLate", [](pt_camera &c) { c.shutter_close = 1.5; },
+                   "camera.shutter_close = 1.5: must be <= 1"},
+        CameraCase{"ShutterClosesBeforeItOpens", [](pt_camera &c) { c.shutter_open = 0.5; },
+                   "camera.shutter_close = 0: must be >= shutter_open (0.5)"},
+        CameraCase{"ShutterOpenNan", [](pt_camera &c) { c.shutter_open = camera_nan; },
+                   "camera.shutter_open = nan: must be finite"},
+        CameraCase{"ShutterCloseInfinite", [](pt_camera &c) { c.shutter_close = camera_infinity; },
+                   "camera.shutter_close = inf: must be finite"},
+        CameraCase{"Several",
+                   [](pt_camera &c) {
+                       c.position[0] = camera_nan;
+                       c.vertical_fov = 4;
+                       c.reserved = 1;
+                   },
+                   "camera.reserved = 1: must be 0\n"
+                   "camera.position[0] = nan: must be finite\n"
+                   "camera.vertical_fov = 4: must lie in [1e-8, pi)"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(Camera, HasTheDefaultsOfTheHeader) {

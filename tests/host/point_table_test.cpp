@@ -108,22 +108,22 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-constexpr std::uint32_t net_digits = 8;
-constexpr std::uint32_t net_size = 1U << net_digits;
+constexpr std::uint32_t table_net_digits = 8;
+constexpr std::uint32_t table_net_size = 1U << table_net_digits;
 
 // A (0,1)-net in each dimension, and a (0,2)-net in the first two, for every seed.
 TEST(PointTable, OfSobolIsANet) {
     const pt::PointLayout layout = all_dimensions();
     for (const std::uint64_t some_seed : {std::uint64_t{0}, std::uint64_t{1}, ~std::uint64_t{0}})
-        for (const std::uint32_t start : {0U, 77 * net_size}) {
-            const Table table = pt::point_table(PT_SAMPLER_SOBOL, some_seed, range_of(start, net_size), layout);
+        for (const std::uint32_t start : {0U, 77 * table_net_size}) {
+            const Table table = pt::point_table(PT_SAMPLER_SOBOL, some_seed, range_of(start, table_net_size), layout);
             std::vector<Coordinates> dimensions = dimensions_of(table, layout);
             for (Coordinates &coordinates : dimensions)
-                EXPECT_TRUE(fills_intervals(coordinates, net_digits));
-            for (std::uint32_t digits = 0; digits <= net_digits; ++digits)
-                EXPECT_TRUE(fills_boxes(dimensions[0], dimensions[1], digits, net_digits - digits));
-            dimensions[5][100] ^= 1U << (32 - net_digits);
-            EXPECT_FALSE(fills_intervals(dimensions[5], net_digits));
+                EXPECT_TRUE(fills_intervals(coordinates, table_net_digits));
+            for (std::uint32_t digits = 0; digits <= table_net_digits; ++digits)
+                EXPECT_TRUE(fills_boxes(dimensions[0], dimensions[1], digits, table_net_digits - digits));
+            dimensions[5][100] ^= 1U << (32 - table_net_digits);
+            EXPECT_FALSE(fills_intervals(dimensions[5], table_net_digits));
         }
 }
 

@@ -11,12 +11,12 @@
 
 namespace {
 
-const glm::dvec3 eye = {1, 2, 3};
+const glm::dvec3 camera_position = {1, 2, 3};
 
 pt::Camera looking_along(const glm::dvec3 &forward, double vertical_fov) {
     const glm::dvec3 ahead = glm::normalize(forward);
     const glm::dvec3 right = glm::normalize(glm::cross(ahead, glm::dvec3(0, 1, 0)));
-    return {eye, right, glm::cross(right, ahead), ahead, std::tan(0.5 * vertical_fov), 0.0, 1.0};
+    return {camera_position, right, glm::cross(right, ahead), ahead, std::tan(0.5 * vertical_fov), 0.0, 1.0};
 }
 
 const pt::RenderSettings square{64, 64, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 64};
@@ -34,14 +34,14 @@ double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Pl
     return ahead.start_distance;
 }
 
-pt::Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
-    return {eye + place, radius, motion, 0};
+pt::Sphere ball_from_camera(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
+    return {camera_position + place, radius, motion, 0};
 }
 
 // Through the pinhole if a pixel's side is above 2^-14 of its distance: fov = 64 * 2^-14.
 TEST(RayStart, IsThePinholeInWideViews) {
-    EXPECT_EQ(start_of({ball(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
-    EXPECT_GT(start_of({ball(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
+    EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 4.0e-3)), 0.0);
+    EXPECT_GT(start_of({ball_from_camera(1e6 * oblique, 1)}, {}, looking_along(oblique, 3.8e-3)), 0.9e6);
 }
 
 constexpr double narrow = 1e-5;
@@ -51,9 +51,9 @@ TEST(RayStart, IsJustBeforeTheFirstSurfaceInView) {
     const pt::Camera camera = looking_along(oblique, narrow);
     const double width = std::tan(0.5 * narrow) * std::sqrt(2.0);
     EXPECT_EQ(start_of({}, {}, camera), 0.0);
-    EXPECT_NEAR(start_of({ball(1e6 * oblique, 2)}, {}, camera), (1e6 - 2) * (1 - width), 1e-3);
-    EXPECT_NEAR(start_of({ball(1e6 * oblique, 2), ball(1e5 * oblique, 0.1)}, {}, camera), (1e5 - 0.1) * (1 - width),
-                1e-4);
+    EXPECT_NEAR(start_of({ball_from_camera(1e6 * oblique, 2)}, {}, camera), (1e6 - 2) * (1 - width), 1e-3);
+    EXPECT_NEAR(start_of({ball_from_camera(1e6 * oblique, 2), ball_from_camera(1e5 * oblique, 0.1)}, {}, camera),
+                (1e5 - 0.1) * (1 - width), 1e-4);
     EXPECT_NEAR(start_of({}, {{{0, 1, 0}, -1e6 - 2, 0}}, camera), 1e6 / 0.6 * (1 - width), 20) << "a ceiling";
 }
 
@@ -63,27 +63,36 @@ TEST(RayStart, IsOutsideOfTinyFarBalls) {
     for (int i = 0; i < 200; ++i) {
         const double distance = 1e8 * (1 + 1e-3 * i);
         const double radius = distance * 2.5e-9 * std::pow(1.01, i);
-        EXPECT_LE(start_of({ball(distance * oblique, radius)}, {}, camera), distance - radius) << i;
+        EXPECT_LE(start_of({ball_from_camera(distance * oblique, radius)}, {}, camera), distance - radius) << i;
     }
 }
 
 TEST(RayStart, LooksPastWhatIsOutOfView) {
     const pt::Camera camera = looking_along(oblique, narrow);
-    const double alone = start_of({ball(1e6 * oblique, 2)}, {}, camera);
+    const double alone = start_of({ball_from_camera(1e6 * oblique, 2)}, {}, camera);
     const glm::dvec3 aside = camera.right * (2.0 + 1e3 * narrow);
-    EXPECT_EQ(start_of({ball(1e6 * oblique, 2), ball(-5.0 * oblique, 2)}, {}, camera), alone) << "behind";
-    EXPECT_EQ(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + aside, 2)}, {}, camera), alone) << "aside";
-    EXPECT_LT(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + 0.99 * aside, 2)}, {}, camera), 1e3);
-    EXPECT_EQ(start_of({ball(1e6 * oblique, 2)}, {{{0, 1, 0}, -1, 0}}, camera), alone) << "a floor below the camera";
-    EXPECT_LT(start_of({ball(1e6 * oblique, 2), ball(1e3 * oblique + 10.0 * aside, 2, -20.0 * aside)}, {}, camera), 1e3)
+    EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 2), ball_from_camera(-5.0 * oblique, 2)}, {}, camera), alone)
+        << "behind";
+    EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 2), ball_from_camera(1e3 * oblique + aside, 2)}, {}, camera),
+              alone)
+        << "aside";
+    EXPECT_LT(
+        start_of({ball_from_camera(1e6 * oblique, 2), ball_from_camera(1e3 * oblique + 0.99 * aside, 2)}, {}, camera),
+        1e3);
+    EXPECT_EQ(start_of({ball_from_camera(1e6 * oblique, 2)}, {{{0, 1, 0}, -1, 0}}, camera), alone)
+        << "a floor below the camera";
+    EXPECT_LT(
+        start_of({ball_from_camera(1e6 * oblique, 2), ball_from_camera(1e3 * oblique + 10.0 * aside, 2, -20.0 * aside)},
+                 {}, camera),
+        1e3)
         << "it moves through the view";
 }
 
 TEST(RayStart, IsInsideOfWhatHoldsTheCamera) {
     const pt::Camera camera = looking_along(oblique, narrow);
-    EXPECT_NEAR(start_of({ball({0, 0, 0}, 1e6)}, {}, camera), 1e6, 20);
-    EXPECT_NEAR(start_of({ball(-1e5 * oblique, 1e6)}, {}, camera), 9e5, 20);
-    EXPECT_EQ(start_of({ball({0, 0, 0}, 1e6, {1, 0, 0})}, {}, camera), 0.0) << "no matter how it moves";
+    EXPECT_NEAR(start_of({ball_from_camera({0, 0, 0}, 1e6)}, {}, camera), 1e6, 20);
+    EXPECT_NEAR(start_of({ball_from_camera(-1e5 * oblique, 1e6)}, {}, camera), 9e5, 20);
+    EXPECT_EQ(start_of({ball_from_camera({0, 0, 0}, 1e6, {1, 0, 0})}, {}, camera), 0.0) << "no matter how it moves";
     EXPECT_EQ(start_of({}, {{{0, 1, 0}, -2, 0}}, camera), 0.0) << "the camera is on the plane";
 }
 
@@ -102,9 +111,10 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
             camera.forward * distance + camera.right * uniform(-spread, spread) + camera.up * uniform(-spread, spread);
         const double radius = std::pow(10.0, uniform(-2, 2)) * spread;
         const glm::dvec3 normal = glm::normalize(glm::dvec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)));
-        const pt::Plane plane{normal, -glm::dot(normal, eye + place), 0};
+        const pt::Plane plane{normal, -glm::dot(normal, camera_position + place), 0};
         const bool is_plane = round % 4 == 0;
-        const double start = is_plane ? start_of({}, {plane}, camera) : start_of({ball(place, radius)}, {}, camera);
+        const double start =
+            is_plane ? start_of({}, {plane}, camera) : start_of({ball_from_camera(place, radius)}, {}, camera);
         for (int i = 0; i < 100; ++i) {
             const glm::dvec3 ray = glm::normalize(camera.forward + camera.tan_half_fov * uniform(-1, 1) * camera.right +
                                                   camera.tan_half_fov * uniform(-1, 1) * camera.up);

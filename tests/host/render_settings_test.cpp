@@ -27,17 +27,17 @@ std::string message(const pt_render &render) {
     return "accepted";
 }
 
-struct Case {
+struct RenderCase {
     const char *name;
     void (*spoil)(pt_render &render);
     const char *message;
 };
 
-void PrintTo(const Case &test_case, std::ostream *out) {
+void PrintTo(const RenderCase &test_case, std::ostream *out) {
     *out << test_case.name;
 }
 
-class BrokenRender : public testing::TestWithParam<Case> {};
+class BrokenRender : public testing::TestWithParam<RenderCase> {};
 
 TEST_P(BrokenRender, IsRefusedWithMessage) {
     pt_render render = valid_render();
@@ -48,25 +48,25 @@ TEST_P(BrokenRender, IsRefusedWithMessage) {
 
 INSTANTIATE_TEST_SUITE_P(
     Rules, BrokenRender,
-    testing::Values(Case{"NoWidth", [](pt_render &r) { r.width = 0; }, "render.width = 0: must be >= 1"},
-                    Case{"NoHeight", [](pt_render &r) { r.height = 0; }, "render.height = 0: must be >= 1"},
-                    Case{"NoPixels", [](pt_render &r) { r.width = r.height = 0; },
-                         "render.width = 0: must be >= 1\nrender.height = 0: must be >= 1"},
-                    Case{"TooManyPixels", [](pt_render &r) { r.width = r.height = 65536; },
-                         "render.width * height = 4294967296: must be <= 4294967295"},
-                    Case{"PixelsThatWrapAround", [](pt_render &r) { r.width = r.height = 4294967295U; },
-                         "render.width * height = 18446744065119617025: must be <= 4294967295"},
-                    Case{"PathsTooLong", [](pt_render &r) { r.max_path_length = 1025; },
-                         "render.max_path_length = 1025: must be <= 1024"},
-                    Case{"EstimatorUnknown", [](pt_render &r) { r.estimator = 6; },
-                         "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"},
-                    Case{"SamplerUnknown", [](pt_render &r) { r.sampler = 5; },
-                         "render.sampler = 5: must be a PT_SAMPLER_* of pt.h"},
-                    Case{"FirstRowBelowTheImage", [](pt_render &r) { r.first_row = 480; },
-                         "render.first_row = 480: must be < height"},
-                    Case{"RowsBelowTheImage", [](pt_render &r) { r.first_row = 479, r.row_count = 2; },
-                         "render.first_row + row_count = 481: must be <= height"},
-                    Case{"ReservedUsed", [](pt_render &r) { r.reserved = 1; }, "render.reserved = 1: must be 0"}),
+    testing::Values(RenderCase{"NoWidth", [](pt_render &r) { r.width = 0; }, "render.width = 0: must be >= 1"},
+                    RenderCase{"NoHeight", [](pt_render &r) { r.height = 0; }, "render.height = 0: must be >= 1"},
+                    RenderCase{"NoPixels", [](pt_render &r) { r.width = r.height = 0; },
+                               "render.width = 0: must be >= 1\nrender.height = 0: must be >= 1"},
+                    RenderCase{"TooManyPixels", [](pt_render &r) { r.width = r.height = 65536; },
+                               "render.width * height = 4294967296: must be <= 4294967295"},
+                    RenderCase{"PixelsThatWrapAround", [](pt_render &r) { r.width = r.height = 4294967295U; },
+                               "render.width * height = 18446744065119617025: must be <= 4294967295"},
+                    RenderCase{"PathsTooLong", [](pt_render &r) { r.max_path_length = 1025; },
+                               "render.max_path_length = 1025: must be <= 1024"},
+                    RenderCase{"EstimatorUnknown", [](pt_render &r) { r.estimator = 6; },
+                               "render.estimator = 6: must be a PT_ESTIMATOR_* of pt.h"},
+                    RenderCase{"SamplerUnknown", [](pt_render &r) { r.sampler = 5; },
+                               "render.sampler = 5: must be a PT_SAMPLER_* of pt.h"},
+                    RenderCase{"FirstRowBelowTheImage", [](pt_render &r) { r.first_row = 480; },
+                               "render.first_row = 480: must be < height"},
+                    RenderCase{"RowsBelowTheImage", [](pt_render &r) { r.first_row = 479, r.row_count = 2; },
+                               "render.first_row + row_count = 481: must be <= height"},
+                    RenderCase{"ReservedUsed", [](pt_render &r) { r.reserved = 1; }, "render.reserved = 1: must be 0"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(RenderSettings, HaveTheDefaultsOfTheHeader) {

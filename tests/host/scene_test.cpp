@@ -44,17 +44,17 @@ struct Draft {
     }
 };
 
-struct Case {
+struct SceneCase {
     const char *name;
     void (*spoil)(Draft &draft);
     const char *message;
 };
 
-void PrintTo(const Case &test_case, std::ostream *out) {
+void PrintTo(const SceneCase &test_case, std::ostream *out) {
     *out << test_case.name;
 }
 
-class BrokenScene : public testing::TestWithParam<Case> {};
+class BrokenScene : public testing::TestWithParam<SceneCase> {};
 
 TEST_P(BrokenScene, IsRefusedWithMessage) {
     Draft draft;
@@ -81,99 +81,102 @@ const std::string underflowing_offset = text("planes[1].offset = 1e-300", divide
 
 INSTANTIATE_TEST_SUITE_P(
     Materials, BrokenScene,
-    testing::Values(Case{"DiffuseNegative", [](Draft &d) { d.materials[1].diffuse[2] = -0.5F; },
-                         "materials[1].diffuse[2] = -0.5: must be >= 0"},
-                    Case{"DiffuseNan", [](Draft &d) { d.materials[0].diffuse[0] = nan_float; },
-                         "materials[0].diffuse[0] = nan: must be finite"},
-                    Case{"DiffuseLarge", [](Draft &d) { d.materials[0].diffuse[1] = 2e18F; },
-                         "materials[0].diffuse[1] = 2e+18: must be <= 1e18"},
-                    Case{"SpecularNegative", [](Draft &d) { d.materials[4].specular[0] = -1e-30F; },
-                         "materials[4].specular[0] = -1e-30: must be >= 0"},
-                    Case{"SpecularInfinite", [](Draft &d) { d.materials[2].specular[1] = infinity_float; },
-                         "materials[2].specular[1] = inf: must be finite"},
-                    Case{"SpecularLarge", [](Draft &d) { d.materials[2].specular[1] = 1e30F; },
-                         "materials[2].specular[1] = 1e+30: must be <= 1e18"},
-                    Case{"EmissionNegative", [](Draft &d) { d.materials[3].emission[0] = -0.1F; },
-                         "materials[3].emission[0] = -0.1: must be >= 0"},
-                    Case{"EmissionInfinite", [](Draft &d) { d.materials[3].emission[1] = -infinity_float; },
-                         "materials[3].emission[1] = -inf: must be finite"},
-                    Case{"EmissionLarge", [](Draft &d) { d.materials[3].emission[2] = 1.1e18F; },
-                         "materials[3].emission[2] = 1.1e+18: must be <= 1e18"},
-                    Case{"GlossinessNegative", [](Draft &d) { d.materials[0].glossiness = -1.0F; },
-                         "materials[0].glossiness = -1: must be >= 0"},
-                    Case{"GlossinessNan", [](Draft &d) { d.materials[0].glossiness = -nan_float; },
-                         "materials[0].glossiness = nan: must be finite"},
-                    Case{"GlossinessLarge", [](Draft &d) { d.materials[0].glossiness = 2e9F; },
-                         "materials[0].glossiness = 2e+09: must be <= 1e9"}),
+    testing::Values(SceneCase{"DiffuseNegative", [](Draft &d) { d.materials[1].diffuse[2] = -0.5F; },
+                              "materials[1].diffuse[2] = -0.5: must be >= 0"},
+                    SceneCase{"DiffuseNan", [](Draft &d) { d.materials[0].diffuse[0] = nan_float; },
+                              "materials[0].diffuse[0] = nan: must be finite"},
+                    SceneCase{"DiffuseLarge", [](Draft &d) { d.materials[0].diffuse[1] = 2e18F; },
+                              "materials[0].diffuse[1] = 2e+18: must be <= 1e18"},
+                    SceneCase{"SpecularNegative", [](Draft &d) { d.materials[4].specular[0] = -1e-30F; },
+                              "materials[4].specular[0] = -1e-30: must be >= 0"},
+                    SceneCase{"SpecularInfinite", [](Draft &d) { d.materials[2].specular[1] = infinity_float; },
+                              "materials[2].specular[1] = inf: must be finite"},
+                    SceneCase{"SpecularLarge", [](Draft &d) { d.materials[2].specular[1] = 1e30F; },
+                              "materials[2].specular[1] = 1e+30: must be <= 1e18"},
+                    SceneCase{"EmissionNegative", [](Draft &d) { d.materials[3].emission[0] = -0.1F; },
+                              "materials[3].emission[0] = -0.1: must be >= 0"},
+                    SceneCase{"EmissionInfinite", [](Draft &d) { d.materials[3].emission[1] = -infinity_float; },
+                              "materials[3].emission[1] = -inf: must be finite"},
+                    SceneCase{"EmissionLarge", [](Draft &d) { d.materials[3].emission[2] = 1.1e18F; },
+                              "materials[3].emission[2] = 1.1e+18: must be <= 1e18"},
+                    SceneCase{"GlossinessNegative", [](Draft &d) { d.materials[0].glossiness = -1.0F; },
+                              "materials[0].glossiness = -1: must be >= 0"},
+                    SceneCase{"GlossinessNan", [](Draft &d) { d.materials[0].glossiness = -nan_float; },
+                              "materials[0].glossiness = nan: must be finite"},
+                    SceneCase{"GlossinessLarge", [](Draft &d) { d.materials[0].glossiness = 2e9F; },
+                              "materials[0].glossiness = 2e+09: must be <= 1e9"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
     Spheres, BrokenScene,
     testing::Values(
-        Case{"CenterNan", [](Draft &d) { d.spheres[3].center[1] = nan; }, "spheres[3].center[1] = nan: must be finite"},
-        Case{"CenterSmall", [](Draft &d) { d.spheres[0].center[0] = 9e-19; }, small_center.c_str()},
-        Case{"CenterLarge", [](Draft &d) { d.spheres[0].center[2] = -1.1e18; }, large_center.c_str()},
-        Case{"RadiusNegative", [](Draft &d) { d.spheres[3].radius = -1; }, "spheres[3].radius = -1: must be > 0"},
-        Case{"RadiusZero", [](Draft &d) { d.spheres[0].radius = 0; }, "spheres[0].radius = 0: must be > 0"},
-        Case{"RadiusInfinite", [](Draft &d) { d.spheres[0].radius = infinity; },
-             "spheres[0].radius = inf: must be finite"},
-        Case{"RadiusSmall", [](Draft &d) { d.spheres[0].radius = 1e-19; },
-             "spheres[0].radius = 1e-19: must lie in [1e-18, 1e18]"},
-        Case{"RadiusLarge", [](Draft &d) { d.spheres[0].radius = 1e19; },
-             "spheres[0].radius = 1e+19: must lie in [1e-18, 1e18]"},
-        Case{"MotionInfinite", [](Draft &d) { d.spheres[2].motion[2] = -infinity; },
-             "spheres[2].motion[2] = -inf: must be finite"},
-        Case{"MotionSmall", [](Draft &d) { d.spheres[3].motion[0] = -1e-300; }, small_motion.c_str()},
-        Case{"MotionLarge", [](Draft &d) { d.spheres[3].motion[1] = 1e19; }, large_motion.c_str()},
-        Case{"MaterialMissing", [](Draft &d) { d.spheres[2].material = 7; },
-             "spheres[2].material = 7: must be < material_count (5)"},
-        Case{"MaterialOneTooFar", [](Draft &d) { d.spheres[2].material = 5; },
-             "spheres[2].material = 5: must be < material_count (5)"},
-        Case{"Reserved", [](Draft &d) { d.spheres[1].reserved = 3; }, "spheres[1].reserved = 3: must be 0"}),
+        SceneCase{"CenterNan", [](Draft &d) { d.spheres[3].center[1] = nan; },
+                  "spheres[3].center[1] = nan: must be finite"},
+        SceneCase{"CenterSmall", [](Draft &d) { d.spheres[0].center[0] = 9e-19; }, small_center.c_str()},
+        SceneCase{"CenterLarge", [](Draft &d) { d.spheres[0].center[2] = -1.1e18; }, large_center.c_str()},
+        SceneCase{"RadiusNegative", [](Draft &d) { d.spheres[3].radius = -1; }, "spheres[3].radius = -1: must be > 0"},
+        SceneCase{"RadiusZero", [](Draft &d) { d.spheres[0].radius = 0; }, "spheres[0].radius = 0: must be > 0"},
+        SceneCase{"RadiusInfinite", [](Draft &d) { d.spheres[0].radius = infinity; },
+                  "spheres[0].radius = inf: must be finite"},
+        SceneCase{"RadiusSmall", [](Draft &d) { d.spheres[0].radius = 1e-19; },
+                  "spheres[0].radius = 1e-19: must lie in [1e-18, 1e18]"},
+        SceneCase{"RadiusLarge", [](Draft &d) { d.spheres[0].radius = 1e19; },
+                  "spheres[0].radius = 1e+19: must lie in [1e-18, 1e18]"},
+        SceneCase{"MotionInfinite", [](Draft &d) { d.spheres[2].motion[2] = -infinity; },
+                  "spheres[2].motion[2] = -inf: must be finite"},
+        SceneCase{"MotionSmall", [](Draft &d) { d.spheres[3].motion[0] = -1e-300; }, small_motion.c_str()},
+        SceneCase{"MotionLarge", [](Draft &d) { d.spheres[3].motion[1] = 1e19; }, large_motion.c_str()},
+        SceneCase{"MaterialMissing", [](Draft &d) { d.spheres[2].material = 7; },
+                  "spheres[2].material = 7: must be < material_count (5)"},
+        SceneCase{"MaterialOneTooFar", [](Draft &d) { d.spheres[2].material = 5; },
+                  "spheres[2].material = 5: must be < material_count (5)"},
+        SceneCase{"Reserved", [](Draft &d) { d.spheres[1].reserved = 3; }, "spheres[1].reserved = 3: must be 0"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
     Planes, BrokenScene,
     testing::Values(
-        Case{"NormalZero", [](Draft &d) { d.planes[0].normal[1] = 0; },
-             "planes[0].normal = (0, 0, 0): must not be zero"},
-        Case{"NormalNan", [](Draft &d) { d.planes[1].normal[0] = nan; }, "planes[1].normal[0] = nan: must be finite"},
-        Case{"OffsetNan", [](Draft &d) { d.planes[1].offset = nan; }, "planes[1].offset = nan: must be finite"},
-        Case{"OffsetLarge", [](Draft &d) { d.planes[0].offset = 2e18; }, large_offset.c_str()},
-        Case{"OffsetSmallByLongNormal",
-             [](Draft &d) {
-                 d.planes[0] = {{0, 0, 20}, 1e-17, 0, 0};
-             },
-             small_offset.c_str()},
-        Case{"OffsetOverflowsByShortNormal",
-             [](Draft &d) {
-                 d.planes[1] = {{1e-300, 0, 0}, 1e300, 0, 0};
-             },
-             overflowing_offset.c_str()},
-        Case{"OffsetUnderflowsByLongNormal",
-             [](Draft &d) {
-                 d.planes[1] = {{0, 1e300, 0}, 1e-300, 0, 0};
-             },
-             underflowing_offset.c_str()},
-        Case{"MaterialMissing", [](Draft &d) { d.planes[1].material = 4294967295U; },
-             "planes[1].material = 4294967295: must be < material_count (5)"},
-        Case{"Reserved", [](Draft &d) { d.planes[1].reserved = 1; }, "planes[1].reserved = 1: must be 0"}),
+        SceneCase{"NormalZero", [](Draft &d) { d.planes[0].normal[1] = 0; },
+                  "planes[0].normal = (0, 0, 0): must not be zero"},
+        SceneCase{"NormalNan", [](Draft &d) { d.planes[1].normal[0] = nan; },
+                  "planes[1].normal[0] = nan: must be finite"},
+        SceneCase{"OffsetNan", [](Draft &d) { d.planes[1].offset = nan; }, "planes[1].offset = nan: must be finite"},
+        SceneCase{"OffsetLarge", [](Draft &d) { d.planes[0].offset = 2e18; }, large_offset.c_str()},
+        SceneCase{"OffsetSmallByLongNormal",
+                  [](Draft &d) {
+                      d.planes[0] = {{0, 0, 20}, 1e-17, 0, 0};
+                  },
+                  small_offset.c_str()},
+        SceneCase{"OffsetOverflowsByShortNormal",
+                  [](Draft &d) {
+                      d.planes[1] = {{1e-300, 0, 0}, 1e300, 0, 0};
+                  },
+                  overflowing_offset.c_str()},
+        SceneCase{"OffsetUnderflowsByLongNormal",
+                  [](Draft &d) {
+                      d.planes[1] = {{0, 1e300, 0}, 1e-300, 0, 0};
+                  },
+                  underflowing_offset.c_str()},
+        SceneCase{"MaterialMissing", [](Draft &d) { d.planes[1].material = 4294967295U; },
+                  "planes[1].material = 4294967295: must be < material_count (5)"},
+        SceneCase{"Reserved", [](Draft &d) { d.planes[1].reserved = 1; }, "planes[1].reserved = 1: must be 0"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(
     Arrays, BrokenScene,
-    testing::Values(Case{"NoSpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
-                         "scene.spheres = NULL: must not be NULL, as sphere_count is 4"},
-                    Case{"NoPlanes", [](Draft &d) { d.spoil = [](pt_scene &s) { s.planes = nullptr; }; },
-                         "scene.planes = NULL: must not be NULL, as plane_count is 2"},
-                    Case{"NoMaterials", [](Draft &d) { d.spoil = [](pt_scene &s) { s.materials = nullptr; }; },
-                         "scene.materials = NULL: must not be NULL, as material_count is 5"},
-                    Case{"TooManySurfaces", // that are not there: the arrays must not be read
-                         [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = (1U << 30) - 2; }; },
-                         "scene.sphere_count + plane_count = 1073741824: must be < 2^30"},
-                    Case{"CountsThatWrapAround",
-                         [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = s.plane_count = 1U << 31; }; },
-                         "scene.sphere_count + plane_count = 4294967296: must be < 2^30"}),
+    testing::Values(SceneCase{"NoSpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
+                              "scene.spheres = NULL: must not be NULL, as sphere_count is 4"},
+                    SceneCase{"NoPlanes", [](Draft &d) { d.spoil = [](pt_scene &s) { s.planes = nullptr; }; },
+                              "scene.planes = NULL: must not be NULL, as plane_count is 2"},
+                    SceneCase{"NoMaterials", [](Draft &d) { d.spoil = [](pt_scene &s) { s.materials = nullptr; }; },
+                              "scene.materials = NULL: must not be NULL, as material_count is 5"},
+                    SceneCase{"TooManySurfaces", // that are not there: the arrays must not be read
+                              [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = (1U << 30) - 2; }; },
+                              "scene.sphere_count + plane_count = 1073741824: must be < 2^30"},
+                    SceneCase{
+                        "CountsThatWrapAround",
+                        [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = s.plane_count = 1U << 31; }; },
+                        "scene.sphere_count + plane_count = 4294967296: must be < 2^30"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(Scene, TellsOfAllViolationsInOrder) {

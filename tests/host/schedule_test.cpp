@@ -108,7 +108,7 @@ pt::ScheduleLimits usual_limits() {
     return {0.05, 16384.0, 1024, 64};
 }
 
-struct Case {
+struct DeviceCase {
     const char *name;
     std::uint32_t pixel_count;
     std::uint32_t samples;
@@ -117,14 +117,14 @@ struct Case {
     double on_target;
 };
 
-void PrintTo(const Case &test_case, std::ostream *out) {
+void PrintTo(const DeviceCase &test_case, std::ostream *out) {
     *out << test_case.name;
 }
 
-class SimulatedDevice : public testing::TestWithParam<Case> {};
+class SimulatedDevice : public testing::TestWithParam<DeviceCase> {};
 
 TEST_P(SimulatedDevice, DoesAllWorkOnceWithinLimits) {
-    const Case &test_case = GetParam();
+    const DeviceCase &test_case = GetParam();
     const std::vector<Step> steps =
         simulate(test_case.pixel_count, test_case.samples, usual_limits(), test_case.device);
     EXPECT_EQ(fault(steps, test_case.pixel_count, test_case.samples, usual_limits()), "nothing");
@@ -144,7 +144,7 @@ double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits 
 }
 
 TEST_P(SimulatedDevice, ApproachesTheTarget) {
-    const Case &test_case = GetParam();
+    const DeviceCase &test_case = GetParam();
     const std::vector<Step> steps =
         simulate(test_case.pixel_count, test_case.samples, usual_limits(), test_case.device);
     ASSERT_GT(steps.size(), warm_up + 1) << "nothing to judge";
@@ -155,16 +155,16 @@ constexpr std::uint32_t full_hd = 1920 * 1080;
 
 INSTANTIATE_TEST_SUITE_P(
     Schedule, SimulatedDevice,
-    testing::Values(Case{"WholeSamples", 200 * 75, 20000, constant_device(1e8), 1.0},
-                    Case{"SplitPasses", full_hd, 20, constant_device(1e6), 1.0},
-                    Case{"RangesAndWholeSamplesByTurns", 50000, 300, constant_device(1.01e6), 1.0},
-                    Case{"FastGpu", full_hd, 5000, constant_device(3e9), 1.0},
+    testing::Values(DeviceCase{"WholeSamples", 200 * 75, 20000, constant_device(1e8), 1.0},
+                    DeviceCase{"SplitPasses", full_hd, 20, constant_device(1e6), 1.0},
+                    DeviceCase{"RangesAndWholeSamplesByTurns", 50000, 300, constant_device(1.01e6), 1.0},
+                    DeviceCase{"FastGpu", full_hd, 5000, constant_device(3e9), 1.0},
                     // Only the slice in which the speed falls is too long.
-                    Case{"SpeedFallsToATenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
-                    Case{"SpeedFallsFromWholeToSplit", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
+                    DeviceCase{"SpeedFallsToATenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
+                    DeviceCase{"SpeedFallsFromWholeToSplit", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
                     // The time of a slice is off by its own noise and by that of the slice that sized it: a factor of
                     // 2 is passed with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
-                    Case{"NoisyClock", 200 * 75, 200000, noisy_device(1e8), 0.95}),
+                    DeviceCase{"NoisyClock", 200 * 75, 200000, noisy_device(1e8), 0.95}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 // Not even a workgroup is done in the target time: then it is one workgroup.

@@ -11,13 +11,13 @@ namespace {
 using pt::Plane;
 using pt::Sphere;
 
-constexpr std::uint32_t dark = 0;
-constexpr std::uint32_t shining = 1;
+constexpr std::uint32_t plain = 0;
+constexpr std::uint32_t glowing = 1;
 
-const glm::dvec3 eye = {1, 2, 3};
+const glm::dvec3 viewpoint = {1, 2, 3};
 
 pt::Camera camera() {
-    return {eye, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+    return {viewpoint, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
 }
 
 pt::Scene scene_of(const std::vector<Sphere> &spheres, const std::vector<Plane> &planes) {
@@ -50,12 +50,12 @@ std::vector<std::uint32_t> distinct_planes(const std::vector<Plane> &planes) {
 
 // Places are as seen from the camera.
 Sphere ball(const glm::dvec3 &place, double radius, const glm::dvec3 &motion = {0, 0, 0}) {
-    return {eye + place, radius, motion, dark};
+    return {viewpoint + place, radius, motion, plain};
 }
 
 Plane plane(const glm::dvec3 &normal, double offset, std::uint32_t material) {
     const glm::dvec3 unit = glm::normalize(normal);
-    return {unit, offset - glm::dot(unit, eye), material};
+    return {unit, offset - glm::dot(unit, viewpoint), material};
 }
 
 using Radii = std::vector<double>;
@@ -150,8 +150,8 @@ bool close_lamps(const glm::dvec3 &shift, double radius, std::uint32_t first, st
 }
 
 TEST(CloseLamps, AreLessThanAQuarterOfTheirRadiiApart) {
-    EXPECT_FALSE(close_lamps({0, 0, 0}, 1, dark, dark));
-    for (const auto &[first, second] : {std::pair{shining, dark}, {dark, shining}, {shining, shining}}) {
+    EXPECT_FALSE(close_lamps({0, 0, 0}, 1, plain, plain));
+    for (const auto &[first, second] : {std::pair{glowing, plain}, {plain, glowing}, {glowing, glowing}}) {
         EXPECT_TRUE(close_lamps({0.2, 0, 0}, 1, first, second));
         EXPECT_TRUE(close_lamps({0, 0.1, 0}, 1.1, first, second));
         EXPECT_FALSE(close_lamps({0.26, 0, 0}, 1, first, second));

@@ -12,20 +12,20 @@
 
 namespace {
 
-constexpr uint32_t width = 64;
-constexpr uint32_t height = 32;
+constexpr uint32_t symmetry_width = 64;
+constexpr uint32_t symmetry_height = 32;
 constexpr uint32_t block_size = 4;
-constexpr std::size_t blocks = (width / block_size) * (height / block_size);
+constexpr std::size_t blocks = (symmetry_width / block_size) * (symmetry_height / block_size);
 constexpr uint32_t batch_count = 16;
 constexpr uint32_t batch_samples = 32;
 
 std::vector<std::size_t> pixels_of_block(std::size_t block) {
     std::vector<std::size_t> pixels;
-    const std::size_t left = block % (width / block_size) * block_size;
-    const std::size_t top = block / (width / block_size) * block_size;
+    const std::size_t left = block % (symmetry_width / block_size) * block_size;
+    const std::size_t top = block / (symmetry_width / block_size) * block_size;
     for (std::size_t y = top; y < top + block_size; ++y)
         for (std::size_t x = left; x < left + block_size; ++x)
-            pixels.push_back(y * width + x);
+            pixels.push_back(y * symmetry_width + x);
     return pixels;
 }
 
@@ -65,7 +65,7 @@ protected:
 
     Batches batches_of(const InvarianceScene &scene, uint64_t first_seed) {
         set_up(scene.scene(), scene.camera);
-        pt_render render = render_of(width, height, 3);
+        pt_render render = render_of(symmetry_width, symmetry_height, 3);
         render.seed = first_seed;
         return render_batches(render, batch_count, batch_samples);
     }
@@ -92,8 +92,8 @@ Batches unchanged(Batches batches) {
 
 Batches mirrored(Batches batches) {
     for (std::vector<double> &image : batches)
-        for (auto row = image.begin(); row != image.end(); row += width)
-            std::reverse(row, row + width);
+        for (auto row = image.begin(); row != image.end(); row += symmetry_width)
+            std::reverse(row, row + symmetry_width);
     return batches;
 }
 

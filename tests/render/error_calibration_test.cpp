@@ -18,8 +18,8 @@
 
 namespace {
 
-constexpr uint32_t width = 256;
-constexpr uint32_t height = 128;
+constexpr uint32_t calibration_width = 256;
+constexpr uint32_t calibration_height = 128;
 
 using Image = std::vector<float>;
 
@@ -48,7 +48,7 @@ struct Judgement {
 constexpr Judgement of_random{0.9, 1.2};
 constexpr Judgement of_sequence{0.8, 2.0};
 
-struct Case {
+struct CalibrationCase {
     const char *reference;
     bool diffuse;
     uint32_t max_path_length;
@@ -57,7 +57,7 @@ struct Case {
     uint32_t estimator = PT_ESTIMATOR_BEST;
 };
 
-std::string name_of(const Case &test_case) {
+std::string name_of(const CalibrationCase &test_case) {
     constexpr const char *samplers[] = {"", "Random", "Halton", "HaltonCp", "Sobol"};
     std::string name = test_case.reference;
     for (char &c : name)
@@ -66,7 +66,7 @@ std::string name_of(const Case &test_case) {
     return name + estimators[test_case.estimator] + samplers[test_case.sampler];
 }
 
-void PrintTo(const Case &test_case, std::ostream *out) {
+void PrintTo(const CalibrationCase &test_case, std::ostream *out) {
     *out << name_of(test_case);
 }
 
@@ -79,7 +79,7 @@ protected:
             coursework.make_diffuse();
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
-        pt_render render = render_of(width, height, max_path_length);
+        pt_render render = render_of(calibration_width, calibration_height, max_path_length);
         render.seed = 5;
         render.sampler = sampler;
         render.first_sample = first_sample;
@@ -90,16 +90,16 @@ protected:
     }
 
     Image image() {
-        Image image(width * height * 3);
+        Image image(calibration_width * calibration_height * 3);
         readback(image);
         return image;
     }
 };
 
-class StatedError : public ErrorCalibration, public testing::WithParamInterface<Case> {};
+class StatedError : public ErrorCalibration, public testing::WithParamInterface<CalibrationCase> {};
 
 TEST_P(StatedError, IsThatByTheReference) {
-    const Case &test_case = GetParam();
+    const CalibrationCase &test_case = GetParam();
     const Image reference = read_reference(test_case.reference).radiance;
     set_up(test_case.diffuse, test_case.max_path_length, test_case.sampler, 0, test_case.estimator);
     for (const uint32_t more : {16U, 48U}) {
@@ -116,15 +116,16 @@ TEST_P(StatedError, IsThatByTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Coursework, StatedError,
-                         testing::Values(Case{"coursework_L2", false, 2, PT_SAMPLER_RANDOM, of_random},
-                                         Case{"coursework_L2", false, 2, PT_SAMPLER_HALTON, of_sequence},
-                                         Case{"coursework_L2", false, 2, PT_SAMPLER_HALTON_CP, of_sequence},
-                                         Case{"coursework_L2", false, 2, PT_SAMPLER_SOBOL, of_sequence},
-                                         Case{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_random},
-                                         Case{"coursework_L6", false, 6, PT_SAMPLER_HALTON, of_sequence},
-                                         Case{"coursework_L6", false, 6, PT_SAMPLER_HALTON_CP, of_sequence},
-                                         Case{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_sequence},
-                                         Case{"coursework-diffuse_L6", true, 6, PT_SAMPLER_SOBOL, of_sequence}),
+                         testing::Values(CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_RANDOM, of_random},
+                                         CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_HALTON, of_sequence},
+                                         CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_HALTON_CP, of_sequence},
+                                         CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_SOBOL, of_sequence},
+                                         CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_random},
+                                         CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_HALTON, of_sequence},
+                                         CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_HALTON_CP, of_sequence},
+                                         CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_sequence},
+                                         CalibrationCase{"coursework-diffuse_L6", true, 6, PT_SAMPLER_SOBOL,
+                                                         of_sequence}),
                          [](const auto &instance) { return name_of(instance.param); });
 
 // Where lamps are found by chance, rare bright samples are most of the light, and most of the error. Their own mean is
@@ -134,11 +135,11 @@ constexpr Judgement of_rare{0.9, 2.5};
 
 INSTANTIATE_TEST_SUITE_P(
     RareLight, StatedError,
-    testing::Values(Case{"coursework_L2", false, 2, PT_SAMPLER_SOBOL, of_rare, PT_ESTIMATOR_BSDF},
-                    Case{"coursework_L2", false, 2, PT_SAMPLER_HALTON, of_rare, PT_ESTIMATOR_COSINE},
-                    Case{"coursework_L2", false, 2, PT_SAMPLER_RANDOM, of_rare, PT_ESTIMATOR_UNIFORM},
-                    Case{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_rare, PT_ESTIMATOR_BSDF},
-                    Case{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_rare, PT_ESTIMATOR_UNIFORM}),
+    testing::Values(CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_SOBOL, of_rare, PT_ESTIMATOR_BSDF},
+                    CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_HALTON, of_rare, PT_ESTIMATOR_COSINE},
+                    CalibrationCase{"coursework_L2", false, 2, PT_SAMPLER_RANDOM, of_rare, PT_ESTIMATOR_UNIFORM},
+                    CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_rare, PT_ESTIMATOR_BSDF},
+                    CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_rare, PT_ESTIMATOR_UNIFORM}),
     [](const auto &instance) { return name_of(instance.param); });
 
 // Films of other samples than the first: a range that begins later, or several with gaps, put together by pt_add_film.

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace accuracy {
+namespace accuracy::camera {
 
 namespace {
 
@@ -69,4 +69,4 @@ TEST(AccuracyCamera, OfDirections) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::camera

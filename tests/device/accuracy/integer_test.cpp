@@ -10,7 +10,7 @@
 #include <bit>
 #include <cmath>
 
-namespace accuracy {
+namespace accuracy::integer {
 
 namespace {
 
@@ -110,4 +110,4 @@ TEST(AccuracyIntegers, AreExact) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::integer

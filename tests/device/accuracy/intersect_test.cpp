@@ -10,7 +10,7 @@
 #include <iterator>
 #include <string>
 
-namespace accuracy {
+namespace accuracy::intersect {
 
 namespace {
 
@@ -229,4 +229,4 @@ TEST(AccuracyIntersect, WherePathsAreNeverInsideNoneMayBe) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::intersect

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace accuracy {
+namespace accuracy::lights {
 
 namespace {
 
@@ -197,4 +197,4 @@ TEST_F(AccuracyLights, OfLampSamples) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::lights

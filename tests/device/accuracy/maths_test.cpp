@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace accuracy {
+namespace accuracy::maths {
 
 namespace {
 
@@ -98,4 +98,4 @@ TEST(AccuracyMaths, ValuesBeyondTheEndAreAnError) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::maths

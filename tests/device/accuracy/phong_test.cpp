@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace accuracy {
+namespace accuracy::phong {
 
 namespace {
 
@@ -206,4 +206,4 @@ TEST(AccuracyPhong, OfReflection) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::phong

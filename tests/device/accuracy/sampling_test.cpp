@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace accuracy {
+namespace accuracy::sampling {
 
 namespace {
 
@@ -110,4 +110,4 @@ TEST_F(AccuracySampling, WeightsOfBothTechniquesSumToOne) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::sampling

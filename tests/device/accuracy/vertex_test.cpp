@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace accuracy {
+namespace accuracy::vertex {
 
 namespace {
 
@@ -122,4 +122,4 @@ TEST(AccuracyVertex, OfPoints) {
 
 } // namespace
 
-} // namespace accuracy
+} // namespace accuracy::vertex
