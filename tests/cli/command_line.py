@@ -119,6 +119,8 @@ class CommandLineTest(unittest.TestCase):
     def run_pt(self, *arguments, **environment):
         process = self.start(*arguments, **environment)
         self.output, self.errors = process.communicate(timeout=PATIENCE)
+        if "LeakSanitizer" in self.errors:
+            print(self.errors, file=sys.stderr)  # for repeat_leak_check.py
         return process.returncode
 
     def expect(self, code, *arguments, error=None, **environment):

@@ -163,7 +163,7 @@ class Steps:
         build = folder / "build"
         found = self.configure_subproject(build, "-DCMAKE_CXX_FLAGS=-O0", "-DPT_UNITY=ON")
         require(found == (set(), {"lib", "tests"}), f"with -O0, (optimised, not optimised) are {found}")
-        run(self.options.cmake, "--build", build, "-j2")
+        run(self.options.cmake, "--build", build, "-j1")  # another test has the second core
         for program in "enclosure_shared", "enclosure_static", "enclosure_cpp":
             check_enclosure(build / program)
         run(self.options.cmake, "--install", build, "--prefix", folder / "installed")
