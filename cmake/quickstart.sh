@@ -44,13 +44,24 @@ check() { # preset
     esac
 }
 
-# All run, whatever becomes of those before; the exit status is the worst of them.
+# All run, whatever becomes of those before; the exit status is the worst of them. Tidy, most of which is one process, runs
+# beside the others, in the time that they leave a core idle; what it says comes last.
 test_all() {
+    tidy_output=$(mktemp)
+    check tidy >"$tidy_output" 2>&1 &
+    tidy=$!
     worst=0
     report=
     for preset in release sanitize tidy; do
         status=0
-        check "$preset" || status=$?
+        case $preset in
+        tidy)
+            wait "$tidy" || status=$?
+            cat "$tidy_output"
+            rm "$tidy_output"
+            ;;
+        *) check "$preset" || status=$? ;;
+        esac
         [ "$status" -le "$worst" ] || worst=$status
         report="$report
 quickstart: $preset: $([ "$status" -eq 0 ] && echo passed || echo "FAILED with exit status $status")"
