@@ -44,8 +44,8 @@ check() { # preset
     esac
 }
 
-# All run, whatever becomes of those before; the exit status is the worst of them. Tidy, most of which is one process, runs
-# beside the others, in the time that they leave a core idle; what it says comes last.
+# All run, whatever becomes of those before; the exit status is the worst of them. Tidy, most of which is one process,
+# runs beside the others, in the time that they leave a core idle; what it says comes last.
 test_all() {
     tidy_output=$(mktemp)
     check tidy >"$tidy_output" 2>&1 &
