@@ -28,6 +28,7 @@ def main():
         renderer.set_render(8, 4)
         if raised_by(renderer, fail) != LookupError:
             sys.exit("what a callback raised was lost")
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell starts jobs in the background with it ignored
         if raised_by(renderer, lambda _: signal.raise_signal(signal.SIGINT)) != KeyboardInterrupt:
             sys.exit("an interrupt was lost")
         renderer.accumulate(3)
