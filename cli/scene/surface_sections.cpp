@@ -1,0 +1,62 @@
+#include "cli/scene/surface_sections.h"
+
+#include "cli/base/store.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace cli {
+
+using nlohmann::json;
+
+void SurfaceSections::material(const JsonPlace &place, const json &value) {
+    const JsonObject object(value, place, {"diffuse", "specular", "glossiness", "emission"});
+    pt_material material{};
+    if (const json *diffuse = object.find("diffuse")) {
+        store(read_colour(*diffuse, place.member("diffuse")), material.diffuse);
+    }
+    if (const json *specular = object.find("specular")) {
+        store(read_colour(*specular, place.member("specular")), material.specular);
+    }
+    if (const json *glossiness = object.find("glossiness")) {
+        material.glossiness = read_float(*glossiness, place.member("glossiness"));
+    }
+    if (const json *emission = object.find("emission")) {
+        store(read_colour(*emission, place.member("emission")), material.emission);
+    }
+    scene_.materials.push_back(material);
+    scene_.material_names.emplace_back(place.key);
+}
+
+void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
+    const JsonObject object(value, place, {"center", "radius", "material", "motion"});
+    pt_sphere sphere{};
+    store(read_vector(object.require("center"), place.member("center")), sphere.center);
+    sphere.radius = read_number(object.require("radius"), place.member("radius"));
+    sphere.material = references_.number(place.member("material"), object.require("material"));
+    if (const json *motion = object.find("motion")) {
+        store(read_vector(*motion, place.member("motion")), sphere.motion);
+    }
+    scene_.spheres.push_back(sphere);
+}
+
+void SurfaceSections::plane(const JsonPlace &place, const json &value) {
+    const JsonObject object(value, place, {"normal", "offset", "material"});
+    pt_plane plane{};
+    store(read_vector(object.require("normal"), place.member("normal")), plane.normal);
+    plane.offset = read_number(object.require("offset"), place.member("offset"));
+    plane.material = references_.number(place.member("material"), object.require("material"));
+    scene_.planes.push_back(plane);
+}
+
+void SurfaceSections::resolve_materials() {
+    const std::vector<std::uint32_t> indices = references_.indices(scene_.material_names);
+    for (pt_sphere &sphere : scene_.spheres) {
+        sphere.material = indices[sphere.material];
+    }
+    for (pt_plane &plane : scene_.planes) {
+        plane.material = indices[plane.material];
+    }
+}
+
+} // namespace cli
