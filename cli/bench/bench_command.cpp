@@ -85,12 +85,13 @@ std::uint64_t total_sample_count(const BenchReport &report) {
 
 // Measures all cells in every round, so that a machine that slows down or is disturbed does so to all alike, until a
 // signal comes. If the reference is empty, it is rendered first.
-void measure(const Context &context, const BenchOptions &options, std::vector<float> reference, BenchReport &report) {
+void measure(const Context &context, const SceneFile &file, const RenderSettings &settings, const BenchOptions &options,
+             std::vector<float> reference, BenchReport &report) {
     const std::uint64_t pixel_count = std::uint64_t{report.render.width} * report.render.height;
     const std::uint64_t total = total_sample_count(report);
     Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
                       pixel_count, total, Progress::Clock::now());
-    BenchRunner runner(context, report.render, progress, total);
+    BenchRunner runner(context, file, settings, progress, total);
     if (reference.empty()) {
         auto rendered = runner.render_reference(report.reference.sample_count, report.reference.noise.emplace());
         if (!rendered) {
@@ -150,7 +151,7 @@ int run_bench(const BenchOptions &options) {
     const Context context(info);
     context.require(pt_get_context_device(context.get(), &report.device));
     describe(context, file, settings);
-    measure(context, options, std::move(reference), report);
+    measure(context, file, settings, options, std::move(reference), report);
 
     const bool any =
         std::any_of(report.cells.begin(), report.cells.end(), [](const BenchCell &cell) { return !cell.runs.empty(); });

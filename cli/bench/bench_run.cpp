@@ -1,6 +1,7 @@
 #include "cli/bench/bench_run.h"
 
 #include "cli/base/interrupt.h"
+#include "cli/scene/scene_setup.h"
 
 #include <chrono>
 #include <ctime>
@@ -37,15 +38,16 @@ struct Share {
 
 } // namespace
 
-BenchRunner::BenchRunner(const Context &context, const pt_render &render, Progress &progress,
-                         std::uint64_t total_sample_count) :
+BenchRunner::BenchRunner(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                         Progress &progress, std::uint64_t total_sample_count) :
     context_(context),
-    render_(render),
+    file_(file),
+    settings_(settings),
     progress_(progress),
     total_sample_count_(static_cast<double>(total_sample_count)) {}
 
 void BenchRunner::set_render(const BenchCell &cell, std::uint64_t seed) {
-    pt_render render = render_;
+    pt_render render = settings_.render;
     render.sampler = cell.sampler;
     render.estimator = cell.estimator;
     render.seed = seed;
@@ -58,7 +60,7 @@ bool BenchRunner::warm_up() {
     info.struct_size = sizeof(pt_accumulate_info);
     info.sample_count = 1;
     info.progress = &Share::receive_silently;
-    context_.require(pt_accumulate(context_.get(), &info));
+    take(info);
     return interrupt_signal() == 0;
 }
 
@@ -69,23 +71,28 @@ bool BenchRunner::accumulate(std::uint32_t sample_count) {
     info.sample_count = sample_count;
     info.progress = &Share::receive;
     info.progress_user = &share;
-    const pt_result result = pt_accumulate(context_.get(), &info);
-    context_.require(result);
+    const pt_result result = take(info);
     done_sample_count_ += sample_count;
     return result != PT_CANCELLED;
 }
 
+pt_result BenchRunner::take(const pt_accumulate_info &info) const {
+    const pt_result result = pt_accumulate(context_.get(), &info);
+    require_render(context_, file_, settings_, result);
+    return result;
+}
+
 std::optional<std::vector<float>> BenchRunner::render_reference(std::uint32_t sample_count, ImageError &noise) {
     const std::uint32_t half = sample_count / 2;
-    set_render({PT_SAMPLER_BEST, PT_ESTIMATOR_BEST, sample_count, {}}, render_.seed);
+    set_render({PT_SAMPLER_BEST, PT_ESTIMATOR_BEST, sample_count, {}}, settings_.render.seed);
     if (!accumulate(half)) {
         return std::nullopt;
     }
-    const std::vector<float> first = context_.read_image(render_);
+    const std::vector<float> first = context_.read_image(settings_.render);
     if (!accumulate(sample_count - half)) {
         return std::nullopt;
     }
-    std::vector<float> whole = context_.read_image(render_);
+    std::vector<float> whole = context_.read_image(settings_.render);
     noise = noise_of_halves(first, half, whole, sample_count);
     return whole;
 }
@@ -104,7 +111,7 @@ std::optional<BenchRun> BenchRunner::measure(const BenchCell &cell, std::uint64_
     BenchRun run{};
     run.seconds = stopwatch.seconds();
     run.processor_seconds = stopwatch.processor_seconds();
-    run.error = image_error(context_.read_image(render_), reference);
+    run.error = image_error(context_.read_image(settings_.render), reference);
     return run;
 }
 

@@ -45,7 +45,7 @@ pt_result take(const Context &context, const SceneFile &file, const RenderSettin
     info.progress = &Step::receive;
     info.progress_user = &step;
     const pt_result result = pt_accumulate(context.get(), &info);
-    require_samples(context, file, settings, result);
+    require_render(context, file, settings, result);
     return result;
 }
 

@@ -47,9 +47,6 @@ bool RenderSettings::is_size_from_scene() const {
 }
 
 Failure RenderSettings::explain(const LibraryError &error, const SceneFile &scene) const {
-    if (error.rules.empty()) {
-        return {ExitCode::scene, scene.explain(error)};
-    }
     ExitCode code = ExitCode::scene;
     const std::string explained = error.in_words([&](const BrokenRule &rule) {
         const bool from_scene = is_from_scene(rule);

@@ -25,8 +25,8 @@ struct RenderSettings {
     std::optional<double> gamma;
     std::vector<std::string_view> scene_members; // of pt_render and pt_accumulate_info: what the scene file gave
 
-    // What the library refuses, in the words of whoever gave the value: the command line (ExitCode::usage) or the scene
-    // file (ExitCode::scene).
+    // The rules that are broken, of which there must be some, in the words of whoever gave the value: the command line
+    // (ExitCode::usage) or the scene file (ExitCode::scene).
     Failure explain(const LibraryError &error, const SceneFile &scene) const;
 
     // Whether the scene file says how large the image is, or a side of it.

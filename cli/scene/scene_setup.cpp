@@ -5,27 +5,20 @@
 namespace cli {
 namespace {
 
-// What the library refuses here came from the scene file.
+// A rule that is broken here is the scene file's.
 void require_scene(const Context &context, const SceneFile &file, pt_result result) {
     if (result < 0) {
-        const ExitCode code = result == PT_ERROR_INVALID_ARGUMENT ? ExitCode::scene : exit_code_of(result);
-        throw Failure(code, file.explain(context.last_error()));
+        const LibraryError error = context.last_error();
+        throw Failure(error.rules.empty() ? exit_code_of(result) : ExitCode::scene, file.explain(error));
     }
 }
 
 } // namespace
 
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
-    if (result == PT_ERROR_INVALID_ARGUMENT || result == PT_ERROR_UNSUPPORTED) {
-        throw settings.explain(context.last_error(), file);
-    }
-    context.require(result);
-}
-
-void require_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
     const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
     if (!error.rules.empty()) {
-        throw Failure(exit_code_of(result), settings.explain(error, file).what());
+        throw settings.explain(error, file);
     }
     context.require(result);
 }

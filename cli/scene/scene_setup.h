@@ -7,10 +7,12 @@
 
 namespace cli {
 
-// All throw Failure. A rule that the scene file breaks is explained by its keys and lines.
+// All throw Failure. A rule that the scene file breaks is explained by its keys and lines, and is its fault
+// (ExitCode::scene), also where the library finds it only when it is to take samples.
 void describe_scene(const Context &context, const SceneFile &file); // and camera
+
+// Of pt_set_render and pt_accumulate.
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
-void require_samples(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result);
 
 // Scene, camera and render settings.
 void describe(const Context &context, const SceneFile &file, const RenderSettings &settings);

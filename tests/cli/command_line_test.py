@@ -138,14 +138,13 @@ class SceneErrors(CommandLineTest):
     def test_what_no_sample_can_be_taken_of_leads_back_too(self):
         fault = {"FAKE_PT_FAIL": f"accumulate:{RESULT['UNSUPPORTED']}"}
         length = {"FAKE_PT_RULE": "render,-1,max_path_length,-1,,6,too long", **fault}
-        self.expect(4, "render", COURSEWORK, "-o", "a.png", **fault,
-                    FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
-                    error=COURSEWORK + ":15: spheres[0].motion = (1; 2; 3): too far")
-        self.expect(4, "render", COURSEWORK, "-o", "a.png", **length,
-                    error=COURSEWORK + ":4: render.max_path_length = 6: too long")
-        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--max-path-length", "6", **length,
-                    error="pt: --max-path-length = 6: too long")
-        self.expect(4, "bench", COURSEWORK, **length, error="pt: --max-path-length = 6: too long")
+        for command in (("render", COURSEWORK, "-o", "a.png"), ("bench", COURSEWORK)):
+            self.expect(3, *command, **fault, FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
+                        error=COURSEWORK + ":15: spheres[0].motion = (1; 2; 3): too far")
+            self.expect(3, *command, **length, error=COURSEWORK + ":4: render.max_path_length = 6: too long")
+            self.expect(2, *command, "--max-path-length", "6", **length, error="pt: --max-path-length = 6: too long")
+            self.expect(4, *command, **fault, FAKE_PT_MESSAGE="more than this device can bind",
+                        error="pt: more than this device can bind")
         self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7", FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}",
                     FAKE_PT_RULE="create,-1,device,-1,,7,too large", error="pt: --device = 7: too large")
 
@@ -154,7 +153,8 @@ class DeviceErrors(CommandLineTest):
     def test_exit_codes_of_results(self):
         for function, result, code in (("create", "NO_DEVICE", 4), ("create", "UNSUPPORTED", 4),
                                        ("create", "INVALID_ARGUMENT", 2), ("create", "OUT_OF_HOST_MEMORY", 1),
-                                       ("set_scene", "UNSUPPORTED", 4), ("set_render", "OUT_OF_DEVICE_MEMORY", 4),
+                                       ("set_scene", "UNSUPPORTED", 4), ("set_camera", "DEVICE_LOST", 5),
+                                       ("set_render", "OUT_OF_DEVICE_MEMORY", 4), ("set_render", "UNSUPPORTED", 4),
                                        ("accumulate", "SHADER", 4), ("accumulate", "DEVICE_LOST", 5),
                                        ("accumulate", "INVALID_ARGUMENT", 2), ("accumulate", "INCOMPATIBLE", 2),
                                        ("accumulate", "INTERNAL", 1), ("readback", "DEVICE_LOST", 5),
@@ -342,6 +342,15 @@ class RealDevice(CommandLineTest):
         self.assertIn("pt: s.json:1: materials.gold.glossiness = -1: must be >= 0\n", self.errors)
         self.write("s.json", '{"camera": {"position": [1, 1, 1], "look_at": [1, 1, 1]}}')
         self.expect(3, "render", "s.json", "-o", "a.png", error="s.json:1: camera.look_at")
+        self.assertEqual(self.files(), ["s.json"])
+
+    def test_a_sphere_that_moves_too_far(self):
+        self.write("s.json", '{"camera": {"position": [0, 0, 0], "look_at": [0, 1, 0], "up": [1, 0, 0]},\n'
+                             ' "materials": {"floor": {}},\n "spheres": [\n'
+                             '{"center": [0, -1e7, 0], "radius": 1e7, "motion": [4e5, 0, 0], "material": "floor"}]}')
+        for command in (("render", "s.json", "-o", "a.png"), ("bench", "s.json", "--rounds", "1")):
+            self.expect(3, *command, "--size", "2x2", "--spp", "1",
+                        error="pt: s.json:4: spheres[0].motion = (400000, 0, 0): a sphere whose surface")
         self.assertEqual(self.files(), ["s.json"])
 
     def test_an_empty_scene_is_black(self):

@@ -133,7 +133,6 @@ TEST(RenderSettings, WhatTheLibraryRefusesIsNamedAsItWasGiven) {
     EXPECT_EQ(explained(size_only, {size, length}, scene),
               std::pair(ExitCode::usage, std::string("--size: width = 0: must be >= 1\n"
                                                      "s.json: render.max_path_length = 2000: must be <= 1024")));
-    EXPECT_EQ(explained({}, {}, scene), std::pair(ExitCode::scene, std::string("s.json: a message")));
     // Neither gave it.
     EXPECT_EQ(explained({}, {{"render", none, "width", none, "* rows", "512 * 1", "too many"}}, {}),
               std::pair(ExitCode::usage, std::string("--size: width * rows = 512 * 1: too many")));
