@@ -43,12 +43,12 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
     }
 }
 
-LoopEnd render_piece(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
-                     Progress &progress) {
+void render_piece(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
+                  Progress &progress) {
     ProgressObserver progress_observer(progress, settings.target_error, settings.sample_count);
     StopObserver stop_observer(stop);
     const std::array<RenderObserver *, 2> observers{&progress_observer, &stop_observer};
-    return run_render_loop(context, file, settings, observers);
+    run_render_loop(context, file, settings, observers);
 }
 
 } // namespace
@@ -75,7 +75,7 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
     PiecewiseImage image{};
     image.radiance.resize(row_values * render.height);
     image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
-    while (image.rows_done < render.height) {
+    while (image.rows_done < render.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
         const pt_render piece = piece_of(render, first_row, rows);
         if (first_row > 0) {
@@ -83,7 +83,7 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
         }
         const double height = render.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        const LoopEnd end = render_piece(context, file, settings, stop, progress);
+        render_piece(context, file, settings, stop, progress);
 
         const pt_stats stats = context.read_stats();
         if (stats.sample_count == 0) {
@@ -95,9 +95,6 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
             context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
         }
         image.rows_done += piece.row_count;
-        if (end == LoopEnd::stopped) {
-            break;
-        }
     }
     if (image.rows_done == 0) {
         image.stats = context.read_stats();

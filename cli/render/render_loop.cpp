@@ -64,14 +64,11 @@ std::uint32_t tell(const Context &context, Observers observers, bool target_reac
 
 } // namespace
 
-LoopEnd run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                        Observers observers) {
+void run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                     Observers observers) {
     Step step{observers, 0, 0};
     std::uint32_t wanted = first_step_length;
-    while (step.before < settings.sample_count) {
-        if (any_stops(observers)) {
-            return LoopEnd::stopped;
-        }
+    while (step.before < settings.sample_count && !any_stops(observers)) {
         step.length = std::min(wanted, settings.sample_count - step.before);
         for (const RenderObserver *observer : observers) {
             step.length = std::min(step.length, observer->next_end(step.before) - step.before);
@@ -81,10 +78,9 @@ LoopEnd run_render_loop(const Context &context, const SceneFile &file, const Ren
         wanted = next_step_length(step.length, std::chrono::duration<double>(Clock::now() - start).count());
         step.before = tell(context, observers, result == PT_TARGET_REACHED);
         if (result == PT_TARGET_REACHED) {
-            return LoopEnd::target_reached;
+            return;
         }
     }
-    return any_stops(observers) ? LoopEnd::stopped : LoopEnd::enough;
 }
 
 } // namespace cli

@@ -11,15 +11,9 @@
 
 namespace cli {
 
-enum class LoopEnd {
-    enough,         // samples
-    target_reached, // the target error is
-    stopped         // by an observer
-};
-
-// From no samples on. The target error is looked at by the library, at counts that do not depend on the steps. Throws
-// Failure.
-LoopEnd run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                        std::span<RenderObserver *const> observers);
+// From no samples on, until there are enough, the target error is reached or an observer stops it. The target error is
+// looked at by the library, at counts that do not depend on the steps. Throws Failure.
+void run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
+                     std::span<RenderObserver *const> observers);
 
 } // namespace cli
