@@ -6,6 +6,7 @@
 #include "lib/api/struct_size.h"
 #include "lib/base/rules.h"
 #include "lib/film/error_estimate.h"
+#include "lib/film/film_bytes.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/render/renderer.h"
 
@@ -210,13 +211,14 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
 pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes) {
     return pt::guard_context(context, [&](const pt::Renderer &renderer) {
         pt::require_not_null(size_bytes, "size_bytes");
-        const std::uint64_t needed = renderer.film_size_bytes();
+        const pt::FilmHeader header = renderer.film_header();
+        const std::uint64_t needed = pt::FilmLayout(header).size_bytes();
         if (data) {
             pt::Violations violations;
             const pt::Subject film(violations, "film");
             film.require(*size_bytes >= needed, "size_bytes", *size_bytes, "must be >= " + std::to_string(needed));
             violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-            renderer.save_film({static_cast<std::byte *>(data), needed});
+            renderer.save_film(header, {static_cast<std::byte *>(data), needed});
         }
         *size_bytes = needed;
     });

@@ -28,6 +28,11 @@ void Digest::add(std::uint64_t value) {
     XXH3_128bits_update(&state_->hash, &value, sizeof value);
 }
 
+void Digest::add(const glm::dvec3 &vector) {
+    for (int i = 0; i < 3; ++i)
+        add(vector[i]);
+}
+
 void Digest::add(std::span<const std::uint32_t> words) {
     add(std::uint64_t{words.size()});
     XXH3_128bits_update(&state_->hash, words.data(), words.size_bytes());

@@ -1,6 +1,8 @@
 // Digests of numbers and bytes by XXH3, which tell changes, not forgeries. Used for films.
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +21,7 @@ public:
 
     void add(double value);
     void add(std::uint64_t value);
+    void add(const glm::dvec3 &vector);
     void add(std::span<const std::uint32_t> words);
 
     // 128 bits as 32 hexadecimal digits.

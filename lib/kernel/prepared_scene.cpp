@@ -1,6 +1,7 @@
 // Finds what does not depend on the camera; see prepared_scene.h.
 #include "lib/kernel/prepared_scene.h"
 
+#include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 
 #include <algorithm>
@@ -45,6 +46,12 @@ PreparedScene::PreparedScene(Scene of) : scene(std::move(of)), sphere_order(orde
     film_unit = pt::film_unit(used_materials);
     gloss = std::ranges::any_of(used_materials, is_glossy);
     moves = std::ranges::any_of(scene.spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); });
+}
+
+const std::string &PreparedScene::digest() const {
+    if (digest_.empty())
+        digest_ = digest_of(scene);
+    return digest_;
 }
 
 } // namespace pt

@@ -4,6 +4,7 @@
 #include "lib/scene/scene.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pt {
@@ -21,6 +22,12 @@ struct PreparedScene {
     std::vector<std::uint32_t> sphere_order; // along the line of twins.h
 
     explicit PreparedScene(Scene of);
+
+    // Of the scene (scene_digest.h). Computed when it is first asked for, and kept: most scenes are never in a film.
+    const std::string &digest() const;
+
+private:
+    mutable std::string digest_; // empty: not yet
 };
 
 } // namespace pt

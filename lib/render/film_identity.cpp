@@ -13,40 +13,10 @@ namespace pt {
 
 namespace {
 
-template <typename Vector>
-void add_vector(Digest &digest, const Vector &vector) {
-    for (int i = 0; i < Vector::length(); ++i)
-        digest.add(static_cast<double>(vector[i]));
-}
-
-std::string digest_of(const Scene &scene) {
-    Digest digest;
-    for (const std::size_t count : {scene.materials.size(), scene.spheres.size(), scene.planes.size()})
-        digest.add(std::uint64_t{count});
-    for (const Material &material : scene.materials) {
-        add_vector(digest, material.diffuse);
-        add_vector(digest, material.specular);
-        add_vector(digest, material.emission);
-        digest.add(static_cast<double>(material.glossiness));
-    }
-    for (const Sphere &sphere : scene.spheres) {
-        add_vector(digest, sphere.center);
-        digest.add(sphere.radius);
-        add_vector(digest, sphere.motion);
-        digest.add(std::uint64_t{sphere.material});
-    }
-    for (const Plane &plane : scene.planes) {
-        add_vector(digest, plane.normal);
-        digest.add(plane.offset);
-        digest.add(std::uint64_t{plane.material});
-    }
-    return digest.text();
-}
-
 std::string digest_of(const Camera &camera) {
     Digest digest;
     for (const glm::dvec3 &vector : {camera.position, camera.right, camera.up, camera.forward})
-        add_vector(digest, vector);
+        digest.add(vector);
     for (const double number : {camera.tan_half_fov, camera.shutter_open, camera.shutter_close})
         digest.add(number);
     return digest.text();
@@ -81,7 +51,7 @@ std::string text_of(const std::vector<pt_device_info> &devices) {
 
 FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                          const KernelCode &code, const std::vector<pt_device_info> &devices) {
-    return {{"scene", digest_of(scene.scene)},
+    return {{"scene", scene.digest()},
             {"camera", digest_of(camera)},
             {"width", std::to_string(settings.width)},
             {"height", std::to_string(settings.height)},

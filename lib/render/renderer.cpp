@@ -331,12 +331,8 @@ FilmHeader Renderer::film_header() const {
     return {identity(), {{pixels(), samples_}}};
 }
 
-std::uint64_t Renderer::film_size_bytes() const {
-    return FilmLayout(film_header()).size_bytes();
-}
-
-void Renderer::save_film(std::span<std::byte> bytes) const {
-    save(films(), film_header(), bytes);
+void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {
+    save(films(), header, bytes);
 }
 
 // A pass under way, of which no sample is counted yet, ends where the film brings its sample.

@@ -78,8 +78,9 @@ public:
 
     void readback(const Image &image);
 
-    std::uint64_t film_size_bytes() const;
-    void save_film(std::span<std::byte> bytes) const; // of that size
+    // Of the film of the samples so far.
+    FilmHeader film_header() const;
+    void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
     void add_film(std::span<const std::byte> bytes);
 
     // Without the error its fields say that nothing is known.
@@ -111,7 +112,6 @@ private:
     std::vector<DeviceFilm *> films() const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
-    FilmHeader film_header() const;
     bool may_miss_lamps() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);

@@ -1,0 +1,55 @@
+// What a prepared scene keeps of its scene's digest.
+#include "lib/kernel/prepared_scene.h"
+
+#include "lib/scene/scene_digest.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace {
+
+pt::Scene small_scene() {
+    return {{{glm::vec3(0.5F), glm::vec3(0.25F), glm::vec3(0), 40.0F}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}},
+            {{{0, 1, -5}, 1, {0, 0.5, 0}, 0}, {{0, 9, -5}, 2, {0, 0, 0}, 1}},
+            {{{0, 1, 0}, 0.25, 0}}};
+}
+
+// A scene that changes behind its back shows when the digest is computed.
+TEST(PreparedScene, ComputesTheDigestOnceWhereItIsAskedFor) {
+    pt::PreparedScene prepared(small_scene());
+    prepared.scene.spheres[0].radius = 2.0;
+    const std::string digest = pt::digest_of(prepared.scene);
+    ASSERT_NE(digest, pt::digest_of(small_scene()));
+    EXPECT_EQ(prepared.digest(), digest);
+    prepared.scene = small_scene();
+    EXPECT_EQ(prepared.digest(), digest);
+    EXPECT_EQ(pt::PreparedScene(std::move(prepared)).digest(), digest);
+}
+
+TEST(SceneDigest, DependsOnEveryNumber) {
+    const std::string digest = pt::digest_of(small_scene());
+    EXPECT_EQ(digest, pt::digest_of(small_scene()));
+    const std::function<void(pt::Scene &)> changes[] = {
+        [](pt::Scene &scene) { scene.materials[0].diffuse.r = 0.75F; },
+        [](pt::Scene &scene) { scene.materials[0].specular.g = 0.75F; },
+        [](pt::Scene &scene) { scene.materials[1].emission.b = 0.75F; },
+        [](pt::Scene &scene) { scene.materials[1].glossiness = 1.0F; },
+        [](pt::Scene &scene) { scene.materials.push_back({}); },
+        [](pt::Scene &scene) { scene.spheres[0].center.z = -6; },
+        [](pt::Scene &scene) { scene.spheres[0].motion.x = 1; },
+        [](pt::Scene &scene) { scene.spheres[1].radius = 3; },
+        [](pt::Scene &scene) { scene.spheres[1].material = 0; },
+        [](pt::Scene &scene) { scene.spheres.pop_back(); },
+        [](pt::Scene &scene) { scene.planes[0].normal.y = -1; },
+        [](pt::Scene &scene) { scene.planes[0].offset = 0; },
+        [](pt::Scene &scene) { scene.planes[0].material = 1; },
+    };
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
+        pt::Scene changed = small_scene();
+        changes[i](changed);
+        EXPECT_NE(pt::digest_of(changed), digest) << "change " << i;
+    }
+}
+
+} // namespace
