@@ -92,14 +92,13 @@ void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums 
         sums.fold_into(parts_.split() < split ? older_part : newer_part);
 }
 
-// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
     const std::uint64_t bytes = film.pixel_count() * PixelSums::words_per_pixel * sizeof(std::uint32_t);
-    const std::uint64_t memory_bytes = device.info().memory_bytes;
-    if (bytes + device.allocated_bytes() > memory_bytes)
-        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY, "a sum of films takes " + std::to_string(bytes) +
-                                                       " bytes beside the " + std::to_string(device.allocated_bytes()) +
-                                                       " in use, and the device has " + std::to_string(memory_bytes));
+    const std::uint64_t in_use = device.allocated_bytes();
+    if (!device.has_memory(in_use + bytes))
+        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY,
+                    "a sum of films takes " + std::to_string(bytes) + " bytes beside the " + std::to_string(in_use) +
+                        " in use, and the device has " + std::to_string(device.info().memory_bytes));
     for (const Strip &strip : film.strips_)
         words_.emplace_back(device, vulkan::BufferUse::Storage, strip.words.size(), "sum of films");
 }

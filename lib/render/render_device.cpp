@@ -36,18 +36,17 @@ RenderDevice::~RenderDevice() {
         device_.abandon();
 }
 
-// Drivers may promise memory that they do not have and fail when it is touched, so the size is checked beforehand.
+// A film that it replaces does not count: that is freed before this one is touched.
 DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
     const std::uint64_t bytes = std::uint64_t{settings.width} * settings.row_count * DeviceFilm::bytes_per_pixel;
-    const std::uint64_t memory_bytes = device_.info().memory_bytes;
-    if (bytes > memory_bytes)
+    if (!device_.has_memory(bytes))
         throw Error(PT_ERROR_UNSUPPORTED,
                     BrokenRule{.subject = "render",
                                .member = "width",
                                .with = "* rows",
                                .value = std::to_string(settings.width) + " * " + std::to_string(settings.row_count),
                                .rule = "the film takes " + std::to_string(bytes) + " bytes, and the device has " +
-                                       std::to_string(memory_bytes) +
+                                       std::to_string(device_.info().memory_bytes) +
                                        ": render fewer rows at a time (render.first_row, render.row_count)"});
     return {device_, settings.width, settings.row_count, max_strip_pixels(device_.limits())};
 }

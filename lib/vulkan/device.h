@@ -51,6 +51,11 @@ public:
     const Limits &limits() const { return limits_; }
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
+
+    // Whether so many bytes, those in use among them, are no more than it has. Drivers may promise memory that they do
+    // not have and fail when it is touched, so this is asked before much is allocated.
+    bool has_memory(std::uint64_t bytes) const { return bytes <= info_.memory_bytes; }
+
     bool lost() const { return lost_; }
 
     // Whether submissions that were given up are still under way, or were when the device was abandoned. What they use
