@@ -6,6 +6,7 @@
 #include "tests/faults/kept_objects.h"
 #include "tests/faults/vulkan_functions.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -55,6 +56,7 @@ std::size_t failing_number = 0;
 std::size_t failing_error = 0;
 CallFault fault;
 bool posing = false;
+std::uint64_t largest_heap = UINT64_MAX;
 std::set<const void *> lost;                       // devices and queues
 std::set<VkFence> hanging;                         // fences that are not seen to be signalled
 std::map<VkQueue, VkDevice> devices_of_queues;     // by their queues
@@ -153,6 +155,9 @@ void note_effect(const std::tuple<A...> &arguments) {
     if constexpr (call == Call::GetPhysicalDeviceProperties2)
         if (posing)
             std::get<1>(arguments)->properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    if constexpr (call == Call::GetPhysicalDeviceMemoryProperties)
+        for (VkMemoryHeap &heap : std::get<1>(arguments)->memoryHeaps)
+            heap.size = std::min<VkDeviceSize>(heap.size, largest_heap);
 }
 
 // Makes a call, as far as it is not for what is kept.
@@ -284,6 +289,10 @@ void heal_devices() {
 
 void pose_as_gpu(bool pose) {
     posing = pose;
+}
+
+void limit_memory(std::uint64_t bytes) {
+    largest_heap = bytes;
 }
 
 std::map<std::string, long> live_objects() {

@@ -5,6 +5,7 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -32,6 +33,9 @@ void heal_devices();
 // Devices say that they are discrete GPUs, which the library uses in other ways: with staging buffers, two
 // submissions at a time, and an end to its patience.
 void pose_as_gpu(bool pose);
+
+// Devices say that each of their heaps has no more than so many bytes.
+void limit_memory(std::uint64_t bytes);
 
 // Vulkan objects by the name of what made them. Descriptor sets and command buffers go with their
 // pools, and are not counted.
