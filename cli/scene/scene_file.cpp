@@ -73,12 +73,12 @@ SceneFile parse_scene(std::string_view text, const std::string &path) {
     scene.path = path;
     scene.text_hash = hash_of(text);
     SceneReader reader(scene);
-    const std::string_view json = require_text(text, path);
+    const std::string_view checked = require_text(text, path);
     try {
-        parse_json_sections(json, path, reader);
+        parse_json_sections(checked, path, reader);
         reader.finish();
     } catch (const JsonRefusal &refusal) {
-        const auto line = find_line(json, refusal.path, refusal.occurrence);
+        const auto line = find_line(checked, refusal.path, refusal.occurrence);
         throw Failure(ExitCode::scene, place_text(path, line, path_text(refusal.path)) + ": " + refusal.what());
     }
     return scene;
