@@ -21,12 +21,16 @@ import json
 import os
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
 from table import print_table
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests/support"))
+from scene_file import read_scene  # noqa: E402
+
 SCENES = ("coursework", "coursework-diffuse", "coursework-motion", "many-lamps")
 PATH_LENGTHS = (2, 6)
 FEW = 16  # samples of the shorter run, and of the run to a PNG
@@ -48,14 +52,9 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def read_scene(name):
-    with open(os.path.join(ROOT, "cli/scenes", name + ".json"), encoding="utf-8") as file:
-        return json.load(file)
-
-
 def variants():
     """What the coursework scene may lack: name -> scene."""
-    full = read_scene("coursework")
+    full = read_scene(os.path.join(ROOT, "cli/scenes/coursework.json"))
     no_gloss, one_lamp, half = (copy.deepcopy(full) for _ in range(3))
     for material in no_gloss["materials"].values():
         material.pop("specular", None)

@@ -5,20 +5,18 @@ largest over six seeds of stated / true error, where the truth is an image of 32
 """
 
 import ctypes
-import json
 import math
 import pathlib
-import re
 import statistics
 import sys
 from ctypes import POINTER, byref, c_double, c_uint32, c_uint64, c_void_p
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "lib/examples"))
-import smallest  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scene_file import FOLDER, read_scene  # noqa: E402
+from scene_renderer import SAMPLERS, SceneRenderer, smallest  # noqa: E402
 
 WIDTH, HEIGHT = 96, 48
-RANDOM, SOBOL = 1, 4
+RANDOM, SOBOL = SAMPLERS["random"], SAMPLERS["sobol"]
 ROWS = [[(0, 100)], [(100, 100)], [(0, 500)], [(1000, 500)], [(1016, 484)], [(1023, 477)], [(0, 256)], [(4096, 256)],
         [(4088, 264)], [(0, 128)], [(0, 64), (512, 64)], [(0, 64), (700, 64)], [(0, 64), (2**20, 64)], [(0, 192)],
         [(0, 64), (512, 64), (1024, 64)]]
@@ -32,34 +30,15 @@ class Stats(smallest.Sized):
                 ("relative_rmse_high", c_double)]
 
 
-class Renderer(smallest.Renderer):
+class Renderer(SceneRenderer):
     """Of the coursework scene."""
 
     def __init__(self, max_path_length):
-        super().__init__()
+        super().__init__(read_scene(FOLDER / "coursework.json"))
         self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
         self.library.pt_save_film.argtypes = [c_void_p, c_void_p, POINTER(c_uint64)]
         self.library.pt_add_film.argtypes = [c_void_p, c_void_p, c_uint64]
         self.max_path_length = max_path_length
-        text = (ROOT / "cli/scenes/coursework.json").read_text()
-        scene = json.loads(re.sub(r"^\s*//.*$", "", text, flags=re.MULTILINE))
-        names = list(scene["materials"])
-
-        def colour(value):
-            return (ctypes.c_float * 3)(*(value if isinstance(value, list) else [value] * 3))
-
-        self.set_scene(
-            [smallest.pt_material(colour(m.get("diffuse", 0)), colour(m.get("specular", 0)),
-                                  colour(m.get("emission", 0)), m.get("glossiness", 0))
-             for m in scene["materials"].values()],
-            [smallest.pt_sphere((c_double * 3)(*s["center"]), s["radius"], (c_double * 3)(*s.get("motion", [0, 0, 0])),
-                                names.index(s["material"])) for s in scene.get("spheres", [])],
-            [smallest.pt_plane((c_double * 3)(*p["normal"]), p["offset"], names.index(p["material"]))
-             for p in scene.get("planes", [])])
-        camera = scene["camera"]
-        self.set_camera(position=(c_double * 3)(*camera["position"]), target=(c_double * 3)(*camera["look_at"]),
-                        up=(c_double * 3)(*camera.get("up", [0, 1, 0])),
-                        vertical_fov=math.radians(camera["vertical_fov"]))
 
     def take(self, first, count, **fields):
         self.set_render(WIDTH, HEIGHT, max_path_length=self.max_path_length, first_sample=first, **fields)
