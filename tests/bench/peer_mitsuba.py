@@ -4,9 +4,9 @@
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/peer_mitsuba.py --pt build/bin/pt --json peer.json
 
 Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library (Debian: libllvm19; with libllvm15 Mitsuba 3.9.1 ends
-with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU. The scene is the same: planes are
-rectangles of half size 300, pt's material is phong_bsdf.py, the path integrator has no roulette, and the means of both
-programs' images are checked against the references, which Mitsuba made too.
+with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU. The scene is the same
+(mitsuba_scene.py), the path integrator has no roulette, and the means of both programs' images are checked against the
+references, which Mitsuba made too.
 
 A sample is one camera ray. A path is one way from the camera to its last vertex: a sample of Mitsuba's is one path; in
 pt, beyond path length 2, the first vertex of a sample is left by 4. Both rates are given.
@@ -19,18 +19,20 @@ sample counts, both axes logarithmic; "~" marks those beyond the counts measured
 
 import argparse
 import json
-import math
 import os
-import resource
 import statistics
 import subprocess
+import sys
 import tempfile
-import time
 
+from cost_of_error import cost_of_error
+from mitsuba_scene import MitsubaScene
 from table import print_table
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-HALF_SIZE = 300  # of the rectangles that stand for planes
+sys.path.insert(0, os.path.join(ROOT, "tests/support"))
+from scene_file import read_scene  # noqa: E402
+
 PATH_LENGTHS = {
     2: {"pt": [1, 4, 16, 64, 256], "mitsuba": [16, 64, 256, 1024], "errors": [1e-2, 1e-3, 1e-4]},
     6: {"pt": [4, 16, 64, 256], "mitsuba": [16, 64, 256, 400], "errors": [5e-3]},
@@ -49,86 +51,6 @@ def parse_arguments():
     parser.add_argument("--samplers", nargs="+", choices=PT_SAMPLERS, default=list(PT_SAMPLERS), help="of Mitsuba")
     parser.add_argument("--json", metavar="FILE", help="write all figures")
     return parser.parse_args()
-
-
-def rgb(value):
-    return {"type": "rgb", "value": value if isinstance(value, list) else [value] * 3}
-
-
-class Mitsuba:
-    """The scene of a scene file in Mitsuba, and renderings of it."""
-
-    def __init__(self, variant, scene):
-        import mitsuba
-        mitsuba.set_variant(variant)
-        import drjit
-        import numpy
-        import phong_bsdf
-        phong_bsdf.register()
-        self.mi, self.dr, self.np = mitsuba, drjit, numpy
-        self.on_gpu = variant.startswith("cuda")
-        self.scene = mitsuba.load_dict(self.describe(scene))
-        self.sensors = {sampler: mitsuba.load_dict(self.sensor(scene, sampler)) for sampler in PT_SAMPLERS}
-        self.integrators = {length: mitsuba.load_dict({"type": "path", "max_depth": length, "rr_depth": 1000})
-                            for length in PATH_LENGTHS}
-
-    def describe(self, scene):
-        shapes = {}
-        for i, sphere in enumerate(scene["spheres"]):
-            material = scene["materials"][sphere["material"]]
-            shapes[f"sphere{i}"] = {"type": "sphere", "center": sphere["center"], "radius": sphere["radius"],
-                                    "bsdf": self.bsdf(material), **self.emitter(material)}
-        for i, plane in enumerate(scene["planes"]):
-            shapes[f"plane{i}"] = {"type": "rectangle", "to_world": self.frame(plane),
-                                   "bsdf": self.bsdf(scene["materials"][plane["material"]])}
-        return {"type": "scene", **shapes}
-
-    @staticmethod
-    def bsdf(material):
-        diffuse, specular = rgb(material.get("diffuse", 0)), rgb(material.get("specular", 0))
-        if "specular" not in material:
-            return {"type": "diffuse", "reflectance": diffuse}
-        return {"type": "pt_phong", "diffuse": diffuse, "specular": specular, "glossiness": material["glossiness"]}
-
-    @staticmethod
-    def emitter(material):
-        if "emission" not in material:
-            return {}
-        return {"emitter": {"type": "area", "radiance": rgb(material["emission"])}}
-
-    def frame(self, plane):
-        """normal . x + offset = 0; the rectangle's centre is the point nearest to the origin."""
-        normal = plane["normal"]
-        centre = [-plane["offset"] * n for n in normal]
-        up = [0, 0, 1] if abs(normal[2]) < 0.9 else [0, 1, 0]
-        transform = self.mi.ScalarTransform4f
-        return transform().look_at(origin=centre, target=[c + n for c, n in zip(centre, normal)],
-                                   up=up) @ transform().scale(HALF_SIZE)
-
-    def sensor(self, scene, sampler):
-        camera, film = scene["camera"], scene["film"]
-        return {"type": "perspective", "fov_axis": "y", "fov": camera["vertical_fov"],
-                "to_world": self.mi.ScalarTransform4f().look_at(origin=camera["position"], target=camera["look_at"],
-                                                                 up=camera["up"]),
-                "sampler": {"type": sampler},
-                "film": {"type": "hdrfilm", "width": film["width"], "height": film["height"], "pixel_format": "rgb",
-                         "component_format": "float32", "rfilter": {"type": "box"}}}
-
-    def cost(self):
-        if self.on_gpu:
-            return time.perf_counter()
-        usage = resource.getrusage(resource.RUSAGE_SELF)
-        return usage.ru_utime + usage.ru_stime
-
-    def render(self, length, sampler, spp, seed):
-        """The cost and the image."""
-        start = self.cost()
-        image = self.np.array(self.mi.render(self.scene, sensor=self.sensors[sampler],
-                                             integrator=self.integrators[length], seed=seed, spp=spp))
-        return self.cost() - start, image
-
-    def read(self, path):
-        return self.np.array(self.mi.Bitmap(path))[:, :, :3]
 
 
 def run_pt(options, scene, reference, length, round_number):
@@ -164,7 +86,8 @@ def run_mitsuba(options, mitsuba, reference, length, seed):
     for sampler in options.samplers:
         points[sampler] = {}
         for spp in PATH_LENGTHS[length]["mitsuba"]:
-            cost, image = mitsuba.render(length, sampler, spp, seed)
+            seconds, processor_seconds, image = mitsuba.render(length, sampler, spp, seed)
+            cost = seconds if mitsuba.on_gpu else processor_seconds
             points[sampler][spp] = (cost, float(((image - reference) ** 2 / (reference ** 2 + 0.01)).mean()))
         means.append(image.mean((0, 1)))
     return points, sum(means) / len(means)
@@ -189,17 +112,6 @@ def rate(points, pixel_count):
     """Samples a second, from the difference of the largest and the smallest count: constant costs fall out."""
     low, high = min(points), max(points)
     return (high - low) * pixel_count / (points[high][0] - points[low][0])
-
-
-def cost_of_error(points, error):
-    """The cost at which relMSE has fallen to this, and whether it lies within the counts measured."""
-    line = [(math.log(cost), math.log(rel_mse)) for cost, rel_mse in (points[spp] for spp in sorted(points))]
-    wanted = math.log(error)
-    for (cost, value), (next_cost, next_value) in zip(line, line[1:]):
-        if value >= wanted >= next_value:
-            return math.exp(cost + (next_cost - cost) * (value - wanted) / (value - next_value)), True
-    cost, value = line[0] if wanted > line[0][1] else line[-1]
-    return math.exp(cost + value - wanted), False
 
 
 def summary(points, length, pixel_count, branches):
@@ -264,9 +176,8 @@ def print_result(length, result):
 def main():
     options = parse_arguments()
     scene_path = os.path.join(ROOT, "cli/scenes/coursework.json")
-    with open(scene_path, encoding="utf-8") as file:
-        scene = json.load(file)
-    mitsuba = Mitsuba(options.variant, scene)
+    scene = read_scene(scene_path)
+    mitsuba = MitsubaScene(options.variant, scene, lengths=PATH_LENGTHS)
     report = {"mitsuba": mitsuba.mi.__version__, "variant": options.variant, "rounds": options.rounds,
               "unit": "wall seconds" if mitsuba.on_gpu else "CPU seconds", "lengths": {}}
     for length in options.lengths:

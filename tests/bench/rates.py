@@ -25,6 +25,7 @@ import sys
 import tempfile
 import time
 
+from devices import runs_on_cpu
 from table import print_table
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -94,11 +95,6 @@ class Program:
         return {"wall": wall, "cpu": usage.ru_utime + usage.ru_stime, "peak_bytes": usage.ru_maxrss * 1024,
                 "sampling": facts["seconds"]["accumulate"],
                 "first": facts["seconds"]["create"] + facts["seconds"]["accumulate"], "facts": facts}
-
-
-    def runs_on_cpu(self, device):
-        listed = subprocess.run([self.options.pt, "devices", "--json"], check=True, capture_output=True, text=True)
-        return any(one["kind"] == "CPU" for one in json.loads(listed.stdout) if one["uuid"] == device["uuid"])
 
 
 def make_cases(folder):
@@ -176,7 +172,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         program, cases = Program(options, folder), make_cases(folder)
         device = program.render(cases[0], 1)["facts"]["device"]
-        on_cpu = program.runs_on_cpu(device)
+        on_cpu = runs_on_cpu(options.pt, device)
         for index, case in enumerate(cases):
             case.update(index=index, sample_count=choose_sample_count(program, case), rounds=[])
         for number in range(options.rounds):
