@@ -1,0 +1,58 @@
+"""The scenes of the benchmark, and how each is measured."""
+
+import hashlib
+import json
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+from scene_file import FOLDER, read_scene  # noqa: E402
+
+SIZE = (128, 64)
+SAMPLES = [16, 64, 256]
+FEWER_SAMPLES = {"thousand-spheres": [4, 16, 64]}  # where a sample takes long
+REFERENCES = ROOT / "tests/reference/bench"
+
+# The estimator that checks a reference, so that lamps are found in another way: by chance where they are large, else by
+# sampling them alone.
+CHECKS = {
+    "coursework": "bsdf",
+    "coursework-motion": "bsdf",
+    "open-sky": "light",
+    "closed-room": "bsdf",
+    "inside-a-ball": "bsdf",
+    "glossy-ladder": "light",
+    "large-lamp": "bsdf",
+    "tiny-lamp": "light",
+    "many-lamps": "light",
+    "caged-lamp": "light",
+    "dim-room": "light",
+    "mirror-wall": "bsdf",
+    "caustic": "bsdf",
+    "thousand-spheres": "light",
+}
+NAMES = list(CHECKS)
+
+
+def scene_path(name):
+    return FOLDER / f"{name}.json"
+
+
+def load_scene(name):
+    return read_scene(scene_path(name))
+
+
+def digest(scene):
+    """Of what a scene's light depends on, so that a reference of another scene is noticed."""
+    text = json.dumps({key: value for key, value in scene.items() if key != "film"}, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+def sample_counts(name):
+    return FEWER_SAMPLES.get(name, SAMPLES)
+
+
+def read_reference_table(folder=REFERENCES):
+    """What is known of each reference, by scene."""
+    return json.loads((pathlib.Path(folder) / "references.json").read_text(encoding="utf-8"))
