@@ -112,7 +112,7 @@ TEST(RenderReport, ErrorText) {
 }
 
 TEST(RenderReport, AnUncertainErrorIsCalledSo) {
-    cli::RenderReport report = example();
+    cli::RenderReport report = example_render();
     set_error(report, 0.0042, 0.0040, 0.0044);
     EXPECT_EQ(cli::stats_json(report).at("uncertain"), nlohmann::json::array());
     const auto text_with = [&](std::uint32_t uncertain) {
