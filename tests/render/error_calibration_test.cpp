@@ -210,7 +210,7 @@ double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of
         pixels.standard_error.push_back(static_cast<float>(std::abs(sums[0] - sums[1]) / count));
         pixels.lesser.push_back(static_cast<float>(2.0 * std::min(sums[0], sums[1]) / count));
     }
-    pt::ErrorEstimator estimator({width, samples.size(), PT_SAMPLER_SOBOL, false});
+    pt::ErrorEstimator estimator({calibration_width, samples.size(), PT_SAMPLER_SOBOL, false});
     estimator.add(pixels);
     return estimator.result().relative_rmse.estimate;
 }

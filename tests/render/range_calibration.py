@@ -9,11 +9,11 @@ import math
 import pathlib
 import statistics
 import sys
-from ctypes import POINTER, byref, c_double, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, byref, c_uint64, c_void_p
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import SAMPLERS, SceneRenderer, smallest  # noqa: E402
+from scene_renderer import SAMPLERS, SceneRenderer  # noqa: E402
 
 WIDTH, HEIGHT = 96, 48
 RANDOM, SOBOL = SAMPLERS["random"], SAMPLERS["sobol"]
@@ -22,20 +22,11 @@ ROWS = [[(0, 100)], [(100, 100)], [(0, 500)], [(1000, 500)], [(1016, 484)], [(10
         [(0, 64), (512, 64), (1024, 64)]]
 
 
-class Stats(smallest.Sized):
-    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
-                ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
-                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
-                ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
-                ("relative_rmse_high", c_double)]
-
-
 class Renderer(SceneRenderer):
     """Of the coursework scene."""
 
     def __init__(self, max_path_length):
         super().__init__(read_scene(FOLDER / "coursework.json"))
-        self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
         self.library.pt_save_film.argtypes = [c_void_p, c_void_p, POINTER(c_uint64)]
         self.library.pt_add_film.argtypes = [c_void_p, c_void_p, c_uint64]
         self.max_path_length = max_path_length
@@ -62,9 +53,7 @@ class Renderer(SceneRenderer):
             self._check(self.library.pt_add_film(self.context, film, len(film)))
 
     def stated_error(self):
-        stats = Stats()
-        self._check(self.library.pt_get_stats(self.context, byref(stats)))
-        return stats.relative_rmse
+        return self.stats().relative_rmse
 
     def true_error(self, truth):
         squares = [(x - t) ** 2 / (t * t + 0.01) for x, t in zip(self.image(), truth)]

@@ -4,7 +4,7 @@ import ctypes
 import math
 import pathlib
 import sys
-from ctypes import c_double
+from ctypes import POINTER, byref, c_double, c_uint32, c_uint64, c_void_p
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "lib/examples"))
 import smallest  # noqa: E402
@@ -19,6 +19,16 @@ def colour(value):
 
 def vector(values):
     return (c_double * 3)(*values)
+
+
+class Stats(smallest.Sized):
+    """pt_stats; what an older library does not know stays 0."""
+
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
+                ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
+                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
+                ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
+                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("reserved", c_uint32)]
 
 
 class SceneRenderer(smallest.Renderer):
@@ -40,3 +50,9 @@ class SceneRenderer(smallest.Renderer):
         self.set_camera(position=vector(camera["position"]), target=vector(camera["look_at"]),
                         up=vector(camera.get("up", [0, 1, 0])), vertical_fov=math.radians(camera["vertical_fov"]),
                         shutter_open=shutter_open, shutter_close=shutter_close)
+        self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
+
+    def stats(self):
+        stats = Stats()
+        self._check(self.library.pt_get_stats(self.context, byref(stats)))
+        return stats
