@@ -119,8 +119,9 @@ void add_editing_options(CLI::App &command, RenderOptions &options) {
 const char *const render_help =
     "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
     "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
-    "summary shows relative_rmse and its bounds of 95% confidence; --error stops sampling once the upper one is at or\n"
-    "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), target_error (null without\n"
+    "summary shows relative_rmse and its bounds of 95% confidence; where it cannot be known well, it is called uncertain,\n"
+    "with the reason, and its bounds are twice as far. --error stops sampling once the upper one is at or below E.\n"
+    "--stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), uncertain, target_error (null without\n"
     "--error) and target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
     "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the exponential of "
     "the\n"
