@@ -76,7 +76,10 @@ public:
             return false;
         table_.add(fault.function, pt_result_name(result));
         places_.push_back({step, number_, fault});
-        if (step != "pt_destroy") {
+        // Where a heap is full, a device's next type of memory may do. The CPU has but one.
+        const bool another_memory =
+            fault.function == "vkAllocateMemory" && fault.result == VK_ERROR_OUT_OF_DEVICE_MEMORY && result == PT_OK;
+        if (step != "pt_destroy" && !another_memory) {
             EXPECT_EQ(pt_result_name(result), std::string(pt_result_name(expected_result(fault))))
                 << step << ", place " << number_ << ", " << fault.function << ": " << message;
             EXPECT_TRUE(result >= 0 || !message.empty());
