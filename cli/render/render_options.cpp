@@ -120,7 +120,7 @@ const char *const render_help =
     "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
     "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
     "summary shows relative_rmse and its bounds of 95% confidence; where it cannot be known well, it is called\n"
-    "uncertain, with the reason, and its bounds are twice as far. --error stops sampling once the upper one is at or\n"
+    "uncertain, with the reason, and its bounds are wider. --error stops sampling once the upper one is at or\n"
     "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), uncertain, target_error\n"
     "(null without --error) and target_reached. --standard-error is in units of radiance, infinite with a single\n"
     "sample.\n\n"

@@ -91,7 +91,7 @@ std::string estimate_text(const pt_stats &stats) {
     if (!std::isfinite(stats.relative_rmse)) {
         const std::uint32_t first_check = pt_next_check(0);
         const std::string reason = " with fewer than " + std::to_string(first_check) + " samples";
-        return "error unknown" + (stats.sample_count < first_check ? reason : "");
+        return "error unknown" + (stats.sample_count < first_check ? reason : uncertainty_text(stats.uncertain));
     }
     return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
            percent_text(stats.relative_rmse_high) + ")" + uncertainty_text(stats.uncertain);

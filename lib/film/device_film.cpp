@@ -53,8 +53,8 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     }
 }
 
-// All pixels are cleared before any is used, so it does not matter that a strip's words are plane after plane: a share of
-// its pixels stands for the same share of its bytes.
+// All pixels are cleared before any is used, so it does not matter that a strip's words are plane after plane: a share
+// of its pixels stands for the same share of its bytes.
 void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count) {
     for (const Strip &strip : strips_) {
         const Overlap pixels(strip, first_pixel, pixel_count);

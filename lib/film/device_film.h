@@ -79,8 +79,8 @@ private:
     PartUse parts_;
 };
 
-// Reads the sum of films of one size, which together hold these samples, in pieces of consecutive pixels, the first beginning
-// with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
+// Reads the sum of films of one size, which together hold these samples, in pieces of consecutive pixels, the first
+// beginning with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
 void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples,
                 const std::function<void(const PixelSums &)> &receive);
 

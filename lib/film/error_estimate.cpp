@@ -27,9 +27,9 @@ constexpr double few_pixels = 20.0;
 // Nor is it certain if light that no sample has met is expected to add more than this share.
 constexpr double much_unseen = 0.1;
 
-// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often as
-// too large, or by more than that if it is the brightest that are missing. A little more than one such share is added,
-// because a stated error that is too small does more harm: calibrated.
+// Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
+// as too large, or by more than that if it is the brightest that are missing. A little more than one such share is
+// added, because a stated error that is too small does more harm: calibrated.
 double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count);
 }
@@ -146,7 +146,8 @@ double ErrorEstimator::Squares::sum() const {
     return sum;
 }
 
-// The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 / n.
+// The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 /
+// n.
 double ErrorEstimator::Squares::pixel_count() const {
     const double sum = this->sum();
     return sum > 0.0 ? sum * sum / sum_of_pixel_squares_ : infinity;
@@ -182,7 +183,7 @@ ErrorEstimate ErrorEstimator::result() {
         finish_band();
     const bool few = squares_.pixel_count() < few_pixels;
     const bool few_relative = relative_squares_.pixel_count() < few_pixels;
-    const bool unseen = unseen_ > much_unseen * relative_squares_.sum();
+    const bool unseen = unseen_ > much_unseen * (relative_squares_.sum() + unseen_);
     std::uint32_t uncertain = 0;
     if (few)
         uncertain |= PT_UNCERTAIN_RMSE;

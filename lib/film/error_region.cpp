@@ -25,16 +25,15 @@ public:
         largest_ = std::max(largest_, value);
     }
 
-    double mean_besides(double value) const { return std::max(sum_ - value, 0.0) / others(); }
+    double mean_besides(double value) const { return std::max(sum_ - value, 0.0) / std::max(count_ - 1.0, 1.0); }
 
     // The largest of the others may be a firefly too.
     double mean_besides_and_without_largest(double value) const {
-        return std::max(sum_ - value - (value < largest_ ? largest_ : second_), 0.0) / others();
+        const double largest_of_others = value < largest_ ? largest_ : second_;
+        return std::max(sum_ - value - largest_of_others, 0.0) / std::max(count_ - 2.0, 1.0);
     }
 
 private:
-    double others() const { return std::max(count_ - 1.0, 1.0); }
-
     double sum_ = 0.0;
     double count_ = 0.0;
     double largest_ = 0.0;
@@ -74,15 +73,18 @@ Neighbourhood neighbourhood_of_rows(const Sorted &a, const Sorted &b, const Sort
             std::max({a.high, b.high, c.high})};
 }
 
-// Where the region ends beside the pixel.
+// Where the region ends beside the pixel. Of an even number the median is the lower of the two in the middle, so that
+// of two pixels the brighter does not stand for itself; a pixel alone has no neighbours.
 Neighbourhood neighbourhood_at_edge(const RegionChannel &channel, std::size_t x, std::size_t y) {
     std::array<double, 9> values{};
     std::size_t count = 0;
     for (std::size_t row = y - (y > 0 ? 1 : 0); row <= y + 1 && row < channel.height; ++row)
         for (std::size_t column = x - (x > 0 ? 1 : 0); column <= x + 1 && column < channel.width; ++column)
             values[count++] = channel.mean[row * channel.width + column];
+    if (count == 1)
+        return {0.0, values[0]};
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(count / 2);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
     std::nth_element(values.begin(), middle, end);
     return {*middle, *std::max_element(middle, end)};
 }
@@ -102,17 +104,21 @@ Neighbourhood neighbourhood(const RegionChannel &channel, std::size_t x, std::si
 // that error, so it is no more than the squares of what is known without it: the darker part's mean, what most
 // neighbours show, and the mean about it; but no more than that of the pixel's own mean either.
 //
-// Where that is the own mean after all, since it is bright around, but one part knows nothing of it, the pixel lies at
-// an edge: a share p of its samples is bright, M each, and one of N was so far, hence the mean T = M / N and a square
-// error of T^2. If any p was as likely before, it is y / N with the density y e^-y now, and the limit is M p. The
-// expectation of T^2 / (M^2 p^2 + k^2), with k^2 what the darker part knows and the offset, is the integral of
-// y e^-y / (y^2 + k^2 / T^2): about ln(T / k) for k << T.
-double relative_square(double square, double mean, double lesser, double around) {
+// Where that is the own mean after all, since it is bright around, but a part with half of the samples or more knows
+// little of it, the pixel lies at an edge: a share p of its samples is bright, M each, and one of N was so far, hence
+// the mean T = M / N and a square error of about T^2. If any p was as likely before, it is y / N with the density y
+// e^-y now, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), with k^2 what the darker part knows and the
+// offset, is the integral of y e^-y / (y^2 + k^2 / T^2): ln(T / k), less a constant of about 1 that depends on what was
+// likely before; without it the stated error was right in the scenes that it was calibrated with.
+double relative_square(double standard_error, double mean, double lesser, double around) {
     const double limit = std::min(squared(mean), squared(std::max(lesser, around))) + relative_offset;
     const double known = squared(lesser) + relative_offset;
-    constexpr double e_squared = 7.39;
-    const double edge = limit > e_squared * known ? 0.5 * std::log(limit / known) : 1.0;
-    return square / limit * edge;
+    // With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)).
+    const bool most_are_dark = standard_error >= 0.99 * (mean - lesser);
+    const bool bright_around = around >= mean;
+    constexpr double e_squared = 7.39; // where the logarithm passes 1
+    const bool at_edge = most_are_dark && bright_around && limit > e_squared * known;
+    return squared(standard_error) / limit * (at_edge ? 0.5 * std::log(limit / known) : 1.0);
 }
 
 // Light of the mean M in a pixel beside may be in a share p of this one's samples too. None of N had it if their mean
@@ -150,7 +156,7 @@ std::vector<ValueError> value_errors(const RegionChannel &channel, double sample
             const double square = squared(channel.standard_error[i]);
             const auto [median, largest] = neighbourhood(channel, x, y);
             const double around = std::max(median, level_about(mean, tiles[tile_of(x, y)], region));
-            errors.push_back({square, relative_square(square, mean, channel.lesser[i], around),
+            errors.push_back({square, relative_square(channel.standard_error[i], mean, channel.lesser[i], around),
                               unseen_square(mean, largest, sample_count)});
         }
     return errors;

@@ -164,10 +164,14 @@ bool Renderer::may_miss_lamps() const {
     constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
     const std::uint32_t estimator = settings_->estimator;
     const bool by_chance =
-        estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF;
+        settings_->max_path_length > 1 &&
+        (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
+    if (!by_chance)
+        return false;
     const double samples =
         static_cast<double>(samples_.count()) * static_cast<double>(devices_.front()->film().pixel_count());
-    return by_chance && samples * smallest_lamp_share(scene_->scene, *camera_) < enough_meetings;
+    const std::optional<double> share = smallest_lamp_share(scene_->scene, *camera_);
+    return share && samples * *share < enough_meetings;
 }
 
 const ErrorEstimate &Renderer::error() {

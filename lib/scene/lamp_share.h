@@ -4,10 +4,13 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
 
+#include <optional>
+
 namespace pt {
 
-// The share of all directions from the camera that the smallest lamp covers, as the shutter opens: 1 if there is none.
-// Lamps around the camera do not count, since all directions may meet them.
-double smallest_lamp_share(const Scene &scene, const Camera &camera);
+// The share of all directions from the camera that the smallest lamp covers as the shutter opens, of those lamps that
+// give at least a hundredth of what all give there. Nothing if there is none to miss: lamps around the camera do not
+// count, since all directions may meet them.
+std::optional<double> smallest_lamp_share(const Scene &scene, const Camera &camera);
 
 } // namespace pt

@@ -63,7 +63,7 @@ def run_pt(options, name, counts, number, folder):
     for samplers, estimators in ((SAMPLERS, DEFAULT[1:]), (DEFAULT[:1], ESTIMATORS)):
         command = [options.pt, "bench", str(scene_path(name)), "--reference", str(options.references / f"{name}.exr"),
                    "--size", "{}x{}".format(*SIZE), "--samplers", ",".join(samplers), "--estimators",
-                   ",".join(estimators), "--spp", counts, "--rounds", "1", "--seed", str(1000 * number), "--quiet"]
+                   ",".join(estimators), "--spp", counts, "--rounds", "1", "--seed", str(10 * number), "--quiet"]
         result = bench(command + (["--device", options.device] if options.device else []), folder)
         for cell in result["cells"]:
             pair = (cell["sampler"], cell["estimator"])

@@ -137,7 +137,8 @@ class SceneErrors(CommandLineTest):
 
     def test_settings_are_blamed_on_their_origin(self):
         for result in ("INVALID_ARGUMENT", "UNSUPPORTED"):
-            fault = {"FAKE_PT_FAIL": f"set_render:{RESULT[result]}", "FAKE_PT_RULE": "render,-1,width,-1,,0,must be >= 1"}
+            fault = {"FAKE_PT_FAIL": f"set_render:{RESULT[result]}",
+                     "FAKE_PT_RULE": "render,-1,width,-1,,0,must be >= 1"}
             self.expect(3, "render", COURSEWORK, "-o", "a.png", **fault,
                         error=place_in_coursework('"film":') + ": film.width = 0")
             self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "9x9", **fault,
@@ -154,8 +155,9 @@ class SceneErrors(CommandLineTest):
             self.expect(2, *command, "--max-path-length", "6", **length, error="pt: --max-path-length = 6: too long")
             self.expect(4, *command, **fault, FAKE_PT_MESSAGE="more than this device can bind",
                         error="pt: more than this device can bind")
-        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7", FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}",
-                    FAKE_PT_RULE="create,-1,device,-1,,7,too large", error="pt: --device = 7: too large")
+        self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7",
+                    FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}", FAKE_PT_RULE="create,-1,device,-1,,7,too large",
+                    error="pt: --device = 7: too large")
 
 
 class DeviceErrors(CommandLineTest):

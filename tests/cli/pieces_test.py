@@ -125,7 +125,7 @@ class RealDevice(CommandLineTest):
 
         whole, pieces = stats(), stats("--piece-rows", "8")
         self.assertLess(pieces["device_bytes"], whole["device_bytes"])
-        # A piece's error comes from fewer pixels, and more is added to it for that; at a cut pixels have fewer neighbours.
+        # A piece's error comes from fewer pixels, for which more is added; at a cut pixels have fewer neighbours.
         for key in ("rmse", "relative_rmse"):
             self.assertAlmostEqual(pieces[key], whole[key], delta=0.25 * whole[key])
 

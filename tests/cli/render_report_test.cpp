@@ -123,6 +123,8 @@ TEST(RenderReport, AnUncertainErrorIsCalledSo) {
     EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE), "error 0.42% (0.4% to 0.44%), uncertain: from few pixels");
     EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN), "error 0.42% (0.4% to 0.44%), uncertain: light may be unseen");
     EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: small lamps are found by chance");
+    set_error(report, infinity, 0.0, infinity);
+    EXPECT_EQ(cli::error_text(report), "error unknown, uncertain: small lamps are found by chance");
     EXPECT_EQ(cli::stats_json(report).at("uncertain"),
               (std::vector<std::string>{"rmse", "relative_rmse", "unseen", "unmet"}));
 }

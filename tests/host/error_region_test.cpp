@@ -52,7 +52,7 @@ TEST(ErrorRegion, AFireflyIsMeasuredByWhatIsAboutIt) {
     light_in_one_part(channel, middle, 8.0, 0.5);
     EXPECT_DOUBLE_EQ(relative_square(channel, middle), 7.5 * 7.5 / (0.25 + 0.01));
     light_in_one_part(channel, middle, 8.0, 0.0); // the other part knows less than the pixels about
-    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 64.0 / 0.26 * 0.5 * std::log(0.26 / 0.01));
+    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 64.0 / 0.26);
 }
 
 // Where hits are rare and most pixels are black, the level is the mean of the tile, of 64 pixels, without the brightest
@@ -61,17 +61,15 @@ TEST(ErrorRegion, AmongRareHitsTheLevelIsThatOfTheTileOrTheRegion) {
     pt::RegionChannel channel = flat(0.0);
     for (const std::size_t x : {8, 11, 14})
         light_in_one_part(channel, index_of(x, 9), 16.0, 0.0);
-    double level = 16.0 / 63.0;
-    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(8, 9)),
-                     256.0 / (level * level + 0.01) * std::max(1.0, 0.5 * std::log((level * level + 0.01) / 0.01)));
+    double level = 16.0 / 62.0; // of two others, one is left out
+    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(8, 9)), 256.0 / (level * level + 0.01));
 
     channel = flat(0.0);
     for (std::size_t tile = 0; tile < 4; ++tile)
         for (const std::size_t x : {1, 6})
             light_in_one_part(channel, index_of(8 * tile + x, 4), 64.0, 0.0);
-    level = 64.0 * 6.0 / 1023.0; // of seven others, one is left out; in the tile there is one other
-    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(1, 4)),
-                     64.0 * 64.0 / (level * level + 0.01) * 0.5 * std::log((level * level + 0.01) / 0.01));
+    level = 64.0 * 6.0 / 1022.0; // of seven others, one is left out; in the tile there is one other
+    EXPECT_DOUBLE_EQ(relative_square(channel, index_of(1, 4)), 64.0 * 64.0 / (level * level + 0.01));
 }
 
 // At the edge of something bright, one sample of which hit the pixel: integrated over what share of it is bright.
@@ -82,16 +80,29 @@ TEST(ErrorRegion, AnEdgePixelCountsMoreThanItsOwnMeanSays) {
     EXPECT_NEAR(relative_square(channel, middle), square / 25.01 * 0.5 * std::log(25.01 / 0.010001), 1e-12);
 }
 
-// NEGATIVE CONTROL of the formula: the integral that the comment derives, taken numerically.
-TEST(ErrorRegion, TheFactorOfAnEdgeIsTheIntegralToWithinThird) {
-    for (const double ratio : {20.0, 100.0, 1e4}) { // T / k
+// Nor does a part with less than half of the samples that saw nothing say that little was bright: of samples 0 to 35 it
+// has four.
+TEST(ErrorRegion, AFewDarkSamplesMakeNoEdge) {
+    pt::RegionChannel channel = flat(5.0);
+    channel.mean[middle] = 4.0;
+    channel.lesser[middle] = 0.0;
+    channel.standard_error[middle] = 4.0 * std::sqrt(4.0 / 32.0);
+    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 2.0 / 16.01);
+    channel.standard_error[middle] = 4.0 * std::sqrt(32.0 / 4.0); // the other part, with 32, saw nothing
+    EXPECT_DOUBLE_EQ(relative_square(channel, middle), 128.0 / 16.01 * 0.5 * std::log(16.01 / 0.01));
+}
+
+// The integral that error_region.cpp derives, taken numerically: the logarithm less about 0.6.
+TEST(ErrorRegion, TheFactorOfAnEdgeIsTheLogarithmOfAnIntegralButForAConstant) {
+    constexpr double euler = 0.5772;
+    for (const double ratio : {100.0, 1e4, 1e6}) { // T / k
         double integral = 0.0;
         constexpr double step = 1e-3;
-        for (double log_y = -20.0 + 0.5 * step; log_y < 5.0; log_y += step) {
+        for (double log_y = -30.0 + 0.5 * step; log_y < 5.0; log_y += step) {
             const double y = std::exp(log_y);
             integral += step * y * y * std::exp(-y) / (y * y + 1.0 / (ratio * ratio));
         }
-        EXPECT_NEAR(std::log(ratio) / integral, 1.17, 0.17) << ratio;
+        EXPECT_NEAR(integral, std::log(ratio) - euler, 3.0 / ratio + 1e-4) << ratio;
     }
 }
 
@@ -111,17 +122,21 @@ TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
         EXPECT_EQ(error.unseen, 0.0);
 }
 
-// A small piece of an image is a region too, down to a pixel.
+// A small piece of an image is a region too, down to a pixel, of which the darker part alone tells the limit.
 TEST(ErrorRegion, MayBeAsSmallAsAPixel) {
     for (const std::size_t width : {1, 2, 9})
         for (const std::size_t height : {1, 2, 9}) {
             const std::size_t count = width * height;
-            const pt::RegionChannel channel{width, height, std::vector<double>(count, 2.0),
-                                            std::vector<double>(count, 0.5), std::vector<double>(count, 1.5)};
+            pt::RegionChannel channel{width, height, std::vector<double>(count, 2.0), std::vector<double>(count, 0.5),
+                                      std::vector<double>(count, 1.5)};
+            const double limit = count == 1 ? 2.25 : 4.0;
             for (const pt::ValueError &error : pt::value_errors(channel, many_samples)) {
                 EXPECT_EQ(error.square, 0.25);
-                EXPECT_NEAR(error.relative_square, 0.25 / (count > 2 ? 4.01 : 2.26), count > 2 ? 0.07 : 0.06);
+                EXPECT_DOUBLE_EQ(error.relative_square, 0.25 / (limit + 0.01));
             }
+            light_in_one_part(channel, 0, 8.0, 1.0);
+            const double dark = count == 1 ? 1.0 : 4.0; // the neighbours have 2
+            EXPECT_DOUBLE_EQ(relative_square(channel, 0), 49.0 / (dark + 0.01)) << width << " x " << height;
         }
 }
 

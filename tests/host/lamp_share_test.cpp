@@ -29,22 +29,26 @@ pt::Sphere sphere_at(double distance, double radius, std::uint32_t material) {
 }
 
 TEST(LampShare, IsThatOfTheCapWithinTheCone) {
-    const double found = pt::smallest_lamp_share(scene_of({sphere_at(2, 1, lamp)}), camera);
-    EXPECT_DOUBLE_EQ(found, 0.5 * (1.0 - std::sqrt(3.0) / 2.0));
-    const double tiny = pt::smallest_lamp_share(scene_of({sphere_at(1e8, 1, lamp)}), camera);
-    EXPECT_NEAR(tiny, 0.25e-16, 1e-30);
+    const double near = pt::smallest_lamp_share(scene_of({sphere_at(2, 1, lamp)}), camera).value();
+    EXPECT_DOUBLE_EQ(near, 0.5 * (1.0 - std::sqrt(3.0) / 2.0));
+    const double far = pt::smallest_lamp_share(scene_of({sphere_at(1e8, 1, lamp)}), camera).value();
+    EXPECT_NEAR(far, 0.25e-16, 1e-30);
 }
 
-TEST(LampShare, IsThatOfTheSmallestLamp) {
-    const double all = pt::smallest_lamp_share(
-        scene_of({sphere_at(2, 1, lamp), sphere_at(9, 1, dark), sphere_at(4, 1, lamp), sphere_at(1, 50, lamp)}),
-        camera);
-    EXPECT_DOUBLE_EQ(all, pt::smallest_lamp_share(scene_of({sphere_at(4, 1, lamp)}), camera));
+TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
+    const double smallest = pt::smallest_lamp_share(scene_of({sphere_at(4, 1, lamp)}), camera).value();
+    const std::vector<pt::Sphere> spheres{sphere_at(2, 1, lamp), sphere_at(9, 1, dark), sphere_at(4, 1, lamp),
+                                          sphere_at(1, 50, lamp)};
+    EXPECT_DOUBLE_EQ(pt::smallest_lamp_share(scene_of(spheres), camera).value(), smallest);
+    // One that covers 1/400 as much gives less than a hundredth of the light.
+    std::vector<pt::Sphere> with_a_speck = spheres;
+    with_a_speck.push_back(sphere_at(80, 1, lamp));
+    EXPECT_DOUBLE_EQ(pt::smallest_lamp_share(scene_of(with_a_speck), camera).value(), smallest);
 }
 
-TEST(LampShare, IsOneWithoutLampsToMiss) {
-    EXPECT_EQ(pt::smallest_lamp_share(scene_of({}), camera), 1.0);
-    EXPECT_EQ(pt::smallest_lamp_share(scene_of({sphere_at(9, 1, dark), sphere_at(1, 50, lamp)}), camera), 1.0);
+TEST(LampShare, IsNothingWithoutLampsToMiss) {
+    EXPECT_FALSE(pt::smallest_lamp_share(scene_of({}), camera));
+    EXPECT_FALSE(pt::smallest_lamp_share(scene_of({sphere_at(9, 1, dark), sphere_at(1, 50, lamp)}), camera));
 }
 
 } // namespace

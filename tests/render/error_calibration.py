@@ -1,93 +1,164 @@
-"""Prints the tables in shaders/README.md of the error that is stated of an image: of stated / true error the share below
-0.9, the share above 2 and the median, where the error is known; and of how many cases it is called uncertain.
+"""Prints the tables in shaders/README.md of the error that is stated of an image, as stated / true error.
 
-    PT_LIBRARY=build/lib/libpt.so python3 tests/render/error_calibration.py [SCENE.json ...]   # default: all of cli/scenes
+    python3 tests/render/error_calibration.py [--before OLD.so] [--scenes SCENE.json ...]   # default: all of cli/scenes
 
-The true error is the root of the mean, over 16 seeds, of the squared relative error against an image of many samples of
-another seed. The stated ones are those of the first six seeds. On a GPU it takes minutes.
+PT_LIBRARY names the library; --before another one to compare with. The true error is the root of the mean, over 16
+seeds, of the squared relative error against an image of many samples of another seed. The stated ones are those of the
+first six seeds. On a GPU it takes minutes.
 """
 
+import argparse
+import ctypes
 import math
+import os
 import pathlib
 import statistics
 import sys
+from dataclasses import dataclass
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer, smallest  # noqa: E402
 
 WIDTH, HEIGHT = 96, 48
-COUNTS = [16, 24, 64, 100, 256, 1024]
+COUNTS = [16, 18, 24, 64, 72, 100, 256, 1024]
 TRUTH_SAMPLES = 1 << 17
 TRUTH_SEEDS, STATED_SEEDS = 16, 6
+TARGETS, MOST_SAMPLES = [0.1, 0.03], 4096
 METHODS = [("mis", "random"), ("mis", "halton"), ("mis", "halton-cp"), ("mis", "sobol"), ("light", "sobol"),
            ("bsdf", "sobol"), ("cosine", "halton"), ("uniform", "random")]
 RELATIVE_BITS = 2 + 4 + 8  # of PT_UNCERTAIN_*, those of relative_rmse
+
+
+@dataclass
+class Case:
+    scene: str
+    estimator: str
+    sampler: str
+    count: int
+    ratio: float  # stated / true
+    uncertain: bool
+    holds: bool  # the true one lies within the bounds
 
 
 def relative_square(image, truth):
     return math.fsum((x - t) ** 2 / (t * t + 0.01) for x, t in zip(image, truth)) / len(truth)
 
 
-def cases_of(path):
-    """(scene, estimator, sampler, count, stated / true, uncertain, bounds that hold)"""
-    scene = read_scene(path)
-    length = scene.get("render", {}).get("max_path_length", 6)
-    with SceneRenderer(scene) as renderer:
-        renderer.set_render(WIDTH, HEIGHT, max_path_length=length, seed=99)
-        renderer.accumulate(TRUTH_SAMPLES)
-        truth = list(renderer.image())
-        for estimator, sampler in METHODS:
-            squares = {count: [] for count in COUNTS}
-            stated = {count: [] for count in COUNTS}
-            for seed in range(100, 100 + TRUTH_SEEDS):
-                renderer.set_render(WIDTH, HEIGHT, max_path_length=length, seed=seed, sampler=SAMPLERS[sampler],
-                                    estimator=ESTIMATORS[estimator])
-                done = 0
-                for count in COUNTS:
-                    renderer.accumulate(count - done)
-                    done = count
-                    squares[count].append(relative_square(renderer.image(), truth))
-                    if len(stated[count]) < STATED_SEEDS:
-                        stated[count].append(renderer.stats())
+class Calibration:
+    """A scene with its limit, as far as many samples tell."""
+
+    def __init__(self, path):
+        scene = read_scene(path)
+        self.name = path.stem
+        self.length = scene.get("render", {}).get("max_path_length", 6)
+        self.renderer = SceneRenderer(scene)
+        self.start(99)
+        self.renderer.accumulate(TRUTH_SAMPLES)
+        self.truth = list(self.renderer.image())
+
+    def start(self, seed, **fields):
+        self.renderer.set_render(WIDTH, HEIGHT, max_path_length=self.length, seed=seed, **fields)
+
+    def square(self):
+        return relative_square(self.renderer.image(), self.truth)
+
+    def cases(self, estimator, sampler):
+        squares = {count: [] for count in COUNTS}
+        stated = {count: [] for count in COUNTS}
+        for seed in range(100, 100 + TRUTH_SEEDS):
+            self.start(seed, sampler=SAMPLERS[sampler], estimator=ESTIMATORS[estimator])
+            done = 0
             for count in COUNTS:
-                error = math.sqrt(statistics.fmean(squares[count]))
-                for stats in stated[count]:
-                    holds = stats.relative_rmse_low <= error <= stats.relative_rmse_high
-                    yield (path.stem, estimator, sampler, count, stats.relative_rmse / error,
-                           stats.uncertain & RELATIVE_BITS != 0, holds)
+                self.renderer.accumulate(count - done)
+                done = count
+                squares[count].append(self.square())
+                if len(stated[count]) < STATED_SEEDS:
+                    stated[count].append(self.renderer.stats())
+        for count in COUNTS:
+            error = math.sqrt(statistics.fmean(squares[count]))
+            for stats in stated[count]:
+                yield Case(self.name, estimator, sampler, count, stats.relative_rmse / error,
+                           stats.uncertain & RELATIVE_BITS != 0,
+                           stats.relative_rmse_low <= error <= stats.relative_rmse_high)
+
+    def stopped(self, target):
+        """Error / target of images that were taken until the target was reached; None where it was not."""
+        for seed in range(200, 200 + STATED_SEEDS):
+            self.start(seed)
+            info = smallest.pt_accumulate_info(sample_count=MOST_SAMPLES, target_error=target)
+            result = self.renderer.library.pt_accumulate(self.renderer.context, ctypes.byref(info))
+            yield math.sqrt(self.square()) / target if result == 2 else None  # PT_TARGET_REACHED
 
 
-def share(cases, is_one):
-    return f"{100 * sum(map(is_one, cases)) / len(cases):.1f}%" if cases else ""
+def measure(paths, library):
+    if library:
+        os.environ["PT_LIBRARY"] = library
+    cases, stopped = [], {target: [] for target in TARGETS}
+    for path in paths:
+        calibration = Calibration(path)
+        with calibration.renderer:
+            for method in METHODS:
+                cases += calibration.cases(*method)
+            for target in TARGETS:
+                stopped[target] += calibration.stopped(target)
+        print(path.stem, file=sys.stderr, flush=True)
+    return cases, stopped
 
 
-def print_rows(title, cases, key):
-    print(f"| {title} | cases | uncertain | below 0.9 | above 2 | median | bounds hold | uncertain: below 0.9 | above 2 |")
-    print("|---|---|---|---|---|---|---|---|---|")
+def share(cases, holds):
+    return f"{100 * sum(map(holds, cases)) / len(cases):.1f}%" if cases else ""
+
+
+def flattered(case):
+    return case.ratio < 0.9
+
+
+def overstated(case):
+    return case.ratio > 2
+
+
+def row(cases, before):
+    known = [case for case in cases if not case.uncertain]
+    uncertain = [case for case in cases if case.uncertain]
+    cells = [share(cases, lambda case: case.uncertain), share(known, flattered), share(known, overstated),
+             f"{statistics.median(case.ratio for case in known):.2f}" if known else "",
+             share(known, lambda case: case.holds), share(uncertain, flattered), share(uncertain, overstated),
+             share(cases, flattered), share(cases, overstated)]
+    return cells + ([share(before, flattered), share(before, overstated)] if before else [])
+
+
+def print_table(title, cases, before, key):
+    heads = [title, "uncertain", "known: below 0.9", "above 2", "median", "bounds hold", "uncertain: below 0.9",
+             "above 2", "all: below 0.9", "above 2"] + (["before: below 0.9", "above 2"] if before else [])
+    print("| " + " | ".join(heads) + " |\n|" + "---|" * len(heads))
     for name in [*dict.fromkeys(map(key, cases)), "all"]:
-        rows = [case for case in cases if name in (key(case), "all")]
-        known = [case for case in rows if not case[5]]
-        uncertain = [case for case in rows if case[5]]
-        cells = [str(name), str(len(rows)), share(rows, lambda case: case[5])]
-        cells += [share(known, lambda case: case[4] < 0.9), share(known, lambda case: case[4] > 2)]
-        cells += [f"{statistics.median(case[4] for case in known):.2f}" if known else ""]
-        cells += [share(known, lambda case: case[6])]
-        cells += [share(uncertain, lambda case: case[4] < 0.9), share(uncertain, lambda case: case[4] > 2)]
-        print("| " + " | ".join(cells) + " |")
+        chosen = [[case for case in some if name in (key(case), "all")] for some in (cases, before)]
+        print("| " + " | ".join([str(name)] + row(*chosen)) + " |")
     print(flush=True)
 
 
+def print_stopped(stopped):
+    print("| target | reached | error above the target | above 1.25 times |\n|---|---|---|---|")
+    for target, ratios in stopped.items():
+        reached = [ratio for ratio in ratios if ratio is not None]
+        print(f"| {target:.0%} | {len(reached)} of {len(ratios)} | {share(reached, lambda r: r > 1)} | "
+              f"{share(reached, lambda r: r > 1.25)} |")
+
+
 def main():
-    paths = [pathlib.Path(path) for path in sys.argv[1:]] or sorted(FOLDER.glob("*.json"))
-    cases = []
-    for path in paths:
-        cases += cases_of(path)
-        print(path.stem, file=sys.stderr, flush=True)
-    print_rows("estimator, sampler", cases, lambda case: f"`{case[1]}`, `{case[2]}`")
-    print_rows("samples", cases, lambda case: case[3])
-    print_rows("scene, `mis`", [case for case in cases if case[1] == "mis"], lambda case: case[0])
-    print_rows("scene, found by chance or `light`", [case for case in cases if case[1] != "mis"], lambda case: case[0])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--before", metavar="LIBRARY")
+    parser.add_argument("--scenes", type=pathlib.Path, nargs="+", default=sorted(FOLDER.glob("*.json")))
+    options = parser.parse_args()
+    cases, stopped = measure(options.scenes, None)
+    before = measure(options.scenes, options.before)[0] if options.before else []
+    print_table("estimator, sampler", cases, before, lambda case: f"`{case.estimator}`, `{case.sampler}`")
+    print_table("samples", cases, before, lambda case: case.count)
+    print_table("scene", cases, before, lambda case: case.scene)
+    print_table("scene, `mis` alone", [case for case in cases if case.estimator == "mis"],
+                [case for case in before if case.estimator == "mis"], lambda case: case.scene)
+    print_stopped(stopped)
 
 
 if __name__ == "__main__":

@@ -18,14 +18,17 @@ enum {
     PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
 };
 
-/** Bits of pt_stats.uncertain: why an error that is stated may be far off. The bounds are then twice as far from it. */
+/** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further factor
+ * of two. */
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 20 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 20 pixels */
-    PT_UNCERTAIN_UNSEEN = 4, /**< more than a tenth of relative_rmse, squared, is light that no sample has met, but
-                                         that is expected in dark pixels beside very bright ones */
-    PT_UNCERTAIN_UNMET = 8   /**< uniform, cosine and bsdf find lamps by chance, and all pixels' samples together
-                                         are expected to meet the smallest of them less than a thousand times */
+    /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark pixels
+     * beside very bright ones. */
+    PT_UNCERTAIN_UNSEEN = 4,
+    /** uniform, cosine and bsdf find lamps by chance, and as large as the camera sees it, one of those that matter is
+     * expected to have been met less than a thousand times by the samples of all pixels together. */
+    PT_UNCERTAIN_UNMET = 8
 };
 
 /** What has been done, what it took, and how good the image is.
@@ -51,7 +54,7 @@ typedef struct pt_stats {
     double relative_rmse;      /**< relative root mean square error, a number */
     double relative_rmse_low;  /**< lower bound of relative_rmse */
     double relative_rmse_high; /**< upper bound of relative_rmse */
-    uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 while nothing is known of it */
+    uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
     uint32_t reserved;         /**< 0 */
 } pt_stats;
 

@@ -1,0 +1,82 @@
+// Where the error of an image cannot be known, it is called uncertain (pt_stats.uncertain), and why.
+#include "tests/support/context_fixture.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace uncertain {
+
+namespace {
+
+constexpr uint32_t width = 32;
+constexpr uint32_t height = 32;
+
+// A floor that fills the image, under a lamp of this radius, 100 above the camera: it covers radius^2 / 40000 of all
+// directions.
+class UncertainTest : public ContextFixture {
+protected:
+    void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2) {
+        const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
+        const pt_sphere lamp{{0.0, 100.0, 0.0}, lamp_radius, {}, 1, 0};
+        const pt_plane floor{{0.0, 1.0, 0.0}, 1.0, 0, 0};
+        pt_scene scene{};
+        scene.struct_size = sizeof scene;
+        scene.materials = materials;
+        scene.material_count = 2;
+        scene.spheres = &lamp;
+        scene.sphere_count = 1;
+        scene.planes = &floor;
+        scene.plane_count = 1;
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        camera.target[1] = -1.0;
+        camera.up[2] = 1.0;
+        camera.vertical_fov = 1.0;
+        pt_render render{};
+        render.struct_size = sizeof render;
+        render.width = width;
+        render.height = height;
+        render.max_path_length = max_path_length;
+        render.estimator = estimator;
+        ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+        ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+        ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+    }
+
+    uint32_t after(uint32_t sample_count) {
+        accumulate(sample_count);
+        return stats().uncertain;
+    }
+};
+
+constexpr uint32_t unmet = PT_UNCERTAIN_UNMET;
+
+// 1024 pixels take 16384 directions with 16 samples: 164 meet a lamp that covers a hundredth, 2,620 with 256.
+TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
+    for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
+        set_up(20.0, estimator);
+        EXPECT_EQ(after(16) & unmet, unmet) << estimator;
+        EXPECT_EQ(after(240) & unmet, 0U) << estimator;
+    }
+    for (const uint32_t estimator : {PT_ESTIMATOR_LIGHT, PT_ESTIMATOR_MIS}) {
+        set_up(20.0, estimator);
+        EXPECT_EQ(after(16) & unmet, 0U) << estimator;
+    }
+    set_up(20.0, PT_ESTIMATOR_BSDF, 1); // without directions that could meet it
+    EXPECT_EQ(after(16) & unmet, 0U);
+}
+
+// Of a lamp that covers 2.5e-9 nothing is met: a black picture whose parts agree, and no sample says that it is right.
+TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
+    set_up(0.01, PT_ESTIMATOR_BSDF);
+    EXPECT_EQ(after(16), unmet);
+    EXPECT_EQ(stats().relative_rmse_high, std::numeric_limits<double>::infinity());
+    set_up(0.01, PT_ESTIMATOR_MIS);
+    EXPECT_EQ(after(16) & unmet, 0U);
+    EXPECT_TRUE(std::isfinite(stats().relative_rmse_high));
+}
+
+} // namespace
+
+} // namespace uncertain
