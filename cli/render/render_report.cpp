@@ -16,15 +16,23 @@
 namespace cli {
 namespace {
 
-std::vector<std::string> feature_names(std::uint32_t features) {
-    struct Feature {
-        std::uint32_t bit;
-        const char *name;
-    };
+struct BitName {
+    std::uint32_t bit;
+    const char *name;
+};
+
+constexpr std::array feature_names{BitName{PT_FEATURE_LAMPS, "lamps"}, BitName{PT_FEATURE_GLOSS, "gloss"},
+                                   BitName{PT_FEATURE_MOTION, "motion"}, BitName{PT_FEATURE_LARGE, "large"}};
+constexpr std::array uncertainty_names{BitName{PT_UNCERTAIN_RMSE, "rmse"},
+                                       BitName{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
+                                       BitName{PT_UNCERTAIN_UNSEEN, "unseen"}, BitName{PT_UNCERTAIN_UNMET, "unmet"}};
+
+// Of those bits that are set.
+template <std::size_t Count>
+std::vector<std::string> names_of(std::uint32_t bits, const std::array<BitName, Count> &all) {
     std::vector<std::string> names;
-    for (const auto &[bit, name] : {Feature{PT_FEATURE_LAMPS, "lamps"}, Feature{PT_FEATURE_GLOSS, "gloss"},
-                                    Feature{PT_FEATURE_MOTION, "motion"}, Feature{PT_FEATURE_LARGE, "large"}}) {
-        if ((features & bit) != 0) {
+    for (const auto &[bit, name] : all) {
+        if ((bits & bit) != 0) {
             names.emplace_back(name);
         }
     }
@@ -58,22 +66,6 @@ std::string percent_text(double share) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3g%%", 100.0 * share);
     return text.data();
-}
-
-std::vector<std::string> uncertainty_names(std::uint32_t uncertain) {
-    struct Uncertainty {
-        std::uint32_t bit;
-        const char *name;
-    };
-    std::vector<std::string> names;
-    for (const auto &[bit, name] :
-         {Uncertainty{PT_UNCERTAIN_RMSE, "rmse"}, Uncertainty{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
-          Uncertainty{PT_UNCERTAIN_UNSEEN, "unseen"}, Uncertainty{PT_UNCERTAIN_UNMET, "unmet"}}) {
-        if ((uncertain & bit) != 0) {
-            names.emplace_back(name);
-        }
-    }
-    return names;
 }
 
 // Why the relative error may be far off; empty if there is no reason.
@@ -139,7 +131,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"relative_rmse", number_or_null(report.stats.relative_rmse)},
             {"relative_rmse_low", number_or_null(report.stats.relative_rmse_low)},
             {"relative_rmse_high", number_or_null(report.stats.relative_rmse_high)},
-            {"uncertain", uncertainty_names(report.stats.uncertain)},
+            {"uncertain", names_of(report.stats.uncertain, uncertainty_names)},
             {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
             {"target_reached", report.target_reached()},
             {"seconds",
@@ -151,7 +143,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"rejected_samples", report.stats.rejected_samples},
             {"device_bytes", report.stats.device_bytes},
             {"peak_host_bytes", peak_host_bytes()},
-            {"features", feature_names(report.stats.features)},
+            {"features", names_of(report.stats.features, feature_names)},
             {"samples_per_second", samples_per_second(report)},
             {"tone_map", tone_map_json(report)},
             {"warnings", report.warnings}};

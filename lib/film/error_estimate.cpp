@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace pt {
 
@@ -21,10 +22,11 @@ constexpr double normal_95 = 1.96;
 // How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
 constexpr double uncertain_factor = 2.0;
 
-// An estimate that rests on fewer pixels is uncertain.
+// An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(20)) = 11% or more as a rule.
 constexpr double few_pixels = 20.0;
 
-// Nor is it certain if light that no sample has met is expected to add more than this share.
+// Nor is it certain if light that no sample has met is expected to add more than this share, 5% of the root:
+// calibrated.
 constexpr double much_unseen = 0.1;
 
 // Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
@@ -34,7 +36,8 @@ double share_added(double pixel_count) {
     return 0.6 / std::sqrt(pixel_count);
 }
 
-// Plain Halton points are the same in every pixel, so that errors of neighbours are not independent, and scatter more.
+// Plain Halton points are the same in every pixel, so that errors of neighbours are not independent, and scatter more:
+// calibrated.
 double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
@@ -139,41 +142,29 @@ void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t
         }
 }
 
-double ErrorEstimator::Squares::sum() const {
-    double sum = 0.0;
-    for (const Tile &tile : tiles_)
-        sum += tile.square;
-    return sum;
-}
-
 // The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 /
 // n.
 double ErrorEstimator::Squares::pixel_count() const {
-    const double sum = this->sum();
-    return sum > 0.0 ? sum * sum / sum_of_pixel_squares_ : infinity;
+    return sum_ > 0.0 ? sum_ * sum_ / sum_of_pixel_squares_ : infinity;
 }
 
 // Tiles are independent of each other: the variance of their sum is estimated by the sum of the squares of their
 // deviations from the mean. That their expectations differ too only adds to it.
 Interval ErrorEstimator::Squares::root_mean(double other_squares, bool uncertain, double margin,
                                             double exaggeration) const {
-    const double sum = this->sum();
-    double value_count = 0.0;
-    for (const Tile &tile : tiles_)
-        value_count += tile.value_count;
-    const bool shows_nothing = sum + other_squares == 0.0;
-    if (!std::isfinite(sum) || (shows_nothing && uncertain))
+    const bool shows_nothing = sum_ + other_squares == 0.0;
+    if (!std::isfinite(sum_) || (shows_nothing && uncertain))
         return unknown_error().rmse;
     if (shows_nothing)
         return {0.0, 0.0, 0.0};
     double variance = 0.0;
     for (const Tile &tile : tiles_) {
-        const double deviation = tile.square - sum / value_count * tile.value_count;
+        const double deviation = tile.square - sum_ / value_count_ * tile.value_count;
         variance += deviation * deviation;
     }
     const double estimate =
-        std::sqrt((sum + other_squares) / value_count) * (1.0 + share_added(pixel_count())) * margin;
-    const double relative_deviation = sum > 0.0 ? std::sqrt(variance) / sum : 0.0;
+        std::sqrt((sum_ + other_squares) / value_count_) * (1.0 + share_added(pixel_count())) * margin;
+    const double relative_deviation = sum_ > 0.0 ? std::sqrt(variance) / sum_ : 0.0;
     const double spread = std::sqrt(1.0 + normal_95 * relative_deviation) * (uncertain ? uncertain_factor : 1.0);
     return {estimate, estimate / (spread * exaggeration), estimate * spread};
 }

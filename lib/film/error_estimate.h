@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace pt {
@@ -23,7 +22,7 @@ struct Interval {
 struct ErrorEstimate {
     Interval rmse;           // root of the mean of (x - r)^2 over pixels and channels
     Interval relative_rmse;  // of (x - r)^2 / (r^2 + 0.01)
-    std::uint32_t uncertain; // PT_UNCERTAIN_* of pt.h
+    std::uint32_t uncertain; // PT_UNCERTAIN_* of pt/stats.h
 };
 
 // With fewer samples the difference of the film's parts says too little.
@@ -67,10 +66,14 @@ private:
     // Squares that are expected of errors, summed over an image.
     class Squares {
     public:
-        void add_tile(double value_count, double square) { tiles_.push_back({value_count, square}); }
+        void add_tile(double value_count, double square) {
+            tiles_.push_back({value_count, square});
+            value_count_ += value_count;
+            sum_ += square;
+        }
         void add_pixel(double square) { sum_of_pixel_squares_ += square * square; }
 
-        double sum() const;
+        double sum() const { return sum_; }
         // How many pixels with equal errors would make the sum as uncertain.
         double pixel_count() const;
         // The root of their mean, if other squares are added to the sum.
@@ -83,6 +86,8 @@ private:
         };
 
         std::vector<Tile> tiles_;
+        double value_count_ = 0.0; // of all tiles
+        double sum_ = 0.0;
         double sum_of_pixel_squares_ = 0.0;
     };
 

@@ -113,7 +113,8 @@ Neighbourhood neighbourhood(const RegionChannel &channel, std::size_t x, std::si
 double relative_square(double standard_error, double mean, double lesser, double around) {
     const double limit = std::min(squared(mean), squared(std::max(lesser, around))) + relative_offset;
     const double known = squared(lesser) + relative_offset;
-    // With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)).
+    // With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)),
+    // which is 1 for halves, but for the roundings of the three to float.
     const bool most_are_dark = standard_error >= 0.99 * (mean - lesser);
     const bool bright_around = around >= mean;
     constexpr double e_squared = 7.39; // where the logarithm passes 1

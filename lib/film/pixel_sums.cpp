@@ -46,8 +46,8 @@ private:
 };
 
 // Of a + b samples, whose means are those of the first a and the other b. If every sample has the variance v, the
-// square of the difference of the means has the expectation v / a + v / b, and the mean of all has the variance v / (a
-// + b): that square times a b / (a + b)^2.
+// square of the difference of the means has the expectation v / a + v / b, and the mean of all has the variance
+// v / (a + b): that square times a b / (a + b)^2.
 double standard_error(double mean_a, double a, double mean_b, double b) {
     return std::abs(mean_a - mean_b) * std::sqrt(a * b) / (a + b);
 }

@@ -160,7 +160,7 @@ std::vector<DeviceFilm *> Renderer::films() const {
     return films;
 }
 
-bool Renderer::may_miss_lamps() const {
+bool Renderer::may_miss_lamps(std::uint64_t samples) const {
     constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
     const std::uint32_t estimator = settings_->estimator;
     const bool by_chance =
@@ -168,24 +168,22 @@ bool Renderer::may_miss_lamps() const {
         (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
     if (!by_chance)
         return false;
-    const double samples =
-        static_cast<double>(samples_.count()) * static_cast<double>(devices_.front()->film().pixel_count());
     const std::optional<double> share = smallest_lamp_share(scene_->scene, *camera_);
-    return share && samples * *share < enough_meetings;
+    return share && static_cast<double>(samples) * *share < enough_meetings;
 }
 
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
-        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps()});
+        const std::uint64_t samples = samples_.count() * devices_.front()->film().pixel_count();
+        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps(samples)});
         std::uint64_t rejected = 0;
         read_films(films(), samples_, [&](const PixelSums &sums) {
             const PixelEstimates pixels = sums.estimates(scene_->film_unit, true);
             estimator.add(pixels);
             rejected += pixels.rejected;
         });
-        const std::uint64_t samples = samples_.count() * devices_.front()->film().pixel_count();
         error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result();
     }
     return *error_;

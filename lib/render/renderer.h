@@ -112,7 +112,7 @@ private:
     std::vector<DeviceFilm *> films() const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
-    bool may_miss_lamps() const;
+    bool may_miss_lamps(std::uint64_t samples) const; // of all pixels
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
     void take_samples(std::uint64_t count, Job &job);

@@ -16,8 +16,8 @@ void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::spa
 // Throws PT_ERROR_INCOMPATIBLE if the film has no tile with just these pixels, or samples that a context has already.
 void require_addable(const FilmReader &film, const Rectangle &pixels, const SampleSet &present);
 
-// Adds a film of one tile to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that its
-// samples cannot have; hull: of the samples of both, and of all films that are rendered together.
+// Adds a film of one tile to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that
+// its samples cannot have; hull: of the samples of both, and of all films that are rendered together.
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
 
 } // namespace pt

@@ -3,6 +3,7 @@
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
 #include "tests/support/batch_fixture.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -23,11 +24,7 @@ constexpr std::uint32_t height = 16;
 class EstimatorAgreement : public BatchFixture, public testing::WithParamInterface<const char *> {
 protected:
     static pt_render render_of(std::uint32_t max_path_length, std::uint32_t estimator) {
-        pt_render render{};
-        render.struct_size = sizeof render;
-        render.width = width;
-        render.height = height;
-        render.max_path_length = max_path_length;
+        pt_render render = ::render_of(width, height, max_path_length);
         render.estimator = estimator;
         render.seed = 1000 * estimator; // batches of different estimators are independent
         return render;

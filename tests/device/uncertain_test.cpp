@@ -1,5 +1,6 @@
 // Where the error of an image cannot be known, it is called uncertain (pt_stats.uncertain), and why.
 #include "tests/support/context_fixture.h"
+#include "tests/support/scene_of.h"
 
 #include <cmath>
 #include <cstdint>
@@ -18,26 +19,15 @@ class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2) {
         const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
-        const pt_sphere lamp{{0.0, 100.0, 0.0}, lamp_radius, {}, 1, 0};
-        const pt_plane floor{{0.0, 1.0, 0.0}, 1.0, 0, 0};
-        pt_scene scene{};
-        scene.struct_size = sizeof scene;
-        scene.materials = materials;
-        scene.material_count = 2;
-        scene.spheres = &lamp;
-        scene.sphere_count = 1;
-        scene.planes = &floor;
-        scene.plane_count = 1;
+        const pt_sphere lamp[] = {{{0.0, 100.0, 0.0}, lamp_radius, {}, 1, 0}};
+        const pt_plane floor[] = {{{0.0, 1.0, 0.0}, 1.0, 0, 0}};
+        const pt_scene scene = scene_of(materials, lamp, floor);
         pt_camera camera{};
         camera.struct_size = sizeof camera;
         camera.target[1] = -1.0;
         camera.up[2] = 1.0;
         camera.vertical_fov = 1.0;
-        pt_render render{};
-        render.struct_size = sizeof render;
-        render.width = width;
-        render.height = height;
-        render.max_path_length = max_path_length;
+        pt_render render = render_of(width, height, max_path_length);
         render.estimator = estimator;
         ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());

@@ -2,6 +2,7 @@
 // follows the lines of the context's identity, which differ from device to device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
+#include "tests/support/scene_of.h"
 
 #include "lib/film/film_bytes.h"
 
@@ -36,14 +37,9 @@ public:
         info.device = std::getenv("PT_TEST_DEVICE");
         info.log = complain;
         fuzz::require(pt_create(&info, &context_) == PT_OK, pt_last_error(nullptr));
-        const pt_material material{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0};
-        const pt_sphere sphere{{0, 0, -3}, 1, {0, 0, 0}, 0, 0};
-        pt_scene scene{};
-        scene.struct_size = sizeof scene;
-        scene.materials = &material;
-        scene.material_count = 1;
-        scene.spheres = &sphere;
-        scene.sphere_count = 1;
+        const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0}};
+        const pt_sphere sphere[] = {{{0, 0, -3}, 1, {0, 0, 0}, 0, 0}};
+        const pt_scene scene = scene_of(material, sphere, {});
         pt_camera camera{};
         camera.struct_size = sizeof camera;
         camera.target[2] = -1;

@@ -17,6 +17,7 @@ import sys
 from dataclasses import dataclass
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer, smallest  # noqa: E402
 
@@ -39,10 +40,6 @@ class Case:
     ratio: float  # stated / true
     uncertain: bool
     holds: bool  # the true one lies within the bounds
-
-
-def relative_square(image, truth):
-    return math.fsum((x - t) ** 2 / (t * t + 0.01) for x, t in zip(image, truth)) / len(truth)
 
 
 class Calibration:

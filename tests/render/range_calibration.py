@@ -12,6 +12,7 @@ import sys
 from ctypes import POINTER, byref, c_uint64, c_void_p
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 from scene_renderer import SAMPLERS, SceneRenderer  # noqa: E402
 
@@ -56,8 +57,7 @@ class Renderer(SceneRenderer):
         return self.stats().relative_rmse
 
     def true_error(self, truth):
-        squares = [(x - t) ** 2 / (t * t + 0.01) for x, t in zip(self.image(), truth)]
-        return math.sqrt(sum(squares) / len(squares))
+        return math.sqrt(relative_square(self.image(), truth))
 
 
 def main():

@@ -18,13 +18,13 @@ enum {
     PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
 };
 
-/** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further factor
- * of two. */
+/** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further
+ * factor of two. */
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 20 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 20 pixels */
-    /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark pixels
-     * beside very bright ones. */
+    /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
+     * pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** uniform, cosine and bsdf find lamps by chance, and as large as the camera sees it, one of those that matter is
      * expected to have been met less than a thousand times by the samples of all pixels together. */
