@@ -109,6 +109,9 @@ PT_CONSTANT BINDING_SCENE_STORAGE = 1;
 PT_CONSTANT BINDING_FILM = 2;
 PT_CONSTANT BINDING_PASS = 3;
 PT_CONSTANT BINDING_POINTS = 4;
+// Of resolve.comp, beside BINDING_FILM.
+PT_CONSTANT BINDING_RESOLVED = 3;
+PT_CONSTANT BINDING_FINDINGS = 4;
 
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
@@ -149,6 +152,8 @@ PT_CONSTANT FILM_WORDS = 14;
 PT_CONSTANT FILM_MAX_GATHERED = 511;
 // A sample is accepted if all its components, in film units, lie in [0, 2^28): 2^32 of them stay below 2^60.
 PT_CONSTANT FILM_MAX_EXPONENT = 28;
+// Of fewer samples the difference of the parts says next to nothing: no standard error is told.
+PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
 struct FrameConstants {
@@ -170,6 +175,20 @@ struct FrameConstants {
     float start_scale; // camera rays start this times their distance from the image's middle in pixels off the origin
 };
 
+// Of resolve.comp. Pixels are counted row by row over the film.
+struct ResolveConstants {
+    uvec2 sample_counts; // that each pixel must have in the older and in the newer part
+    uint older_part;     // of the two in memory
+    int exponent;        // of the unit in which sums are counted, as a power of two, in radiance
+    uint standard_error; // 1: of the mean, 0: the mean
+    uint film_width;
+    uint strip_first_pixel;
+    uint strip_pixel_count;
+    uint first_pixel; // of the rectangle that is resolved
+    uint width;       // of that rectangle
+    uint pixel_count; // in it
+};
+
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
 static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
@@ -177,6 +196,7 @@ static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConsta
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
+static_assert(sizeof(ResolveConstants) == 44 && offsetof(ResolveConstants, pixel_count) == 40);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

@@ -118,7 +118,7 @@ void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums
 void DeviceFilm::NewSums::replace(const PartUse &parts) {
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (std::size_t i = 0; i < words_.size(); ++i)
-            film_.strips_[i].words.copy(commands, words_[i]);
+            film_.strips_[i].words.copy(commands, words_[i], words_[i].size());
     });
     film_.set_parts(parts);
 }

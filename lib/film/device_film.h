@@ -32,6 +32,7 @@ public:
     // sizes beyond the device.
     DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_t height, std::uint32_t max_strip_pixels);
 
+    std::uint32_t width() const { return width_; }
     std::uint32_t pixel_count() const { return width_ * height_; }
     std::vector<Strip> &strips() { return strips_; }
 

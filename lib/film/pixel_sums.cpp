@@ -1,6 +1,7 @@
 #include "lib/film/pixel_sums.h"
 
 #include "lib/base/error.h"
+#include "lib/film/quotient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +12,6 @@ namespace pt {
 
 namespace {
 
-__extension__ using Wide = unsigned __int128;
-
-// Of fewer samples the two parts say next to nothing.
-constexpr std::uint64_t min_error_samples = 9;
-
-double fixed_point_value(Wide sum) {
-    // unsigned __int128 to double rounds once, to nearest; a power of two does not round again.
-    constexpr double last_place = 1.0 / static_cast<double>(Wide{1} << gpu::FILM_FRACTION_BITS);
-    return static_cast<double>(sum) * last_place;
-}
-
 // One pixel of one part.
 class PartPixel {
 public:
@@ -30,8 +20,8 @@ public:
     std::uint32_t accepted() const { return word(gpu::FILM_ACCEPTED); }
     std::uint64_t done() const { return std::uint64_t{word(gpu::FILM_ACCEPTED)} + word(gpu::FILM_REJECTED); }
 
-    Wide sum(std::size_t channel) const {
-        Wide sum = 0;
+    WideSum sum(std::size_t channel) const {
+        WideSum sum = 0;
         for (std::size_t i = gpu::FILM_SUM_WORDS; i-- > 0;)
             sum = sum << 32 | word(channel * gpu::FILM_SUM_WORDS + i);
         return sum;
@@ -44,13 +34,6 @@ private:
     std::uint32_t part_;
     std::size_t pixel_;
 };
-
-// Of a + b samples, whose means are those of the first a and the other b. If every sample has the variance v, the
-// square of the difference of the means has the expectation v / a + v / b, and the mean of all has the variance
-// v / (a + b): that square times a b / (a + b)^2.
-double standard_error(double mean_a, double a, double mean_b, double b) {
-    return std::abs(mean_a - mean_b) * std::sqrt(a * b) / (a + b);
-}
 
 // Adds the words of one part to those of another, plane by plane: a sum's carries go from each word to the next.
 void add_part(PixelSums &to, std::uint32_t to_part, const PixelSums &from, std::uint32_t from_part) {
@@ -107,8 +90,8 @@ bool PixelSums::holds(const PartCounts &expected) const {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
         for (std::size_t index = 0; index < pixel_count_; ++index) {
             const PartPixel pixel(*this, part, index);
-            const Wide bound = Wide{pixel.accepted()} << (gpu::FILM_MAX_EXPONENT + gpu::FILM_FRACTION_BITS);
-            const Wide brightest = std::max({pixel.sum(0), pixel.sum(1), pixel.sum(2)});
+            const WideSum bound = WideSum{pixel.accepted()} << (gpu::FILM_MAX_EXPONENT + gpu::FILM_FRACTION_BITS);
+            const WideSum brightest = std::max({pixel.sum(0), pixel.sum(1), pixel.sum(2)});
             if (pixel.done() != expected[part] || brightest > bound)
                 return false;
         }
@@ -116,6 +99,7 @@ bool PixelSums::holds(const PartCounts &expected) const {
 }
 
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
+    const int exponent = std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
     PixelEstimates estimates;
     estimates.radiance.reserve(3 * pixel_count_);
     for (auto *const values : {&estimates.standard_error, &estimates.lesser})
@@ -124,25 +108,24 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
         const PartPixel a(*this, older_part, pixel);
         const PartPixel b(*this, newer_part, pixel);
         const std::uint32_t accepted = a.accepted() + b.accepted();
-        const bool knows_error = a.done() + b.done() >= min_error_samples;
+        const bool knows_error =
+            a.done() + b.done() >= gpu::FILM_MIN_ERROR_SAMPLES && a.accepted() > 0 && b.accepted() > 0;
         estimates.rejected += a.done() + b.done() - accepted;
         for (std::size_t channel = 0; channel < 3; ++channel) {
-            const Wide sum_a = a.sum(channel);
-            const Wide sum_b = b.sum(channel);
-            const double mean = accepted > 0 ? fixed_point_value(sum_a + sum_b) / accepted : 0.0;
-            estimates.radiance.push_back(static_cast<float>(mean * unit));
+            const WideSum sum_a = a.sum(channel);
+            const WideSum sum_b = b.sum(channel);
+            estimates.radiance.push_back(mean_of(sum_a + sum_b, accepted, exponent));
             if (!with_standard_error)
                 continue;
-            if (!(knows_error && a.accepted() > 0 && b.accepted() > 0)) {
+            if (!knows_error) {
                 estimates.standard_error.push_back(std::numeric_limits<float>::infinity());
                 estimates.lesser.push_back(0.0F);
                 continue;
             }
-            const double mean_a = fixed_point_value(sum_a) / a.accepted();
-            const double mean_b = fixed_point_value(sum_b) / b.accepted();
-            const double error = standard_error(mean_a, a.accepted(), mean_b, b.accepted());
-            estimates.standard_error.push_back(static_cast<float>(error * unit));
-            estimates.lesser.push_back(static_cast<float>(std::min(mean_a, mean_b) * unit));
+            const PartDifference parts = part_difference(sum_a, a.accepted(), sum_b, b.accepted(), exponent);
+            estimates.standard_error.push_back(parts.standard_error);
+            estimates.lesser.push_back(parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent)
+                                                           : mean_of(sum_b, b.accepted(), exponent));
         }
     }
     return estimates;

@@ -51,7 +51,7 @@ public:
     // Whether so many samples can have these sums: each of those accepted is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
 
-    // Radiance is the mean in units.
+    // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
     bool operator==(const PixelSums &) const = default;

@@ -161,10 +161,10 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             const SampleRange extended = hull_of(hull, batch.range());
             const bool folds = slice.whole && parts.needs_fold(extended);
             if (!is_first && (folds || !overlap_))
-                vulkan::barrier_between_dispatches(commands);
+                vulkan::barrier_between_commands(commands);
             if (folds) {
                 dispatch(commands, pipelines_.fold(), all_pixels, batch, 0, 1);
-                vulkan::barrier_between_dispatches(commands);
+                vulkan::barrier_between_commands(commands);
             }
             if (slice.whole)
                 parts.extend(extended);
@@ -185,7 +185,7 @@ vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, 
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (folds) {
             dispatch(commands, pipelines_.fold(), range, batch, 0, 1);
-            vulkan::barrier_between_dispatches(commands);
+            vulkan::barrier_between_commands(commands);
         }
         dispatch(commands, pipelines_.commit(), range, batch, parts.part_of(sample), 1);
     });

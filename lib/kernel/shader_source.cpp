@@ -7,6 +7,7 @@
 #include "lib/base/error.h"
 #include "lib/glsl_module/glsl_module.h"
 #include "pathtrace.spv.h"
+#include "resolve.spv.h"
 
 #include <algorithm>
 #include <dlfcn.h>
@@ -88,11 +89,12 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
 
 bool KernelCode::operator==(const KernelCode &other) const {
     return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
-           std::ranges::equal(fold, other.fold) && std::ranges::equal(accuracy, other.accuracy);
+           std::ranges::equal(fold, other.fold) && std::ranges::equal(resolve, other.resolve) &&
+           std::ranges::equal(accuracy, other.accuracy);
 }
 
 KernelCode embedded_code() {
-    return {pathtrace_spirv, commit_spirv, fold_spirv, accuracy_spirv, nullptr};
+    return {pathtrace_spirv, commit_spirv, fold_spirv, resolve_spirv, accuracy_spirv, nullptr};
 }
 
 KernelCode ShaderSource::read() const {
@@ -100,9 +102,9 @@ KernelCode ShaderSource::read() const {
         return embedded_code();
     const pt_compile_glsl_fn compiler = load_compiler();
     auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
-    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "accuracy.comp"})
+    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "resolve.comp", "accuracy.comp"})
         compiled->push_back(compile(compiler, directory_, name));
-    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], compiled};
+    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4], compiled};
 }
 
 } // namespace pt

@@ -22,8 +22,10 @@ constexpr double assumed_film_pixels_per_second = 4e6;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds) :
-    device_(instance, physical_device, std::move(logical_device)),
+                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds,
+                           const vulkan::DevicePolicy &policy) :
+    device_(instance, physical_device, std::move(logical_device), policy),
+    code_(code),
     pipelines_(std::make_unique<TracePipelines>(device_, code)),
     target_seconds_(target_seconds) {
     under_way_.reserve(device_.policy().queue_depth);
@@ -52,7 +54,8 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 }
 
 void RenderDevice::set_film(DeviceFilm film) {
-    kernel_.reset(); // its descriptor sets name the old film
+    kernel_.reset(); // their descriptor sets name the old film
+    image_reader_.reset();
     film_ = std::move(film);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
@@ -77,9 +80,12 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
     return pipelines;
 }
 
-void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
-    kernel_.reset(); // it uses the old ones
+void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) {
+    kernel_.reset(); // they use the old ones
+    image_reader_.reset();
+    resolve_.reset();
     pipelines_ = std::move(pipelines);
+    code_ = code;
 }
 
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
@@ -101,6 +107,15 @@ DeviceFilm &RenderDevice::film() {
         finish();
     }
     return *film_;
+}
+
+ImageReader &RenderDevice::image_reader() {
+    DeviceFilm &film = this->film();
+    if (!resolve_)
+        resolve_.emplace(resolve_pipeline(device_, code_.resolve));
+    if (!image_reader_)
+        image_reader_.emplace(device_, *resolve_, film);
+    return *image_reader_;
 }
 
 void RenderDevice::discard_pass() {

@@ -4,6 +4,7 @@
 
 #include "lib/film/device_film.h"
 #include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
@@ -23,7 +24,8 @@ class RenderDevice {
 public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds);
+                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds,
+                 const vulkan::DevicePolicy &policy);
     // Waits for what is under way, as long as the device's patience allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
@@ -36,6 +38,9 @@ public:
     DeviceFilm &film();
     std::uint32_t pixel_count() const { return film_->pixel_count(); }
 
+    // Of the film, brought up to date.
+    ImageReader &image_reader();
+
     // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
@@ -46,7 +51,7 @@ public:
     // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
     // driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
-    void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
+    void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines);
 
     // Makes the kernel, unless it is there. After set_film.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
@@ -99,9 +104,12 @@ private:
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 
     vulkan::Device device_;
+    KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
+    std::optional<vulkan::ComputePipeline> resolve_; // of the code, once an image was read
     std::optional<DeviceFilm> film_;
+    std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel
     std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path

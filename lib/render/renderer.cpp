@@ -64,8 +64,10 @@ void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSet
 
 void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
                           const CreateSettings &settings) {
+    const vulkan::DevicePolicy policy =
+        settings.like_gpus ? vulkan::gpu_like_policy() : vulkan::default_policy(vulkan::describe(physical_device));
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
-                                                      settings.submit_milliseconds * 1e-3));
+                                                      settings.submit_milliseconds * 1e-3, policy));
     log().info([&] {
         const pt_device_info &info = devices_.back()->device().info();
         return std::string("renders on ") + info.name + " (" + info.driver + ")";
@@ -130,7 +132,7 @@ void Renderer::set_code(const KernelCode &code) {
         pipelines.push_back(device->make_pipelines(code));
     discard_samples();
     for (std::size_t i = 0; i < pipelines.size(); ++i)
-        devices_[i]->set_pipelines(std::move(pipelines[i]));
+        devices_[i]->set_pipelines(code, std::move(pipelines[i]));
     code_ = code;
 }
 
@@ -158,6 +160,13 @@ std::vector<DeviceFilm *> Renderer::films() const {
     for (const auto &device : devices_)
         films.push_back(&device->film());
     return films;
+}
+
+// Sums of several devices meet on the host, as do those in parts that a sample of another device has moved.
+bool Renderer::resolves_on_device() const {
+    RenderDevice &device = *devices_.front();
+    return devices_.size() == 1 && device.device().policy().resolve_on_device &&
+           device.film().parts().split() == split_of(samples_.hull());
 }
 
 bool Renderer::may_miss_lamps(std::uint64_t samples) const {
@@ -305,14 +314,26 @@ void Renderer::readback(const Image &image) {
     require_settings();
     require_samples();
     const std::size_t width = settings_->width;
-    std::size_t pixel = 0;
+    std::size_t value = 0;
+    const auto receive = [&](std::span<const float> values) {
+        for (const std::size_t row_values = 3 * width; !values.empty();) {
+            const std::size_t count = std::min(values.size(), row_values - value % row_values);
+            std::ranges::copy(values.first(count),
+                              image.data + value / row_values * image.row_floats + value % row_values);
+            values = values.subspan(count);
+            value += count;
+        }
+    };
     const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
     const double unit = scene_->film_unit;
+    if (resolves_on_device()) {
+        devices_.front()->image_reader().read(
+            {{0, 0, settings_->width, settings_->row_count}, is_error, unit, part_counts(samples_)}, receive);
+        return;
+    }
     read_films(films(), samples_, [&](const PixelSums &sums) {
         const PixelEstimates pixels = sums.estimates(unit, is_error);
-        const std::vector<float> &values = is_error ? pixels.standard_error : pixels.radiance;
-        for (std::size_t i = 0; i < values.size(); i += 3, ++pixel)
-            std::copy_n(&values[i], 3, image.data + pixel / width * image.row_floats + pixel % width * 3);
+        receive(is_error ? pixels.standard_error : pixels.radiance);
     });
 }
 

@@ -38,6 +38,7 @@ struct CreateSettings {
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
     std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
+    bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
 };
 
 // The caller's pt_progress_fn.
@@ -110,6 +111,7 @@ private:
     bool is_in_pass() const;
     const Kernel &kernel() const { return *devices_.front()->kernel(); }
     std::vector<DeviceFilm *> films() const;
+    bool resolves_on_device() const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
     bool may_miss_lamps(std::uint64_t samples) const; // of all pixels

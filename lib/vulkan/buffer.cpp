@@ -56,6 +56,10 @@ Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
         constexpr std::array wanted = {Property::eDeviceLocal | host_visible, host_visible};
         return {device, bytes, Usage::eUniformBuffer, wanted, host_visible};
     }
+    if (use == BufferUse::HostRead) {
+        constexpr std::array wanted = {host_readable, host_visible};
+        return {device, bytes, Usage::eTransferDst, wanted, host_visible};
+    }
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::UniformOrStorage)
         usage |= Usage::eUniformBuffer;
@@ -189,8 +193,13 @@ void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset
     commands.fillBuffer(handle(), offset, bytes, 0);
 }
 
-void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other) const {
-    commands.copyBuffer(other.handle(), handle(), vk::BufferCopy{.size = size()});
+std::span<const std::byte> Buffer::host_bytes() const {
+    return {state_->allocation.mapped, state_->bytes};
+}
+
+void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
+                  std::uint64_t offset) const {
+    commands.copyBuffer(other.handle(), handle(), vk::BufferCopy{.dstOffset = offset, .size = bytes});
 }
 
 } // namespace pt::vulkan

@@ -14,7 +14,8 @@ namespace pt::vulkan {
 enum class BufferUse {
     Storage,          // kernels read and write it
     UniformOrStorage, // kernels read it either way
-    Streamed          // kernels read it as uniform; the host writes it often, and never waits to do so
+    Streamed,         // kernels read it as uniform; the host writes it often, and never waits to do so
+    HostRead          // copied to, and read by the host in place once that has ended
 };
 
 // A part of a buffer and where its bytes go.
@@ -40,11 +41,15 @@ public:
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
+    // What is in a buffer for the host to read.
+    std::span<const std::byte> host_bytes() const;
+
     // Records that bytes become 0. Offset and size likewise.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
-    // Records that its bytes become those of another of its size.
-    void copy(const vk::raii::CommandBuffer &commands, const Buffer &other) const;
+    // Records that bytes from an offset on become the first of another buffer.
+    void copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
+              std::uint64_t offset = 0) const;
 
 private:
     struct State;

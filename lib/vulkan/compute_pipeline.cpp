@@ -13,10 +13,11 @@ namespace {
 vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<const vk::DescriptorType> types) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (std::uint32_t i = 0; i < types.size(); ++i)
-        bindings.push_back({.binding = i,
-                            .descriptorType = types[i],
-                            .descriptorCount = 1,
-                            .stageFlags = vk::ShaderStageFlagBits::eCompute});
+        if (types[i] != no_binding)
+            bindings.push_back({.binding = i,
+                                .descriptorType = types[i],
+                                .descriptorCount = 1,
+                                .stageFlags = vk::ShaderStageFlagBits::eCompute});
     return device.handle().createDescriptorSetLayout(
         {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
@@ -71,7 +72,8 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
     return translated("binding buffers", [&] {
         std::vector<vk::DescriptorPoolSize> sizes;
         for (const vk::DescriptorType type : bindings_)
-            sizes.push_back({.type = type, .descriptorCount = 1});
+            if (type != no_binding)
+                sizes.push_back({.type = type, .descriptorCount = 1});
         DescriptorSet set;
         set.pool_ = {
             *device_,
@@ -83,6 +85,8 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
                            {.descriptorPool = *set.pool_, .descriptorSetCount = 1, .pSetLayouts = &layout})[0]
                        .release();
         for (std::uint32_t i = 0; i < bindings_.size(); ++i) {
+            if (bindings_[i] == no_binding)
+                continue;
             const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer ||
                                  bindings_[i] == vk::DescriptorType::eUniformBufferDynamic;
             const std::uint64_t range =

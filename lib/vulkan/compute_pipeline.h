@@ -22,14 +22,17 @@ private:
     vk::DescriptorSet set_; // freed with its pool
 };
 
+// Stands for a number that no binding has.
+inline constexpr auto no_binding = static_cast<vk::DescriptorType>(VK_DESCRIPTOR_TYPE_MAX_ENUM);
+
 class ComputePipeline {
 public:
-    // bindings[i] is the type of binding i of set 0; constants[i] are the bits of the specialization constant with id
+    // bindings[i] is the type of binding i of set 0, or no_binding; constants[i] are the bits of the specialization constant with id
     // i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 
-    // buffers[i] goes to binding i.
+    // buffers[i] goes to binding i; NULL where there is none.
     DescriptorSet bind(std::span<Buffer *const> buffers) const;
 
     // Records a dispatch of group_count workgroups along x, and rows of them along y. offsets: of the dynamic bindings

@@ -63,7 +63,17 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
             .scene_in_constants = cpu,
             .invocations = cpu ? 0U : busy_gpu_invocations,
-            .queue_depth = cpu ? 1U : 2U};
+            .queue_depth = cpu ? 1U : 2U,
+            .resolve_on_device = !cpu};
+}
+
+DevicePolicy gpu_like_policy() {
+    return {.patience = std::chrono::nanoseconds::max(),
+            .share_memory = false,
+            .scene_in_constants = false,
+            .invocations = busy_gpu_invocations,
+            .queue_depth = 2,
+            .resolve_on_device = true};
 }
 
 Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device) :
@@ -229,8 +239,8 @@ void Device::wait(const Submission &submission) {
     }
 }
 
-void barrier_between_dispatches(const vk::raii::CommandBuffer &commands) {
-    write_barrier(commands, Stage::eComputeShader, Access::eShaderRead | Access::eShaderWrite | Access::eUniformRead);
+void barrier_between_commands(const vk::raii::CommandBuffer &commands) {
+    write_barrier(commands, device_stages, device_accesses);
 }
 
 } // namespace pt::vulkan

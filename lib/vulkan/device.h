@@ -31,9 +31,13 @@ struct DevicePolicy {
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
     std::uint32_t invocations; // that keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
+    bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 
 DevicePolicy default_policy(const pt_device_info &info);
+
+// That of a GPU, but for its patience: tests reach with it on a CPU what only GPUs do.
+DevicePolicy gpu_like_policy();
 
 class Device {
 public:
@@ -131,7 +135,7 @@ private:
     bool abandoned_ = false;
 };
 
-// Makes what the dispatches before it wrote visible to those after it.
-void barrier_between_dispatches(const vk::raii::CommandBuffer &commands);
+// Makes what the commands before it wrote visible to those after it.
+void barrier_between_commands(const vk::raii::CommandBuffer &commands);
 
 } // namespace pt::vulkan

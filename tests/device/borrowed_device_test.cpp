@@ -87,8 +87,8 @@ protected:
         const CallerVulkan handles = this->handles(with_lock);
         Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(),
-                                0.05);
+        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(), 0.05,
+                                pt::vulkan::default_policy(pt::vulkan::describe(physical)));
         const QueueSpy spy(device.device().handle());
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
         device.set_film(device.make_film(settings));

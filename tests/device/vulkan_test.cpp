@@ -176,7 +176,7 @@ TEST_P(VulkanTransferTest, DispatchesSeeEachOther) {
     recurrence.run(2); // in another submission
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         recurrence.record(commands, 3);
-        pt::vulkan::barrier_between_dispatches(commands);
+        pt::vulkan::barrier_between_commands(commands);
         recurrence.record(commands, 4);
     });
     const std::uint32_t expected = Recurrence::expected(Recurrence::expected(Recurrence::expected(0, 2), 3), 4);
@@ -265,7 +265,7 @@ TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
         device().submit([&](const vk::raii::CommandBuffer &commands) {
             for (const std::uint32_t part : {2U, 0U}) {
                 pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1, std::array{part * range});
-                pt::vulkan::barrier_between_dispatches(commands);
+                pt::vulkan::barrier_between_commands(commands);
             }
         });
         EXPECT_EQ(download(values, 0, 64), std::vector<std::uint32_t>(64, expected));

@@ -1,0 +1,127 @@
+#include "lib/film/quotient.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace pt {
+
+namespace {
+
+// A whole number below 2^160.
+struct Number {
+    WideSum high;      // multiples of 2^32
+    std::uint32_t low; // the rest
+
+    auto operator<=>(const Number &) const = default;
+};
+
+Number product(WideSum sum, std::uint32_t count) {
+    const WideSum low = (sum & UINT32_MAX) * count;
+    return {(sum >> 32) * count + (low >> 32), static_cast<std::uint32_t>(low)};
+}
+
+Number difference(const Number &a, const Number &b) {
+    return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};
+}
+
+// Its leading 64 bits, the first of which is set: bits * 2^exponent, or more by less than 2^exponent if inexact.
+struct LeadingBits {
+    std::uint64_t bits;
+    int exponent;
+    bool inexact;
+};
+
+// Of a number that is not 0.
+LeadingBits leading_bits(WideSum number) {
+    const auto high = static_cast<std::uint64_t>(number >> 64);
+    const auto low = static_cast<std::uint64_t>(number);
+    if (high == 0) {
+        const int zeros = std::countl_zero(low);
+        return {low << zeros, -zeros, false};
+    }
+    const int zeros = std::countl_zero(high);
+    return {static_cast<std::uint64_t>((number << zeros) >> 64), 64 - zeros, low << zeros != 0};
+}
+
+LeadingBits leading_bits(const Number &number) {
+    if (number.high == 0)
+        return leading_bits(WideSum{number.low});
+    LeadingBits leading = leading_bits(number.high);
+    leading.exponent += 32;
+    if (leading.exponent >= 32) {
+        leading.inexact = leading.inexact || number.low != 0;
+        return leading;
+    }
+    // Of a short high part the low one fills the rest: no more than 63 bits are missing, of which it has 32.
+    const int missing = 32 - leading.exponent;
+    const std::uint64_t low = std::uint64_t{number.low} << 32;
+    leading.bits |= low >> (64 - missing);
+    leading.inexact = low << missing != 0;
+    return leading;
+}
+
+// quotient * 2^exponent, or a little more if that is inexact, rounded to nearest, ties to even. quotient has 26 bits at
+// least.
+float rounded(std::uint64_t quotient, int exponent, bool inexact) {
+    // Of 26 bits more than the last of a float is left; the others count as a little more.
+    const int further = 63 - 25 - std::countl_zero(quotient);
+    const auto leading = static_cast<std::uint32_t>(quotient >> further);
+    inexact = inexact || std::uint64_t{leading} << further != quotient;
+    const int magnitude = 25 + further + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
+    if (magnitude > 127)
+        return std::numeric_limits<float>::infinity();
+    // Of a float with the exponent -126 or less the last bit is 2^-149.
+    const int float_exponent = std::max(magnitude, -126);
+    const int dropped = std::min(2 + float_exponent - magnitude, 31);
+    const std::uint32_t kept = leading >> dropped;
+    const std::uint32_t rest = leading & ((1U << dropped) - 1);
+    const std::uint32_t half_of_last = 1U << (dropped - 1);
+    const bool up = rest > half_of_last || (rest == half_of_last && (inexact || kept % 2 == 1));
+    // The leading one of a normal float adds the last 1 to the exponent's bits, and so does a carry.
+    return std::bit_cast<float>((static_cast<std::uint32_t>(float_exponent + 126) << 23) + kept + (up ? 1U : 0U));
+}
+
+float quotient(const LeadingBits &dividend, std::uint32_t divisor, int exponent) {
+    return rounded(dividend.bits / divisor, dividend.exponent + exponent,
+                   dividend.inexact || dividend.bits % divisor != 0);
+}
+
+// The largest whole number whose square is no more. The root of the double nearest to the square may be off by one.
+std::uint32_t square_root(std::uint64_t square) {
+    auto root = static_cast<std::uint64_t>(std::min(std::sqrt(static_cast<double>(square)), 0x1.fffffffep31));
+    while (root * root > square)
+        --root;
+    while (root < UINT32_MAX && (root + 1) * (root + 1) <= square)
+        ++root;
+    return static_cast<std::uint32_t>(root);
+}
+
+} // namespace
+
+float mean_of(WideSum sum, std::uint32_t count, int exponent) {
+    return sum == 0 || count == 0 ? 0.0F : quotient(leading_bits(sum), count, exponent);
+}
+
+// The numerator |A b - B a| is exact; the root is cut to 32 bits and so is the denominator (a + b) sqrt(a b), each by
+// less than a 2^31th.
+PartDifference part_difference(WideSum sum_a, std::uint32_t a, WideSum sum_b, std::uint32_t b, int exponent) {
+    const Number product_a = product(sum_a, b);
+    const Number product_b = product(sum_b, a);
+    if (product_a == product_b)
+        return {0.0F, false};
+    const bool first_is_less = product_a < product_b;
+    const Number numerator = first_is_less ? difference(product_b, product_a) : difference(product_a, product_b);
+
+    const std::uint64_t square = std::uint64_t{a} * b;
+    const int shift = std::countl_zero(square) / 2;
+    const std::uint32_t root = square_root(square << (2 * shift)); // times 2^shift
+    const std::uint64_t denominator = (std::uint64_t{a} + b) * root;
+    const int dropped = 32 - std::countl_zero(denominator);
+    return {quotient(leading_bits(numerator), static_cast<std::uint32_t>(denominator >> dropped),
+                     exponent + shift - dropped),
+            first_is_less};
+}
+
+} // namespace pt

@@ -1,0 +1,47 @@
+// Turns the film's sums into an image: one invocation per pixel of a rectangle, which may reach beyond the strip.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "gpu_layout.h"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { ResolveConstants resolve; };
+
+#include "film_mean.glsl"
+
+layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint values[]; } resolved; // bits of floats
+layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // whose samples a driver lost
+
+// Of fewer samples the two parts say next to nothing.
+bool knows_error(PartCount older, PartCount newer)
+{
+    return older.done + newer.done >= FILM_MIN_ERROR_SAMPLES && older.accepted > 0u && newer.accepted > 0u;
+}
+
+uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newer)
+{
+    uvec4 sum_older = part_sum(resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
+    uvec4 sum_newer = part_sum(1u - resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
+    if (resolve.standard_error == 0u)
+        return mean_bits(add_with_carry(sum_older, sum_newer), older.accepted + newer.accepted, resolve.exponent);
+    if (!knows_error(older, newer))
+        return INFINITY_BITS;
+    return part_difference(sum_older, older.accepted, sum_newer, newer.accepted, resolve.exponent).standard_error;
+}
+
+void main()
+{
+    uint index = gl_GlobalInvocationID.x;
+    if (index >= resolve.pixel_count)
+        return;
+    uint pixel = resolve.first_pixel + index / resolve.width * resolve.film_width + index % resolve.width;
+    uint pixel_in_strip = pixel - resolve.strip_first_pixel;
+    if (pixel_in_strip >= resolve.strip_pixel_count)
+        return;
+    PartCount older = part_count(resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
+    PartCount newer = part_count(1u - resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
+    if (uvec2(older.done, newer.done) != resolve.sample_counts)
+        atomicAdd(findings.lost_pixels, 1u);
+    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel)
+        resolved.values[3u * index + channel] = value_of(channel, pixel_in_strip, older, newer);
+}
