@@ -30,6 +30,14 @@ std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, st
     return words * sizeof(std::uint32_t);
 }
 
+void require_memory(const vulkan::Device &device, std::uint64_t bytes, const std::string &what) {
+    const std::uint64_t in_use = device.allocated_bytes();
+    if (!device.has_memory(in_use + bytes))
+        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY, what + " takes " + std::to_string(bytes) + " bytes beside the " +
+                                                       std::to_string(in_use) + " in use, and the device has " +
+                                                       std::to_string(device.info().memory_bytes));
+}
+
 } // namespace
 
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits) {
@@ -46,9 +54,8 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(max_strip_pixels, pixel_count() - first);
         const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
-        const std::uint64_t pass_bytes = std::uint64_t{count} * sizeof(glm::vec4);
-        strips_.push_back({first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"),
-                           vulkan::Buffer(device, vulkan::BufferUse::Storage, pass_bytes, "split pass")});
+        strips_.push_back(
+            {first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"), std::nullopt});
         first += count;
     }
 }
@@ -60,17 +67,28 @@ void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t fi
         const Overlap pixels(strip, first_pixel, pixel_count);
         if (pixels.count == 0)
             continue;
-        for (const vulkan::Buffer *buffer : {&strip.words, &strip.pass}) {
-            const std::uint64_t share = buffer->size() / strip.pixel_count; // bytes
-            buffer->clear(commands, (pixels.first - strip.first_pixel) * share, pixels.count * share);
-        }
+        const auto clear_share = [&](const vulkan::Buffer &buffer) {
+            const std::uint64_t share = buffer.size() / strip.pixel_count; // bytes
+            buffer.clear(commands, (pixels.first - strip.first_pixel) * share, pixels.count * share);
+        };
+        clear_share(strip.words);
+        if (strip.pass)
+            clear_share(*strip.pass);
     }
     parts_ = {};
 }
 
+void DeviceFilm::make_pass(vulkan::Device &device) {
+    require_memory(device, pixel_count() * sizeof(glm::vec4), "a sample that is split over submissions");
+    for (Strip &strip : strips_)
+        if (!strip.pass)
+            strip.pass.emplace(device, vulkan::BufferUse::Storage, strip.pixel_count * sizeof(glm::vec4), "split pass");
+}
+
 void DeviceFilm::clear_pass(const vk::raii::CommandBuffer &commands) {
     for (const Strip &strip : strips_)
-        strip.pass.clear(commands, 0, strip.pass.size());
+        if (strip.pass)
+            strip.pass->clear(commands, 0, strip.pass->size());
 }
 
 void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums) {
@@ -94,11 +112,7 @@ void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums 
 
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
     const std::uint64_t bytes = film.pixel_count() * PixelSums::words_per_pixel * sizeof(std::uint32_t);
-    const std::uint64_t in_use = device.allocated_bytes();
-    if (!device.has_memory(in_use + bytes))
-        throw Error(PT_ERROR_OUT_OF_DEVICE_MEMORY,
-                    "a sum of films takes " + std::to_string(bytes) + " bytes beside the " + std::to_string(in_use) +
-                        " in use, and the device has " + std::to_string(device.info().memory_bytes));
+    require_memory(device, bytes, "a sum of films");
     for (const Strip &strip : film.strips_)
         words_.emplace_back(device, vulkan::BufferUse::Storage, strip.words.size(), "sum of films");
 }

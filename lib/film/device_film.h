@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,12 +22,12 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words; // gpu::FILM_WORDS planes of each part
-        vulkan::Buffer pass;  // one vec4 per pixel: samples of a split pass
+        vulkan::Buffer words;               // gpu::FILM_WORDS planes of each part
+        std::optional<vulkan::Buffer> pass; // one vec4 per pixel: samples of a split pass, if there has been one
     };
 
-    static constexpr std::uint64_t bytes_per_pixel =
-        PixelSums::words_per_pixel * sizeof(std::uint32_t) + sizeof(glm::vec4);
+    // Without passes.
+    static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
     // Its memory has to be cleared before it is used. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
     // sizes beyond the device.
@@ -39,6 +40,10 @@ public:
     // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
     // takes samples.
     void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);
+
+    // Makes room for split passes. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. Before the first one it has to be cleared.
+    void make_pass(vulkan::Device &device);
+    bool has_pass() const { return strips_.back().pass.has_value(); }
 
     // Records that nothing of a split pass is left.
     void clear_pass(const vk::raii::CommandBuffer &commands);

@@ -69,21 +69,34 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     sharers_(sharers_of_pixel(device, film.pixel_count())),
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
-    words_(gpu_scene_->words),
-    scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, words_.size()), "scene"),
+    scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice") {
-    scene_.upload(std::as_bytes(words_), 0);
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
+    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     for (DeviceFilm::Strip &strip : film_.strips()) {
-        const std::array buffers = {&scene_, &scene_, &strip.words, &strip.pass, &points_};
+        // No kernel touches the pass before there is one.
+        const std::array buffers = {&scene_, &scene_, &strip.words, &strip.words, &points_};
         sets_.push_back(trace.bind(buffers));
     }
 }
 
+bool Kernel::can_show(const GpuScene &scene) const {
+    return scene.features == features_ && scene.words.size() == gpu_scene_->words.size();
+}
+
+void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) {
+    gpu_scene_ = std::move(scene);
+    sampler_ = settings.sampler;
+    seed_ = settings.seed;
+    first_pixel_ = settings.first_row * settings.width;
+    frame_ = gpu_scene_->frame;
+    scene_is_old_ = true;
+    seconds_ = 0.0;
+}
+
 void Kernel::build(TracePipelines &pipelines) const {
-    pipelines.trace(features_, sharers_, words_, seconds_);
+    pipelines.trace(features_, sharers_, gpu_scene_->words, seconds_);
     pipelines.commit();
     pipelines.fold();
 }
@@ -130,7 +143,8 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
     frame.first_sample = batch.first_sample;
     frame.sample_count = batch.sample_count;
     const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-    for (std::size_t i = 0; i < sets_.size(); ++i) {
+    const std::vector<vulkan::DescriptorSet> &sets = pass_sets_.empty() ? sets_ : pass_sets_;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
         const std::uint32_t first = std::max(slice.first_pixel, strip.first_pixel);
         const std::uint32_t end = std::min(slice_end, strip.first_pixel + strip.pixel_count);
@@ -141,21 +155,44 @@ void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::Com
         frame.first_pixel = first - strip.first_pixel;
         frame.pixel_count = end - first;
         const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
-        pipeline.dispatch(commands, sets_[i], std::as_bytes(std::span(&frame, 1)), groups, {{batch.table_offset}},
+        pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups, {{batch.table_offset}},
                           invocations_per_pixel);
     }
 }
 
+// A scene of usual size comes with the commands; for others there is a transfer of their own. Idle, or no change.
+void Kernel::upload_scene() {
+    if (scene_is_old_ && !scene_fits_commands()) {
+        scene_.upload(std::as_bytes(std::span(gpu_scene_->words)), 0);
+        scene_is_old_ = false;
+    }
+}
+
+bool Kernel::scene_fits_commands() const {
+    return gpu_scene_->words.size() * sizeof(glm::vec4) <= vulkan::max_recorded_bytes;
+}
+
 // Where the film's split moves, its parts are folded before the batch that moves it.
-vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull) {
+vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
+                                     bool on_cleared_film) {
     const Slice all_pixels{0, film_.pixel_count(), 1, true};
-    PartUse parts = film_.parts();
+    PartUse parts = on_cleared_film ? PartUse{} : film_.parts();
     const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count, hull);
     upload_points(batches);
+    upload_scene();
+    const bool makes_pass = !slice.whole && !film_.has_pass();
     if (!slice.whole)
-        build_commit();
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, words_, seconds_);
+        prepare_pass();
+    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
+        if (scene_is_old_)
+            scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));
+        if (on_cleared_film)
+            film_.clear(commands, 0, film_.pixel_count());
+        else if (makes_pass)
+            film_.clear_pass(commands);
+        if (scene_is_old_ || on_cleared_film || makes_pass)
+            vulkan::barrier_between_commands(commands);
         for (const Batch &batch : batches) {
             const bool is_first = &batch == &batches.front();
             const SampleRange extended = hull_of(hull, batch.range());
@@ -171,6 +208,7 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             dispatch(commands, trace, slice, batch, parts.part_of(batch.first_sample), sharers_);
         }
     });
+    scene_is_old_ = false;
     film_.set_parts(parts);
     return ticket;
 }
@@ -194,10 +232,20 @@ vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, 
     return ticket;
 }
 
-// Built before the pass starts, so that adding it cannot fail for lack of pipelines.
-void Kernel::build_commit() {
+// All that the pass needs before it starts, so that adding it cannot fail for lack of something.
+void Kernel::prepare_pass() {
     pipelines_.commit();
     pipelines_.fold();
+    film_.make_pass(device_);
+    if (!pass_sets_.empty())
+        return;
+    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
+    std::vector<vulkan::DescriptorSet> sets;
+    for (DeviceFilm::Strip &strip : film_.strips()) {
+        const std::array buffers = {&scene_, &scene_, &strip.words, &*strip.pass, &points_};
+        sets.push_back(trace.bind(buffers));
+    }
+    pass_sets_ = std::move(sets);
 }
 
 double Kernel::finish(vulkan::Device::Ticket ticket) {

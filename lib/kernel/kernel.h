@@ -1,5 +1,5 @@
-// The path-tracing kernel, ready to run: specialised to scene, camera and settings, with the buffers that it reads.
-// Owned by RenderDevice, which makes a new one when any of them changes.
+// The path-tracing kernel, ready to run: specialised to what scenes have in common, with the buffers that it reads.
+// Owned by RenderDevice, which makes a new one for a scene with other features.
 #pragma once
 
 #include "lib/film/device_film.h"
@@ -29,6 +29,11 @@ public:
 
     const Features &features() const { return features_; }
 
+    // The scene that is rendered next; those that show() takes have as much in common with it as a kernel asks for. Idle.
+    const GpuScene &scene() const { return *gpu_scene_; }
+    bool can_show(const GpuScene &scene) const;
+    void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
+
     // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the
     // driver refuses that.
     void build(TracePipelines &pipelines) const;
@@ -38,8 +43,9 @@ public:
 
     // Starts to take the samples of a slice, of which first_sample is the index of the first; those of a split pass are
     // kept aside. hull: of the samples that this device and others that render the same have begun before. At most the
-    // device's queue_depth of slices may be under way.
-    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull);
+    // device's queue_depth of slices may be under way. on_cleared_film: all pixels of the film are cleared first.
+    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
+                                 bool on_cleared_film);
 
     // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
     // holds whole samples again with the range that ends it.
@@ -60,7 +66,9 @@ private:
 
     std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count, SampleRange hull);
     void upload_points(const std::vector<Batch> &batches);
-    void build_commit();
+    void prepare_pass();
+    void upload_scene();
+    bool scene_fits_commands() const;
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
                   const Batch &batch, std::uint32_t film_part, std::uint32_t invocations_per_pixel) const;
 
@@ -78,12 +86,13 @@ private:
     std::uint32_t sharers_;              // invocations to a pixel
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
-    std::span<const glm::vec4> words_;   // of gpu_scene_
     vulkan::Buffer scene_;
-    vulkan::Buffer points_;                   // tables of the slices under way
-    std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
-    std::uint32_t next_table_ = 0;            // in points_, which is used in turn
-    double seconds_ = 0.0;                    // of all slices so far
+    vulkan::Buffer points_;                        // tables of the slices under way
+    std::vector<vulkan::DescriptorSet> sets_;      // one per strip of the film
+    std::vector<vulkan::DescriptorSet> pass_sets_; // likewise with the pass, if there has been one
+    std::uint32_t next_table_ = 0;                 // in points_, which is used in turn
+    bool scene_is_old_ = true;                     // the buffer does not have the scene yet
+    double seconds_ = 0.0;                         // of all slices of the scene so far
 };
 
 } // namespace pt

@@ -12,12 +12,12 @@ namespace pt {
 
 namespace {
 
-// Ray-surface tests a second that any device manages: an eighth of what two CPU cores do. The first slice is sized by
-// it; measured slices size the rest.
-constexpr double assumed_tests_per_second = 2.5e8;
+// Pixels of the film that a device empties, or adds a sample to, in the time of a ray-surface test: a few hundred bytes
+// in the time of a few additions, by far.
+constexpr double film_pixels_per_test = 1.0 / 64.0;
 
-// Likewise pixels of the film that it empties, or adds a sample to.
-constexpr double assumed_film_pixels_per_second = 4e6;
+// With another kernel tests may take longer than those that were measured.
+constexpr double share_assumed_of_learnt = 0.125;
 
 } // namespace
 
@@ -59,15 +59,13 @@ void RenderDevice::set_film(DeviceFilm film) {
     film_ = std::move(film);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
-    limits.first_slice_paths = target_seconds_ * assumed_film_pixels_per_second;
+    limits.first_slice_paths = target_seconds_ * device_.policy().tests_per_second * film_pixels_per_test;
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     film_schedule_.emplace(film_->pixel_count(), limits);
     discard_samples();
 }
 
 void RenderDevice::discard_samples() noexcept {
-    if (!device_.hangs()) // else the destructor sees to it, by when the work may have ended
-        kernel_.reset();
     pass_pixels_ = 0;
     uncommitted_pixels_ = 0;
     uncleared_pixels_ = film_ ? film_->pixel_count() : 0;
@@ -88,14 +86,27 @@ void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePi
     code_ = code;
 }
 
+// The schedule goes on where it was if the kernel does: what a sample costs is much the same. For another kernel it
+// begins with what this device manages, as far as that is known.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
-    if (kernel_)
+    if (kernel_ && &kernel_->scene() == scene.get())
         return;
+    if (kernel_ && kernel_->can_show(*scene)) {
+        kernel_->show(scene, settings);
+        return;
+    }
+    double tests_per_second = device_.policy().tests_per_second;
+    if (kernel_) {
+        const auto tests_per_path = static_cast<double>(surface_tests_per_path(kernel_->features()));
+        const double learnt = schedule_->budget() * tests_per_path / target_seconds_;
+        tests_per_second = std::max(tests_per_second, learnt * share_assumed_of_learnt);
+    }
+    kernel_.reset(); // before the new one takes memory
     kernel_.emplace(device_, *pipelines_, *film_, scene, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =
-        target_seconds_ * assumed_tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
+        target_seconds_ * tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
     limits.max_samples = kernel_->max_samples();
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     schedule_.emplace(film_->pixel_count(), limits);
@@ -124,10 +135,15 @@ void RenderDevice::discard_pass() {
 }
 
 std::uint32_t RenderDevice::start(const SampleRange &samples, const SampleRange &hull) {
-    if (!film_is_behind())
+    if (!film_is_behind() || (can_clear_at_once() && !samples.empty()))
         return start_samples(samples, hull);
     start_film_work();
     return 0;
+}
+
+// In the submission that takes the first samples.
+bool RenderDevice::can_clear_at_once() const {
+    return uncleared_pixels_ == film_->pixel_count() && film_schedule_->next(1, 0).whole;
 }
 
 void RenderDevice::start_film_work() {
@@ -147,7 +163,8 @@ std::uint32_t RenderDevice::start_samples(const SampleRange &samples, const Samp
     const auto remaining = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(samples.count(), 1, UINT32_MAX));
     const Slice slice = schedule_->next(remaining, pass_pixels_);
     const std::uint32_t first_sample = in_pass ? pass_sample_ : static_cast<std::uint32_t>(samples.first);
-    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull), false});
+    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull, uncleared_pixels_ > 0), false});
+    uncleared_pixels_ = 0;
     if (!slice.whole) {
         const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
         const bool is_complete = slice_end == film_->pixel_count();

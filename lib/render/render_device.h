@@ -45,7 +45,7 @@ public:
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
 
-    // What the film holds is void. The kernel has to be prepared anew.
+    // What the film holds is void.
     void discard_samples() noexcept;
 
     // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
@@ -53,9 +53,8 @@ public:
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
     void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines);
 
-    // Makes the kernel, unless it is there. After set_film.
+    // Makes the kernel, or shows it this scene, unless it has it. After set_film. Idle.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
-    const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
 
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
     std::uint32_t pass_pixels() const { return pass_pixels_; }
@@ -76,7 +75,7 @@ public:
     bool film_is_behind() const { return uncleared_pixels_ + uncommitted_pixels_ > 0; }
 
     // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
-    // these samples. hull: of those that this device and others have begun before. Returns how many samples the slice
+    // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and others have begun before. Returns how many samples the slice
     // has begun: 0 for the film and within a pass. has_room() must hold.
     std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
 
@@ -100,6 +99,7 @@ private:
         bool on_film; // takes no samples
     };
 
+    bool can_clear_at_once() const;
     void start_film_work();
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 

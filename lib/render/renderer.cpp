@@ -388,7 +388,7 @@ pt_stats Renderer::stats(bool with_error) {
         stats.rejected_samples += readable && !samples_.empty() ? device->film().rejected_samples() : 0;
         stats.device_bytes += device->device().allocated_bytes();
     }
-    stats.features = devices_.front()->kernel() ? feature_bits(kernel().features()) : 0;
+    stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     stats.rmse = error.rmse.estimate;
     stats.rmse_low = error.rmse.low;

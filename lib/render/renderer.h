@@ -109,7 +109,6 @@ private:
     void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
     bool is_in_pass() const;
-    const Kernel &kernel() const { return *devices_.front()->kernel(); }
     std::vector<DeviceFilm *> films() const;
     bool resolves_on_device() const;
     FilmIdentity identity() const;

@@ -30,6 +30,9 @@ public:
     // it goes on from there, whatever the budget has become.
     Slice next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_done) const;
 
+    // Paths that are expected to take the time of a submission.
+    double budget() const { return budget_; }
+
     // Learns from the time a slice took. Times that are negative or NaN are ignored.
     void measured(const Slice &slice, double seconds);
 

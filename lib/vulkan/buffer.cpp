@@ -189,6 +189,11 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
     });
 }
 
+void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
+    commands.updateBuffer<std::byte>(
+        handle(), 0, vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(data.size()), data.data()));
+}
+
 void Buffer::clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const {
     commands.fillBuffer(handle(), offset, bytes, 0);
 }

@@ -24,6 +24,9 @@ struct BufferPiece {
     std::uint64_t offset;
 };
 
+// What Vulkan lets commands carry.
+inline constexpr std::uint64_t max_recorded_bytes = 65'536;
+
 class Buffer {
 public:
     // what names it in error messages. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. The device must outlive the buffer.
@@ -43,6 +46,9 @@ public:
 
     // What is in a buffer for the host to read.
     std::span<const std::byte> host_bytes() const;
+
+    // Records that the first bytes of it become these: no more than max_recorded_bytes.
+    void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
     // Records that bytes become 0. Offset and size likewise.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;

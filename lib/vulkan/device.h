@@ -31,6 +31,9 @@ struct DevicePolicy {
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
     std::uint32_t invocations; // that keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
+    // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
+    // the rest. By default an eighth of what two CPU cores do.
+    double tests_per_second = 2.5e8;
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 

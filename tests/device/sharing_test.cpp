@@ -77,7 +77,10 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
         EXPECT_EQ(stats.device_count, 3U);
         EXPECT_EQ(stats.sample_count, 77U);
         EXPECT_EQ(stats.relative_rmse, stats_of(alone.get()).relative_rmse);
-        EXPECT_EQ(stats.device_bytes, 3 * stats_of(alone.get()).device_bytes);
+        // A device that has split a sample over submissions keeps 16 bytes a pixel for that.
+        const uint64_t without_passes = 3 * stats_of(alone.get()).device_bytes;
+        EXPECT_GE(stats.device_bytes, without_passes);
+        EXPECT_LE(stats.device_bytes, without_passes + uint64_t{3} * 16 * shared_width * shared_height);
     }
 }
 
