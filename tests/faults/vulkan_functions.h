@@ -68,4 +68,5 @@
     X(CmdDispatch, None)                                                                                               \
     X(CmdPipelineBarrier, None)                                                                                        \
     X(CmdCopyBuffer, None)                                                                                             \
-    X(CmdFillBuffer, None)
+    X(CmdFillBuffer, None)                                                                                             \
+    X(CmdUpdateBuffer, None)
