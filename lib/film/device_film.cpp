@@ -79,6 +79,8 @@ void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t fi
 }
 
 void DeviceFilm::make_pass(vulkan::Device &device) {
+    if (has_pass())
+        return;
     require_memory(device, pixel_count() * sizeof(glm::vec4), "a sample that is split over submissions");
     for (Strip &strip : strips_)
         if (!strip.pass)

@@ -21,7 +21,10 @@ class Context {
 public:
     explicit Context(uint64_t memory_bytes) {
         faults::limit_memory(memory_bytes);
-        EXPECT_EQ(pt_create(nullptr, &context_), PT_OK) << pt_last_error(nullptr);
+        pt_create_info create{};
+        create.struct_size = sizeof create;
+        create.submit_milliseconds = 1;
+        EXPECT_EQ(pt_create(&create, &context_), PT_OK) << pt_last_error(nullptr);
         const CourseworkScene coursework;
         const pt_scene scene = coursework.scene();
         const pt_camera camera = CourseworkScene::camera();
@@ -37,17 +40,21 @@ public:
 
     std::string message() const { return pt_last_error(context_); }
 
-    pt_result set_render(uint32_t first_sample) {
-        pt_render render = render_of(width, height, 2);
+    pt_result set_render(uint32_t first_sample, uint32_t max_path_length = 2) {
+        pt_render render = render_of(width, height, max_path_length);
         render.first_sample = first_sample;
         return pt_set_render(context_, &render);
+    }
+
+    pt_result accumulate(uint32_t sample_count) {
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0};
+        return pt_accumulate(context_, &info);
     }
 
     // The sample with an index alone.
     void take(uint32_t index) {
         EXPECT_EQ(set_render(index), PT_OK) << message();
-        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0};
-        EXPECT_EQ(pt_accumulate(context_, &info), PT_OK) << message();
+        EXPECT_EQ(accumulate(1), PT_OK) << message();
     }
 
     pt_result add(const std::vector<char> &film) { return pt_add_film(context_, film.data(), film.size()); }
@@ -98,8 +105,29 @@ TEST(DeviceMemoryTest, AFilmIsAddedWhereItsSumsFitInTwice) {
     EXPECT_TRUE(just_enough.film() == both) << "another sum";
 }
 
+// Paths so long that a sample of all pixels takes several submissions are kept aside until all have theirs.
+TEST(DeviceMemoryTest, ASplitSampleNeedsMemoryOfItsOwn) {
+    const auto take = [](Context &context) {
+        EXPECT_EQ(context.set_render(0, 1000), PT_OK) << context.message();
+        return context.accumulate(1);
+    };
+    constexpr uint64_t pass_bytes = uint64_t{16} * width * height;
+    Context roomy(UINT64_MAX);
+    ASSERT_EQ(take(roomy), PT_OK) << roomy.message();
+    const uint64_t in_use = roomy.bytes_in_use() - pass_bytes;
+
+    Context full(in_use + pass_bytes - 1);
+    EXPECT_EQ(take(full), PT_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_EQ(full.message(), "a sample that is split over submissions takes " + std::to_string(pass_bytes) +
+                                  " bytes beside the " + std::to_string(in_use) + " in use, and the device has " +
+                                  std::to_string(in_use + pass_bytes - 1));
+    EXPECT_EQ(full.bytes_in_use(), in_use);
+    Context just_enough(in_use + pass_bytes);
+    EXPECT_EQ(take(just_enough), PT_OK) << just_enough.message();
+}
+
 TEST(DeviceMemoryTest, AnImageIsRefusedWhereItDoesNotFit) {
-    const uint64_t film_bytes = sums_bytes + uint64_t{16} * width * height;
+    constexpr uint64_t film_bytes = sums_bytes;
     Context small(film_bytes - 1);
     EXPECT_EQ(small.set_render(0), PT_ERROR_UNSUPPORTED);
     EXPECT_EQ(small.message().rfind("render.width * rows = 24 * 20: the film takes " + std::to_string(film_bytes) +
