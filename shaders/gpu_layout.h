@@ -109,7 +109,7 @@ PT_CONSTANT BINDING_SCENE_STORAGE = 1;
 PT_CONSTANT BINDING_FILM = 2;
 PT_CONSTANT BINDING_PASS = 3;
 PT_CONSTANT BINDING_POINTS = 4;
-// Of resolve.comp, beside BINDING_FILM.
+// Of resolve.comp and estimate.comp, beside BINDING_FILM.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
 
@@ -155,6 +155,26 @@ PT_CONSTANT FILM_MAX_EXPONENT = 28;
 // Of fewer samples the difference of the parts says next to nothing: no standard error is told.
 PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 
+// ---- The error of an image -----------------------------------------------------------------------------------------
+// Pixels of a region's side, and of a tile's, of which a region has 4 x 4: large against what neighbours share, small
+// enough for hundreds of tiles in a small image.
+PT_CONSTANT REGION_SIZE = 32;
+PT_CONSTANT TILE_SIZE = 8;
+PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
+
+// What a tile adds to the error of the image, in film units.
+struct TileError {
+    float square;          // sum over pixels and channels of what is expected of (x - r)^2
+    float square_shares;   // sum of the squares of the pixels' shares in it
+    float relative_square; // the same of (x - r)^2 / (r^2 + offset^2), times relative_scale^2
+    float relative_shares;
+    float unseen;         // the same of light that no sample met, not scaled
+    uint unknown_pixels;  // without a sample in either part
+    uint lost_pixels;     // whose samples a driver lost
+    uint reserved;
+    uvec2 rejected;       // samples, low and high word
+};
+
 // ---- Push constants ----------------------------------------------------------------------------------------------
 struct FrameConstants {
     vec3 camera_right; // unit vector
@@ -189,6 +209,18 @@ struct ResolveConstants {
     uint pixel_count; // in it
 };
 
+// Of estimate.comp, for a strip of whole rows.
+struct EstimateConstants {
+    uvec2 sample_counts; // that each pixel must have in the older and in the newer part
+    uint older_part;     // of the two in memory
+    uint film_width;
+    uint strip_pixel_count;
+    uint row_count;
+    float sample_count;    // of a pixel
+    float relative_offset; // in film units
+    float relative_scale;
+};
+
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
 static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
@@ -197,6 +229,7 @@ static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameCo
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
 static_assert(sizeof(ResolveConstants) == 44 && offsetof(ResolveConstants, pixel_count) == 40);
+static_assert(sizeof(EstimateConstants) == 36 && sizeof(TileError) == 40 && offsetof(TileError, rejected) == 32);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

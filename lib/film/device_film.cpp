@@ -23,11 +23,27 @@ struct Overlap {
     }
 };
 
+// The largest strip that is whole rows of regions, or whatever fits if a row does not.
+std::uint32_t strip_pixels(std::uint32_t width, std::uint32_t most) {
+    const std::uint64_t row_of_regions = std::uint64_t{width} * gpu::REGION_SIZE;
+    return row_of_regions > most ? most : static_cast<std::uint32_t>(most / row_of_regions * row_of_regions);
+}
+
 // Of a pixel's word in the buffer of a strip, in bytes.
 std::uint64_t word_offset(const DeviceFilm::Strip &strip, std::uint32_t part, std::size_t plane, std::uint32_t pixel) {
     const std::uint64_t words =
         (std::uint64_t{part} * gpu::FILM_WORDS + plane) * strip.pixel_count + (pixel - strip.first_pixel);
     return words * sizeof(std::uint32_t);
+}
+
+// To words that are, or are to be, those of a strip.
+void write_sums(const DeviceFilm::Strip &strip, vulkan::Buffer &words, std::uint32_t first_pixel,
+                const PixelSums &sums) {
+    const Overlap pixels(strip, first_pixel, sums.pixel_count());
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+        for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
+            words.upload(std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
+                         word_offset(strip, part, plane, pixels.first));
 }
 
 void require_memory(const vulkan::Device &device, std::uint64_t bytes, const std::string &what) {
@@ -52,7 +68,7 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     width_(width),
     height_(height) {
     for (std::uint32_t first = 0; first < pixel_count();) {
-        const std::uint32_t count = std::min(max_strip_pixels, pixel_count() - first);
+        const std::uint32_t count = std::min(strip_pixels(width, max_strip_pixels), pixel_count() - first);
         const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
         strips_.push_back(
             {first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"), std::nullopt});
@@ -112,6 +128,16 @@ void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums 
         sums.fold_into(parts_.split() < split ? older_part : newer_part);
 }
 
+bool DeviceFilm::has_whole_regions() const {
+    return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{width_} * gpu::REGION_SIZE) == 0;
+}
+
+void DeviceFilm::write(const PixelSums &sums, const PartUse &parts) {
+    for (Strip &strip : strips_)
+        write_sums(strip, strip.words, 0, sums);
+    parts_ = parts;
+}
+
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
     const std::uint64_t bytes = film.pixel_count() * PixelSums::words_per_pixel * sizeof(std::uint32_t);
     require_memory(device, bytes, "a sum of films");
@@ -120,15 +146,8 @@ DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_
 }
 
 void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums) {
-    for (std::size_t i = 0; i < words_.size(); ++i) {
-        const Strip &strip = film_.strips_[i];
-        const Overlap pixels(strip, first_pixel, sums.pixel_count());
-        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && pixels.count > 0; ++plane)
-                words_[i].upload(
-                    std::as_bytes(sums.plane(part, plane).subspan(pixels.first - first_pixel, pixels.count)),
-                    word_offset(strip, part, plane, pixels.first));
-    }
+    for (std::size_t i = 0; i < words_.size(); ++i)
+        write_sums(film_.strips_[i], words_[i], first_pixel, sums);
 }
 
 void DeviceFilm::NewSums::replace(const PartUse &parts) {
@@ -153,20 +172,19 @@ std::uint64_t DeviceFilm::rejected_samples() {
     return total;
 }
 
-void for_each_piece(std::uint32_t pixel_count, const std::function<void(std::uint32_t, std::uint32_t)> &function) {
-    // Were planes a power of two apart, the words of a pixel would contend for one set of the processor's cache.
-    constexpr std::uint32_t piece_pixels = 130'000;
-    for (std::uint32_t first = 0; first < pixel_count; first += std::min(piece_pixels, pixel_count - first))
-        function(first, std::min(piece_pixels, pixel_count - first));
+void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
+                    const std::function<void(std::uint32_t, std::uint32_t)> &function) {
+    for (std::uint32_t first = 0; first < pixel_count; first += std::min(most_pixels, pixel_count - first))
+        function(first, std::min(most_pixels, pixel_count - first));
 }
 
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples,
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive) {
     const std::uint64_t split = split_of(samples.hull());
     const PartCounts expected = part_counts(samples);
     PixelSums sums;
     PixelSums others;
-    for_each_piece(films.front()->pixel_count(), [&](std::uint32_t first, std::uint32_t count) {
+    for_each_piece(films.front()->pixel_count(), most_pixels, [&](std::uint32_t first, std::uint32_t count) {
         sums.resize(count);
         films.front()->read(first, split, sums);
         for (DeviceFilm *film : films.subspan(1)) {

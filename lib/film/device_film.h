@@ -52,6 +52,12 @@ public:
     const PartUse &parts() const { return parts_; }
     void set_parts(const PartUse &parts) { parts_ = parts; }
 
+    // Whether its strips are whole rows of regions, as estimates of its error want them (gpu_layout.h).
+    bool has_whole_regions() const;
+
+    // Sets the sums of its first pixels, all of them in parts as used.
+    void write(const PixelSums &sums, const PartUse &parts);
+
     // Sets the sums of as many consecutive pixels, in the parts of a film with this split that has these samples and
     // others.
     void read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums);
@@ -85,14 +91,18 @@ private:
     PartUse parts_;
 };
 
-// Reads the sum of films of one size, which together hold these samples, in pieces of consecutive pixels, the first
-// beginning with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples,
+// Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the
+// first beginning with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive);
 
-// Calls function(first pixel, number of pixels) for the pieces of consecutive pixels in which films are read and
-// written, so that a large image is not held twice.
-void for_each_piece(std::uint32_t pixel_count, const std::function<void(std::uint32_t, std::uint32_t)> &function);
+// Pixels of the pieces in which films are read and written, so that a large image is not held twice. Were planes a
+// power of two apart, the words of a pixel would contend for one set of the processor's cache.
+inline constexpr std::uint32_t piece_pixels = 130'000;
+
+// Calls function(first pixel, number of pixels) for consecutive pieces.
+void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
+                    const std::function<void(std::uint32_t, std::uint32_t)> &function);
 
 // The largest strip that a device can bind, in pixels.
 std::uint32_t max_strip_pixels(const vulkan::Limits &limits);

@@ -71,6 +71,7 @@ double exaggeration(std::uint32_t sampler) {
 }
 
 void ErrorEstimator::add(const PixelEstimates &pixels) {
+    rejected_ += pixels.rejected;
     const std::size_t band_values = 3 * region_size * conditions_.width;
     for (std::size_t first = 0; first < pixels.radiance.size();) {
         const std::size_t count = std::min(band_values - radiance_.size(), pixels.radiance.size() - first);
@@ -126,20 +127,26 @@ void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t
         for (std::size_t first = 0; first < width; first += tile_size) {
             const std::size_t bottom = std::min(top + tile_size, height);
             const std::size_t last = std::min(first + tile_size, width);
-            ValueError tile{};
+            TileErrors tile{};
             for (std::size_t y = top; y < bottom; ++y)
                 for (std::size_t x = first; x < last; ++x) {
                     const ValueError &pixel = pixels[y * width + x];
                     tile.square += pixel.square;
+                    tile.square_of_pixels += pixel.square * pixel.square;
                     tile.relative_square += pixel.relative_square;
-                    squares_.add_pixel(pixel.square);
-                    relative_squares_.add_pixel(pixel.relative_square);
-                    unseen_ += pixel.unseen;
+                    tile.relative_square_of_pixels += pixel.relative_square * pixel.relative_square;
+                    tile.unseen += pixel.unseen;
                 }
-            const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
-            squares_.add_tile(value_count, tile.square);
-            relative_squares_.add_tile(value_count, tile.relative_square);
+            tile.value_count = static_cast<double>(3 * (bottom - top) * (last - first));
+            add(tile);
         }
+}
+
+void ErrorEstimator::add(const TileErrors &tile) {
+    squares_.add(tile.value_count, tile.square, tile.square_of_pixels);
+    relative_squares_.add(tile.value_count, tile.relative_square, tile.relative_square_of_pixels);
+    unseen_ += tile.unseen;
+    rejected_ += tile.rejected;
 }
 
 // The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 /

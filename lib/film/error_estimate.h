@@ -52,6 +52,17 @@ struct SampleConditions {
     bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
 };
 
+// What a tile of pixels says.
+struct TileErrors {
+    double value_count;               // pixels times channels
+    double square;                    // sum of what is expected of (x - r)^2; infinite if it is unknown
+    double square_of_pixels;          // sum over pixels of the squares of their sums over channels
+    double relative_square;           // the same of (x - r)^2 / (r^2 + 0.01)
+    double relative_square_of_pixels; // likewise
+    double unseen;                    // the same of light that no sample met
+    std::uint64_t rejected;           // samples left out
+};
+
 class ErrorEstimator {
 public:
     explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
@@ -59,19 +70,25 @@ public:
     // Takes consecutive pixels with their standard errors, the first being the first of the image.
     void add(const PixelEstimates &pixels);
 
-    // Of all pixels taken: whole rows, at least one.
+    // Takes a tile of pixels. The last bits of the result depend on the order of the tiles.
+    void add(const TileErrors &tile);
+
+    // Of all pixels taken, at least one row.
     ErrorEstimate result();
+
+    // Samples left out of them.
+    std::uint64_t rejected() const { return rejected_; }
 
 private:
     // Squares that are expected of errors, summed over an image.
     class Squares {
     public:
-        void add_tile(double value_count, double square) {
+        void add(double value_count, double square, double square_of_pixels) {
             tiles_.push_back({value_count, square});
             value_count_ += value_count;
             sum_ += square;
+            sum_of_pixel_squares_ += square_of_pixels;
         }
-        void add_pixel(double square) { sum_of_pixel_squares_ += square * square; }
 
         double sum() const { return sum_; }
         // How many pixels with equal errors would make the sum as uncertain.
@@ -102,6 +119,7 @@ private:
     Squares squares_;
     Squares relative_squares_;
     double unseen_ = 0.0;
+    std::uint64_t rejected_ = 0;
 };
 
 } // namespace pt

@@ -8,9 +8,6 @@ namespace pt {
 
 namespace {
 
-// Keeps black pixels from counting without bound.
-constexpr double relative_offset = 0.01;
-
 double squared(double value) {
     return value * value;
 }

@@ -1,16 +1,20 @@
-// What the pixels of a region say about the error of an image. It depends on nothing outside the region, so regions can
+// What the pixels of a region say about the error of an image, on the host; pixel_error.glsl and estimate.comp say the
+// same on devices. It depends on nothing outside the region, so regions can
 // be looked at in any order and anywhere.
 #pragma once
+
+#include "shaders/gpu_layout.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace pt {
 
-// Pixels of a region's side, and of a tile's, of which a region has 4 x 4: large against what neighbours share, small
-// enough for hundreds of tiles in a small image.
-inline constexpr std::size_t region_size = 32;
-inline constexpr std::size_t tile_size = 8;
+inline constexpr std::size_t region_size = gpu::REGION_SIZE;
+inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
+
+// Keeps black pixels from counting without bound.
+inline constexpr double relative_offset = 0.01;
 
 // One channel of the pixels of a region, row by row; at the right and bottom edges of an image regions are smaller.
 struct RegionChannel {

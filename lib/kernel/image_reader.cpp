@@ -13,7 +13,7 @@ namespace pt {
 namespace {
 
 // Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
-constexpr std::uint32_t piece_pixels = 1U << 18;
+constexpr std::uint32_t read_pixels = 1U << 18;
 
 constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
 
@@ -45,7 +45,7 @@ vulkan::ComputePipeline resolve_pipeline(vulkan::Device &device, std::span<const
 // The device resolves a piece, and copies it, while the host takes the one before.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const float>)> &receive) {
     const std::uint64_t total = query.pixels.pixel_count();
-    const std::uint64_t rows_in_piece = std::max(piece_pixels / query.pixels.width, 1U);
+    const std::uint64_t rows_in_piece = std::max(read_pixels / query.pixels.width, 1U);
     const std::uint64_t most = std::min(rows_in_piece * query.pixels.width, total);
     const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, (total + most - 1) / most);
     for (std::size_t i = 0; i < slot_count; ++i)

@@ -3,6 +3,7 @@
 
 #include "accuracy.spv.h"
 #include "commit.spv.h"
+#include "estimate.spv.h"
 #include "fold.spv.h"
 #include "lib/base/error.h"
 #include "lib/glsl_module/glsl_module.h"
@@ -90,11 +91,11 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
 bool KernelCode::operator==(const KernelCode &other) const {
     return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
            std::ranges::equal(fold, other.fold) && std::ranges::equal(resolve, other.resolve) &&
-           std::ranges::equal(accuracy, other.accuracy);
+           std::ranges::equal(estimate, other.estimate) && std::ranges::equal(accuracy, other.accuracy);
 }
 
 KernelCode embedded_code() {
-    return {pathtrace_spirv, commit_spirv, fold_spirv, resolve_spirv, accuracy_spirv, nullptr};
+    return {pathtrace_spirv, commit_spirv, fold_spirv, resolve_spirv, estimate_spirv, accuracy_spirv, nullptr};
 }
 
 KernelCode ShaderSource::read() const {
@@ -102,9 +103,10 @@ KernelCode ShaderSource::read() const {
         return embedded_code();
     const pt_compile_glsl_fn compiler = load_compiler();
     auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
-    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "resolve.comp", "accuracy.comp"})
+    for (const char *const name :
+         {"pathtrace.comp", "commit.comp", "fold.comp", "resolve.comp", "estimate.comp", "accuracy.comp"})
         compiled->push_back(compile(compiler, directory_, name));
-    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4], compiled};
+    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4], (*compiled)[5], compiled};
 }
 
 } // namespace pt

@@ -16,6 +16,7 @@ struct KernelCode {
     std::span<const std::uint32_t> commit;
     std::span<const std::uint32_t> fold;
     std::span<const std::uint32_t> resolve;
+    std::span<const std::uint32_t> estimate;
     std::span<const std::uint32_t> accuracy;
     std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> compiled; // what these refer to; empty if embedded
 
@@ -27,8 +28,8 @@ KernelCode embedded_code();
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, commit.comp, fold.comp, resolve.comp, accuracy.comp and what they include; empty:
-    // the embedded code.
+    // A folder with pathtrace.comp, commit.comp, fold.comp, resolve.comp, estimate.comp, accuracy.comp and what they
+    // include; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }

@@ -56,6 +56,7 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 void RenderDevice::set_film(DeviceFilm film) {
     kernel_.reset(); // their descriptor sets name the old film
     image_reader_.reset();
+    error_reader_.reset();
     film_ = std::move(film);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
@@ -81,7 +82,9 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) {
     kernel_.reset(); // they use the old ones
     image_reader_.reset();
+    error_reader_.reset();
     resolve_.reset();
+    estimate_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
 }
@@ -127,6 +130,19 @@ ImageReader &RenderDevice::image_reader() {
     if (!image_reader_)
         image_reader_.emplace(device_, *resolve_, film);
     return *image_reader_;
+}
+
+const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {
+    if (!estimate_)
+        estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate));
+    return *estimate_;
+}
+
+ErrorReader &RenderDevice::error_reader() {
+    DeviceFilm &film = this->film();
+    if (!error_reader_)
+        error_reader_.emplace(device_, estimate_pipeline(), film);
+    return *error_reader_;
 }
 
 void RenderDevice::discard_pass() {

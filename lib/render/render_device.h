@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/kernel/error_reader.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
@@ -40,6 +41,10 @@ public:
 
     // Of the film, brought up to date.
     ImageReader &image_reader();
+    ErrorReader &error_reader();
+
+    // What reads errors of other films.
+    const vulkan::ComputePipeline &estimate_pipeline();
 
     // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
     DeviceFilm make_film(const RenderSettings &settings);
@@ -107,9 +112,11 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    std::optional<vulkan::ComputePipeline> resolve_; // of the code, once an image was read
+    std::optional<vulkan::ComputePipeline> resolve_;  // of the code, once an image was read
+    std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
+    std::optional<ErrorReader> error_reader_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel
     std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path

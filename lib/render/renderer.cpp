@@ -84,6 +84,7 @@ void Renderer::discard_samples() noexcept {
         device->discard_samples();
     samples_ = {};
     error_.reset();
+    rejected_samples_.reset();
 }
 
 void Renderer::set_scene(Scene scene) {
@@ -185,17 +186,43 @@ const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
-        const std::uint64_t samples = samples_.count() * devices_.front()->film().pixel_count();
+        const std::uint64_t samples = samples_.count() * devices_.front()->pixel_count();
         ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps(samples)});
-        std::uint64_t rejected = 0;
-        read_films(films(), samples_, [&](const PixelSums &sums) {
-            const PixelEstimates pixels = sums.estimates(scene_->film_unit, true);
-            estimator.add(pixels);
-            rejected += pixels.rejected;
-        });
-        error_ = hides_error(rejected, samples) ? unknown_error() : estimator.result();
+        estimate_error(estimator);
+        rejected_samples_ = estimator.rejected();
+        error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
     return *error_;
+}
+
+// On the first device, if it is of those that do so; else on the host. Sums of several devices meet on the host, and
+// then go to the first device in rows of regions: an image has the same estimate on one device and on several.
+void Renderer::estimate_error(ErrorEstimator &estimator) {
+    RenderDevice &device = *devices_.front();
+    const double unit = scene_->film_unit;
+    const auto add = [&](const TileErrors &tile) { estimator.add(tile); };
+    if (!device.device().policy().resolve_on_device || !device.film().has_whole_regions()) {
+        read_films(films(), samples_, piece_pixels,
+                   [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
+        return;
+    }
+    if (resolves_on_device()) {
+        device.error_reader().read(unit, part_counts(samples_), add);
+        return;
+    }
+    const std::uint32_t width = settings_->width;
+    const std::uint32_t row_of_regions = width * gpu::REGION_SIZE;
+    const std::uint32_t most_pixels = std::max(piece_pixels / row_of_regions, 1U) * row_of_regions;
+    std::optional<DeviceFilm> rows;
+    PartUse parts;
+    parts.extend(samples_.hull());
+    read_films(films(), samples_, most_pixels, [&](const PixelSums &sums) {
+        const auto row_count = static_cast<std::uint32_t>(sums.pixel_count() / width);
+        if (!rows || rows->pixel_count() != sums.pixel_count())
+            rows.emplace(device.device(), width, row_count, most_pixels);
+        rows->write(sums, parts);
+        ErrorReader(device.device(), device.estimate_pipeline(), *rows).read(unit, part_counts(samples_), add);
+    });
 }
 
 bool Renderer::is_on_target(double target_error) {
@@ -263,6 +290,7 @@ void Renderer::take_samples(std::uint64_t count, Job &job) {
             whole.remove(devices_.front()->pass());
         samples_ = std::move(whole);
         error_.reset();
+        rejected_samples_.reset();
     };
     try {
         take();
@@ -331,7 +359,7 @@ void Renderer::readback(const Image &image) {
             {{0, 0, settings_->width, settings_->row_count}, is_error, unit, part_counts(samples_)}, receive);
         return;
     }
-    read_films(films(), samples_, [&](const PixelSums &sums) {
+    read_films(films(), samples_, piece_pixels, [&](const PixelSums &sums) {
         const PixelEstimates pixels = sums.estimates(unit, is_error);
         receive(is_error ? pixels.standard_error : pixels.radiance);
     });
@@ -374,6 +402,7 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     add(film, all.hull(), device.device(), device_film);
     samples_ = std::move(all);
     error_.reset();
+    rejected_samples_.reset();
 }
 
 pt_stats Renderer::stats(bool with_error) {
@@ -385,9 +414,11 @@ pt_stats Renderer::stats(bool with_error) {
     stats.submit_count = submit_count_;
     stats.device_seconds = device_seconds_;
     for (const auto &device : devices_) {
-        stats.rejected_samples += readable && !samples_.empty() ? device->film().rejected_samples() : 0;
+        if (readable && !samples_.empty() && !rejected_samples_)
+            stats.rejected_samples += device->film().rejected_samples();
         stats.device_bytes += device->device().allocated_bytes();
     }
+    stats.rejected_samples += rejected_samples_.value_or(0);
     stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     stats.rmse = error.rmse.estimate;

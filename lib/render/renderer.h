@@ -115,6 +115,7 @@ private:
     Rectangle pixels() const;
     bool may_miss_lamps(std::uint64_t samples) const; // of all pixels
     const ErrorEstimate &error();
+    void estimate_error(ErrorEstimator &estimator);
     bool is_on_target(double target_error);
     void take_samples(std::uint64_t count, Job &job);
     bool finish_slice(Job &job);
@@ -126,10 +127,11 @@ private:
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;    // the devices have films if it is there
-    std::shared_ptr<const GpuScene> gpu_scene_; // of the three above; NULL where one has changed
-    SampleSet samples_;                         // whole ones, in every pixel
-    std::optional<ErrorEstimate> error_;        // of them, once it has been asked for
+    std::optional<RenderSettings> settings_;        // the devices have films if it is there
+    std::shared_ptr<const GpuScene> gpu_scene_;     // of the three above; NULL where one has changed
+    SampleSet samples_;                             // whole ones, in every pixel
+    std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
+    std::optional<std::uint64_t> rejected_samples_; // likewise
     std::uint64_t submit_count_ = 0;
     double device_seconds_ = 0.0;
 };

@@ -25,7 +25,7 @@ std::string text_of(const Rectangle &pixels) {
 void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::span<std::byte> bytes) {
     FilmWriter writer(header, bytes);
     std::uint64_t first_pixel = 0;
-    read_films(films, header.tiles.front().samples, [&](const PixelSums &sums) {
+    read_films(films, header.tiles.front().samples, piece_pixels, [&](const PixelSums &sums) {
         writer.write(0, first_pixel, sums);
         first_pixel += sums.pixel_count();
     });
@@ -51,7 +51,7 @@ void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device
     DeviceFilm::NewSums all(device, to);
     PixelSums sums;
     PixelSums added;
-    for_each_piece(to.pixel_count(), [&](std::uint32_t first, std::uint32_t count) {
+    for_each_piece(to.pixel_count(), piece_pixels, [&](std::uint32_t first, std::uint32_t count) {
         sums.resize(count);
         added.resize(count);
         to.read(first, split, sums);

@@ -1,0 +1,155 @@
+// The estimate of an image's error from the device, against that of the host in double.
+#include "lib/film/error_estimate.h"
+#include "lib/film/quotient.h"
+#include "lib/kernel/error_reader.h"
+#include "lib/kernel/shader_source.h"
+#include "tests/device/vulkan_fixture.h"
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+#include <pt/pt.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+constexpr std::uint32_t part_samples = 32;
+
+// Images of everything that the estimate tells apart: smooth light, noise, black, edges, and single bright samples.
+class Films {
+public:
+    // Of which so many samples were left out in the first pixel's newer part.
+    pt::PixelSums film(std::uint32_t width, std::uint32_t height, std::uint32_t rejected = 0) {
+        pt::PixelSums sums;
+        sums.resize(std::size_t{width} * height);
+        for (std::uint32_t i = 0; i < width * height; ++i) {
+            const bool lit = (i % width * 3 + i / width * 2) % 61 > 20;
+            const bool firefly = uniform_(generator_) < 0.004;
+            const double level = lit ? 0.4 + 0.3 * std::sin(0.05 * (i % width)) : 0.0;
+            for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part) {
+                const double noise = 1.0 + 0.2 * (uniform_(generator_) - 0.5);
+                for (std::uint32_t channel = 0; channel < 3; ++channel) {
+                    const bool bright = firefly && part == channel % 2;
+                    const double mean = (level * noise + (bright ? 30.0 : 0.0)) / (channel + 1);
+                    set_sum(sums, part, channel, i, mean * part_samples);
+                }
+                sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = part_samples;
+                sums.plane(part, pt::gpu::FILM_REJECTED)[i] = 0;
+            }
+        }
+        sums.plane(pt::newer_part, pt::gpu::FILM_ACCEPTED)[0] -= rejected;
+        sums.plane(pt::newer_part, pt::gpu::FILM_REJECTED)[0] += rejected;
+        return sums;
+    }
+
+private:
+    static void set_sum(pt::PixelSums &sums, std::uint32_t part, std::uint32_t channel, std::size_t pixel, double sum) {
+        const auto fixed = static_cast<pt::WideSum>(std::ldexp(sum, pt::gpu::FILM_FRACTION_BITS));
+        for (std::uint32_t word = 0; word < pt::gpu::FILM_SUM_WORDS; ++word)
+            sums.plane(part, channel * pt::gpu::FILM_SUM_WORDS + word)[pixel] =
+                static_cast<std::uint32_t>(fixed >> (32 * word));
+    }
+
+    std::mt19937_64 generator_{2026};
+    std::uniform_real_distribution<double> uniform_{0.0, 1.0};
+};
+
+struct Size {
+    std::uint32_t width, height;
+};
+
+class Estimate : public VulkanFixture {
+protected:
+    void SetUp() override {
+        VulkanFixture::SetUp();
+        device_with(pt::vulkan::gpu_like_policy());
+    }
+
+    static pt::SampleConditions conditions(std::uint32_t width) {
+        return {width, 2 * part_samples, PT_SAMPLER_SOBOL, false};
+    }
+
+    static pt::ErrorEstimate on_host(const pt::PixelSums &sums, std::uint32_t width, double unit) {
+        pt::ErrorEstimator estimator(conditions(width));
+        estimator.add(sums.estimates(unit, true));
+        return estimator.result();
+    }
+
+    struct Found {
+        pt::ErrorEstimate estimate;
+        std::uint64_t rejected;
+    };
+
+    Found on_device(const pt::PixelSums &sums, const Size &size, double unit, std::uint32_t max_strip_pixels) {
+        const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
+        pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
+        EXPECT_TRUE(film.has_whole_regions());
+        pt::PartUse parts;
+        parts.extend({0, 2 * part_samples});
+        pt::DeviceFilm::NewSums all(device(), film);
+        all.write(0, sums);
+        all.replace(parts);
+        pt::ErrorEstimator estimator(conditions(size.width));
+        pt::ErrorReader(device(), pipeline, film).read(unit, {part_samples, part_samples}, [&](const auto &tile) {
+            estimator.add(tile);
+        });
+        return {estimator.result(), estimator.rejected()};
+    }
+
+    // To the rounding of some ten operations in float32.
+    static void expect_close(const pt::Interval &found, const pt::Interval &expected, const std::string &which) {
+        const auto expect = [&](double value, double exact) {
+            EXPECT_LE(std::abs(value - exact), 4e-6 * exact) << which << ": " << value << ", not " << exact;
+        };
+        expect(found.estimate, expected.estimate);
+        expect(found.low, expected.low);
+        expect(found.high, expected.high);
+    }
+
+    Films films_;
+};
+
+TEST_F(Estimate, IsThatOfTheHost) {
+    for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
+        for (const double unit : {1.0, 0x1p-6, 0x1p9}) {
+            const pt::PixelSums sums = films_.film(size.width, size.height);
+            const pt::ErrorEstimate expected = on_host(sums, size.width, unit);
+            const pt::ErrorEstimate found = on_device(sums, size, unit, size.width * 70).estimate;
+            const std::string which =
+                std::to_string(size.width) + " x " + std::to_string(size.height) + " in " + std::to_string(unit);
+            expect_close(found.rmse, expected.rmse, which);
+            expect_close(found.relative_rmse, expected.relative_rmse, which + ", relative");
+            EXPECT_EQ(found.uncertain, expected.uncertain) << which;
+        }
+}
+
+// The squares of such radiance, and of their sums, are no floats.
+TEST_F(Estimate, HoldsInUnitsBeyondTheSquaresOfFloats) {
+    const Size size{70, 40};
+    const pt::PixelSums sums = films_.film(size.width, size.height);
+    for (const double unit : {0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {
+        const pt::ErrorEstimate expected = on_host(sums, size.width, unit);
+        const pt::ErrorEstimate found = on_device(sums, size, unit, 1U << 20).estimate;
+        expect_close(found.rmse, expected.rmse, std::to_string(unit));
+        expect_close(found.relative_rmse, expected.relative_rmse, std::to_string(unit) + ", relative");
+    }
+}
+
+TEST_F(Estimate, CountsWhatWasLeftOut) {
+    const Size size{40, 40};
+    EXPECT_EQ(on_device(films_.film(40, 40, 5), size, 1.0, 1U << 20).rejected, 5U);
+    const Found found = on_device(films_.film(40, 40, part_samples), size, 1.0, 1U << 20);
+    EXPECT_EQ(found.rejected, part_samples);
+    EXPECT_TRUE(std::isinf(found.estimate.rmse.estimate)) << "a pixel without samples in a part tells nothing";
+}
+
+TEST_F(Estimate, LostSamplesAreAnError) {
+    pt::PixelSums sums = films_.film(40, 40);
+    sums.plane(pt::newer_part, pt::gpu::FILM_ACCEPTED)[1599] -= 1;
+    const pt::Error error = error_of([&] { on_device(sums, {40, 40}, 1.0, 1U << 20); });
+    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+    EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
+}
+
+} // namespace
