@@ -26,12 +26,14 @@ public:
         for (std::uint32_t i = 0; i < width * height; ++i) {
             const bool lit = (i % width * 3 + i / width * 2) % 61 > 20;
             const bool firefly = uniform_(generator_) < 0.004;
+            const bool half_lit = uniform_(generator_) < 0.03; // in one part alone, like a pixel at an edge
             const double level = lit ? 0.4 + 0.3 * std::sin(0.05 * (i % width)) : 0.0;
             for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part) {
                 const double noise = 1.0 + 0.2 * (uniform_(generator_) - 0.5);
                 for (std::uint32_t channel = 0; channel < 3; ++channel) {
                     const bool bright = firefly && part == channel % 2;
-                    const double mean = (level * noise + (bright ? 30.0 : 0.0)) / (channel + 1);
+                    const double share = half_lit ? 1.8 * part : 1.0;
+                    const double mean = (level * share * noise + (bright ? 30.0 : 0.0)) / (channel + 1);
                     set_sum(sums, part, channel, i, mean * part_samples);
                 }
                 sums.plane(part, pt::gpu::FILM_ACCEPTED)[i] = part_samples;

@@ -18,10 +18,10 @@ using Image = std::vector<float>;
 class SharingTest : public ContextFixture {
 protected:
     // A context on the fixture's device, taken as often as devices are wanted.
-    Context context_on(uint32_t device_count, uint32_t submit_milliseconds) {
+    Context context_on(uint32_t device_count, uint32_t submit_milliseconds, bool like_gpus = false) {
         return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
                               [&](const pt_create_info *info, pt_context **context) {
-                                  return create_shared(device_count, *info, context);
+                                  return create_shared(device_count, *info, context, like_gpus);
                               });
     }
 
@@ -135,16 +135,41 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
     EXPECT_NE(image_of(context(), 7), Image(whole.begin(), whole.begin() + std::ptrdiff_t{shared_width} * 7 * 3));
 }
 
+// On the host, and on a device with what several have taken.
 TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
-    uint32_t counts[2];
-    for (const uint32_t devices : {1U, 2U}) {
-        const Context shared = context_on(devices, 5);
-        set_up(shared.get());
-        const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2};
-        ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
-        counts[devices - 1] = stats_of(shared.get()).sample_count;
+    for (const bool like_gpus : {false, true}) {
+        pt_stats found[2];
+        for (const uint32_t devices : {1U, 2U}) {
+            const Context shared = context_on(devices, 5, like_gpus);
+            set_up(shared.get());
+            const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2};
+            ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
+            found[devices - 1] = stats_of(shared.get());
+        }
+        EXPECT_EQ(found[0].sample_count, found[1].sample_count);
+        EXPECT_EQ(found[0].relative_rmse_high, found[1].relative_rmse_high);
     }
-    EXPECT_EQ(counts[0], counts[1]);
+}
+
+// Images and errors that kernels make of the film are those that the host makes.
+TEST_F(SharingTest, GpusReadTheImageOfTheHost) {
+    const Context by_host = context_on(1, 50);
+    const Context by_device = context_on(1, 50, true);
+    for (pt_context *const on : {by_host.get(), by_device.get()}) {
+        set_up(on);
+        ASSERT_EQ(accumulate_on(on, 3), PT_OK);
+        ASSERT_EQ(accumulate_on(on, 42), PT_OK);
+    }
+    EXPECT_EQ(image_of(by_device.get()), image_of(by_host.get()));
+    EXPECT_EQ(image_of(by_device.get(), shared_height, PT_QUANTITY_STANDARD_ERROR),
+              image_of(by_host.get(), shared_height, PT_QUANTITY_STANDARD_ERROR));
+    const pt_stats found = stats_of(by_device.get());
+    const pt_stats expected = stats_of(by_host.get());
+    EXPECT_NEAR(found.relative_rmse_high / expected.relative_rmse_high, 1.0, 1e-5);
+    EXPECT_EQ(found.uncertain, expected.uncertain);
+    set_up(by_device.get(), 5, 1);
+    ASSERT_EQ(accumulate_on(by_device.get(), 45), PT_OK);
+    EXPECT_NE(image_of(by_device.get(), 1), Image(std::size_t{shared_width} * 3)) << "cleared, then rendered";
 }
 
 } // namespace

@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <memory>
 
-inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context) {
+// like_gpus: CPUs are used as GPUs are.
+inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
+                               bool like_gpus = false) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(info);
         settings.devices_of_each = devices_of_each;
+        settings.like_gpus = like_gpus;
         *context = std::make_unique<pt_context>(settings).release();
     });
 }
