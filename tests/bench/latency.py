@@ -1,0 +1,150 @@
+"""Measures how long calls of libpt take, as a program that embeds it sees them: from the call to its return.
+
+    python3 tests/bench/latency.py --library new=build/lib/libpt.so
+    python3 tests/bench/latency.py --library old=OLD/libpt.so --library new=build/lib/libpt.so --sizes 1024x512
+
+Several libraries are measured in one process, in turn, so that a disturbed machine is so for all alike. Milliseconds,
+medians over the rounds, of the coursework scene; a camera is moved before every picture that begins anew.
+
+64 samples      pt_accumulate, on a film that has samples
+readback        pt_readback of the radiance into memory that has been written before
+one sample      pt_accumulate of one more
+camera + 1      pt_set_camera and pt_accumulate of one
+picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
+to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that it took; and N samples without a
+                target, which is what it would take to know that number beforehand
+first           pt_create to the first picture of one sample, in a process whose driver has its kernels in a cache or not
+"""
+
+import argparse
+import ctypes
+import math
+import os
+import statistics
+import sys
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "tests/support"))
+from scene_file import FOLDER, read_scene  # noqa: E402
+from scene_renderer import SceneRenderer, vector  # noqa: E402
+from table import print_table  # noqa: E402
+import smallest  # noqa: E402  (found by scene_renderer)
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--library", action="append", required=True, metavar="NAME=FILE")
+    parser.add_argument("--sizes", default="64x32,256x128,1024x512,1920x1080", metavar="WxH,...")
+    parser.add_argument("--path-lengths", default="2,6", metavar="K,...")
+    parser.add_argument("--errors", default="0.05,0.02,0.01", metavar="E,...", help="none: empty")
+    parser.add_argument("--samples", default="16", metavar="N,...", help="of pictures")
+    parser.add_argument("--rounds", type=int, default=15)
+    return parser.parse_args()
+
+
+class Measured:
+    """A context with the times of its calls."""
+
+    def __init__(self, name, path, scene):
+        os.environ["PT_LIBRARY"] = path
+        self.name = name
+        self.times = {}
+        begin = time.perf_counter()
+        self.renderer = SceneRenderer(scene)
+        self.renderer.set_render(64, 32, max_path_length=2)
+        self.accumulate(1)
+        self.image = (ctypes.c_float * (64 * 32 * 3))()
+        self.readback()
+        self.note("first", begin)
+        self.moves = 0
+        self.camera = scene["camera"]
+
+    def note(self, case, begin):
+        self.times.setdefault(case, []).append(1e3 * (time.perf_counter() - begin))
+
+    def set_render(self, width, height, path_length):
+        self.renderer.set_render(width, height, max_path_length=path_length)
+        self.image = (ctypes.c_float * (width * height * 3))()
+        ctypes.memset(self.image, 1, ctypes.sizeof(self.image))
+
+    def move_camera(self):
+        self.moves += 1
+        position = list(self.camera["position"])
+        position[0] += 1e-3 * (self.moves % 7)
+        self.renderer.set_camera(position=vector(position), target=vector(self.camera["look_at"]),
+                                 up=vector(self.camera.get("up", [0, 1, 0])),
+                                 vertical_fov=math.radians(self.camera["vertical_fov"]))
+
+    def accumulate(self, samples, target_error=0.0):
+        result = self.renderer.library.pt_accumulate(
+            self.renderer.context, smallest.pt_accumulate_info(sample_count=samples, target_error=target_error))
+        if result < 0:
+            raise RuntimeError(self.renderer.library.pt_last_error(self.renderer.context).decode())
+
+    def readback(self):
+        result = self.renderer.library.pt_readback(
+            self.renderer.context, smallest.pt_image(data=self.image, size_bytes=ctypes.sizeof(self.image)))
+        if result < 0:
+            raise RuntimeError(self.renderer.library.pt_last_error(self.renderer.context).decode())
+
+    def sample_count(self):
+        stats = self.renderer.stats()
+        return stats.sample_count
+
+    def measure(self, case, *calls):
+        begin = time.perf_counter()
+        for call in calls:
+            call()
+        self.note(case, begin)
+
+
+def measure_size(contexts, arguments, path_length):
+    for _ in range(arguments.rounds):
+        for context in contexts:
+            context.measure("64 samples", lambda: context.accumulate(64))
+            context.measure("readback", context.readback)
+            context.measure("one sample", lambda: context.accumulate(1))
+            context.measure("camera + 1", context.move_camera, lambda: context.accumulate(1))
+            for count in arguments.samples.split(","):
+                context.measure(f"picture of {count}", context.move_camera, lambda: context.accumulate(int(count)),
+                                context.readback)
+
+
+def measure_errors(contexts, arguments):
+    """Rounds are few where libraries are slow."""
+    for error in filter(None, arguments.errors.split(",")):
+        for _ in range(min(arguments.rounds, 3)):
+            for context in contexts:
+                context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
+                samples = context.sample_count()
+                context.times[f"to {error}, samples"] = [samples]
+                context.measure(f"to {error}, known", context.move_camera, lambda: context.accumulate(samples))
+
+
+def main():
+    arguments = parse_arguments()
+    scene = read_scene(FOLDER / "coursework.json")
+    contexts = [Measured(*library.split("=", 1), scene) for library in arguments.library]
+    print(f"first: " + ", ".join(f"{context.name} {context.times['first'][0]:.0f} ms" for context in contexts))
+    for path_length in map(int, arguments.path_lengths.split(",")):
+        for size in arguments.sizes.split(","):
+            width, height = map(int, size.split("x"))
+            for context in contexts:
+                context.times.clear()
+                context.set_render(width, height, path_length)
+                for _ in range(3):
+                    context.accumulate(256)
+                    context.readback()
+            measure_size(contexts, arguments, path_length)
+            measure_errors(contexts, arguments)
+            print(f"\n{size}, path length {path_length}\n")
+            cases = list(contexts[0].times)
+            print_table([["ms"] + [context.name for context in contexts]] +
+                        [[case] + [f"{statistics.median(context.times[case]):.3f}" for context in contexts]
+                         for case in cases])
+            sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    main()
