@@ -24,6 +24,9 @@ struct KernelCode {
 
 KernelCode embedded_code();
 
+// Of the words that make pixels.
+std::string digest_of(const KernelCode &code);
+
 class ShaderSource {
 public:
     // A folder with pathtrace.comp, commit.comp, fold.comp, accuracy.comp and what they include; empty: the embedded

@@ -22,8 +22,9 @@ constexpr double assumed_film_pixels_per_second = 4e6;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds) :
-    device_(instance, physical_device, std::move(logical_device)),
+                           vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy,
+                           const KernelCode &code, double target_seconds) :
+    device_(instance, physical_device, std::move(logical_device), policy),
     pipelines_(std::make_unique<TracePipelines>(device_, code)),
     target_seconds_(target_seconds) {
     under_way_.reserve(device_.policy().queue_depth);
@@ -77,9 +78,19 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
     return pipelines;
 }
 
-void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) {
+void RenderDevice::set_pipelines(std::unique_ptr<TracePipelines> pipelines) noexcept {
     kernel_.reset(); // it uses the old ones
     pipelines_ = std::move(pipelines);
+    device_.pipeline_cache().set_key(pipelines_->take_kernel_key());
+}
+
+void RenderDevice::keep_kernels(const vulkan::KernelStore &store) {
+    device_.pipeline_cache().use(store, pipelines_->take_kernel_key(), device_.log());
+}
+
+void RenderDevice::save_kernels() noexcept {
+    if (!device_.hangs())
+        device_.pipeline_cache().save(device_.log());
 }
 
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
@@ -93,6 +104,13 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     limits.max_samples = kernel_->max_samples();
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     schedule_.emplace(film_->pixel_count(), limits);
+}
+
+void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
+    const TracePipelines::Ahead ahead(*pipelines_);
+    prepare(scene, settings);
+    kernel_->build(*pipelines_);
+    kernel_->dispatch_nothing();
 }
 
 DeviceFilm &RenderDevice::film() {

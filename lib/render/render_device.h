@@ -23,7 +23,8 @@ class RenderDevice {
 public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds);
+                 vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy, const KernelCode &code,
+                 double target_seconds);
     // Waits for what is under way, as long as the device's patience allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
@@ -36,6 +37,10 @@ public:
     DeviceFilm &film();
     std::uint32_t pixel_count() const { return film_->pixel_count(); }
 
+    // Takes over kernels that the caller has kept, and hands over those that are built.
+    void keep_kernels(const vulkan::KernelStore &store);
+    void save_kernels() noexcept;
+
     // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
     DeviceFilm make_film(const RenderSettings &settings);
     void set_film(DeviceFilm film);
@@ -46,10 +51,13 @@ public:
     // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
     // driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
-    void set_pipelines(std::unique_ptr<TracePipelines> pipelines);
+    void set_pipelines(std::unique_ptr<TracePipelines> pipelines) noexcept;
 
     // Makes the kernel, unless it is there. After set_film.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
+
+    // The same, with all that the kernel will need, as fast as it can be.
+    void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
     const Kernel *kernel() const { return kernel_ ? &*kernel_ : nullptr; }
 
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.

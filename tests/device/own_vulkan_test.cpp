@@ -218,7 +218,7 @@ TEST_F(OwnVulkanTest, ExcludesWhatIsTheLibrarysOwn) {
     info.flags = PT_CREATE_VALIDATION;
     info.device = "all";
     EXPECT_EQ(refusal(info),
-              "PT_ERROR_INVALID_ARGUMENT: create.flags = 1: must be 0 with vulkan, whose instance has its "
+              "PT_ERROR_INVALID_ARGUMENT: create.flags = 1: must not have PT_CREATE_VALIDATION with vulkan, whose instance has its "
               "own layers\n"
               "create.device = \"all\": must be NULL with vulkan, which has one");
     info.struct_size = offsetof(pt_create_info, vulkan); // and so there is none
