@@ -105,7 +105,9 @@ struct Fact {
 
 class Specialisation {
 public:
-    Specialisation(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {}
+    Specialisation(Words code, Words constants) : code_(code), constants_(constants), facts_(code[bound_word]) {
+        waiting_.reserve(facts_.size());
+    }
 
     std::vector<std::uint32_t> run() {
         for_each_instruction(code_, header_words, [&](Words instruction, std::size_t offset) {
