@@ -14,7 +14,7 @@ class RealDeviceKernels(CommandLineTest):
     program = PT
 
     def render(self, name="a.png", **environment):
-        self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q", **environment)
+        self.expect(0, "render", COURSEWORK, "-o", name, "--size", "32x16", "--spp", "2", "-q", LP_NATIVE_VECTOR_WIDTH=256, **environment)
         with open(self.path(name), "rb") as file:
             return file.read()
 

@@ -182,8 +182,9 @@ typedef struct pt_render {
  *
  * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
  * sample, and those that add to the image a sample which took several submissions. Before the first call of this
- * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a third of a second for that,
- * and as long again in the first submission that takes samples unless its cache has the kernel.
+ * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that,
+ * and two or three more in the first submission that takes samples unless its cache has the kernel (pt_prepare does
+ * both).
  *
  * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
  * at the most, and with several devices those that complete the samples begun. user is
