@@ -276,11 +276,11 @@ typedef struct pt_create_info {
     const char *shader_dir;
     /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes start
      * sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built
-     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders), also of those that fail. Drivers may have a cache of their
-     * own, and then give nothing worth keeping; Mesa's lavapipe does. */
+     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders), also of those that fail. Drivers that have a
+     * cache of their own, as Mesa's lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
-    pt_store_kernels_fn store_kernels;
-    void *kernels_user; /**< handed to both; the library does not look at it */
+    pt_store_kernels_fn store_kernels; /**< see load_kernels */
+    void *kernels_user;                /**< handed to both; the library does not look at it */
 } pt_create_info;
 
 /* -- any thread, no context -- */
