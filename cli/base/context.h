@@ -3,13 +3,16 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/field_names.h"
+#include "cli/base/kernel_folder.h"
 #include "cli/base/library_error.h"
+#include "cli/base/user_cache.h"
 
 #include <pt/pt.h>
 #include <pt/stats.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,7 +20,9 @@ namespace cli {
 
 class Context {
 public:
-    explicit Context(const pt_create_info &info) : has_given_shaders_(info.shader_dir != nullptr) {
+    // Kernels are kept in the user's cache.
+    explicit Context(pt_create_info info) : has_given_shaders_(info.shader_dir != nullptr) {
+        kernels_.serve(info);
         const pt_result result = pt_create(&info, &context_);
         if (result < 0) {
             throw Failure(code_of(result), in_words_of_options(cli::last_error(nullptr)));
@@ -77,7 +82,13 @@ private:
         return result == PT_ERROR_SHADER && has_given_shaders_ ? ExitCode::scene : exit_code_of(result);
     }
 
+    static std::filesystem::path kernel_path() {
+        const std::filesystem::path cache = user_cache(own_environment());
+        return cache.empty() ? cache : cache / "kernels";
+    }
+
     bool has_given_shaders_;
+    KernelFolder kernels_{kernel_path()}; // outlives the context
     pt_context *context_ = nullptr;
 };
 

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
-#include <unistd.h>
 
 namespace cli {
 namespace {
@@ -32,30 +31,6 @@ bool has_avx512() {
 #endif
 }
 
-// By the XDG Base Directory Specification, which ignores relative paths. Empty if there is none.
-std::filesystem::path user_cache(const Environment &environment) {
-    const auto folder = [&](const char *name) {
-        const auto found = environment.find(name);
-        const std::filesystem::path path = found == environment.end() ? "" : found->second;
-        return path.is_absolute() ? path : std::filesystem::path();
-    };
-    if (std::filesystem::path path = folder("XDG_CACHE_HOME"); !path.empty()) {
-        return path;
-    }
-    const std::filesystem::path home = folder("HOME");
-    return home.empty() ? home : home / ".cache";
-}
-
-Environment own_environment() {
-    Environment environment;
-    for (char **entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-        const std::string text = *entry;
-        const std::size_t end = text.find('=');
-        environment.emplace(text.substr(0, end), end == std::string::npos ? "" : text.substr(end + 1));
-    }
-    return environment;
-}
-
 } // namespace
 
 // A folder of compiled shaders for this width alone: Mesa's key of a shader does not tell its width (seen with 22.3.6
@@ -67,7 +42,7 @@ Environment wide_vectors(const Environment &environment, std::size_t surface_cou
     if (chosen || cache.empty() || surface_count > most_surfaces) {
         return {};
     }
-    return {{width_name, "512"}, {cache_name, (cache / "pt" / "shaders-512").string()}};
+    return {{width_name, "512"}, {cache_name, (cache / "shaders-512").string()}};
 }
 
 void choose_vector_width(std::size_t surface_count) {

@@ -2,13 +2,11 @@
 // an instance is created, so every command does this first.
 #pragma once
 
+#include "cli/base/user_cache.h"
+
 #include <cstddef>
-#include <map>
-#include <string>
 
 namespace cli {
-
-using Environment = std::map<std::string, std::string>;
 
 // The variables to add to an environment on a machine with AVX-512, for a scene of so many spheres and planes. None
 // where llvmpipe's own choice, 256 bits, is the faster one, and where the user has chosen.

@@ -54,8 +54,9 @@ void BenchRunner::set_render(const BenchCell &cell, std::uint64_t seed) {
     context_.require(pt_set_render(context_.get(), &render));
 }
 
-// Takes one sample, for which the kernel is built, so that the measurement does not include that.
+// Builds the kernel that is fastest for the scene, so that the measurement does not include that, and takes one sample.
 bool BenchRunner::warm_up() {
+    require_render(context_, file_, settings_, pt_prepare(context_.get()));
     pt_accumulate_info info{};
     info.struct_size = sizeof(pt_accumulate_info);
     info.sample_count = 1;

@@ -185,6 +185,10 @@ pt_result pt_reload_shaders(pt_context *context) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) { renderer.reload_shaders(); });
 }
 
+pt_result pt_prepare(pt_context *context) {
+    return pt::guard_context(context, [](pt::Renderer &renderer) { renderer.prepare(); });
+}
+
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::copy_in(info, "accumulate");

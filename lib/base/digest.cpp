@@ -38,6 +38,11 @@ void Digest::add(std::span<const std::uint32_t> words) {
     XXH3_128bits_update(&state_->hash, words.data(), words.size_bytes());
 }
 
+void Digest::add(std::string_view text) {
+    add(std::uint64_t{text.size()});
+    XXH3_128bits_update(&state_->hash, text.data(), text.size());
+}
+
 std::string Digest::text() const {
     const XXH128_hash_t hash = XXH3_128bits_digest(&state_->hash);
     std::array<char, 33> text{};

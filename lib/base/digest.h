@@ -1,4 +1,4 @@
-// Digests of numbers and bytes by XXH3, which tell changes, not forgeries. Used for films.
+// Digests of numbers and bytes by XXH3, which tell changes, not forgeries. Used for films and kept kernels.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace pt {
 
@@ -23,6 +24,7 @@ public:
     void add(std::uint64_t value);
     void add(const glm::dvec3 &vector);
     void add(std::span<const std::uint32_t> words);
+    void add(std::string_view text);
 
     // 128 bits as 32 hexadecimal digits.
     std::string text() const;

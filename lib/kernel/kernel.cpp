@@ -101,6 +101,15 @@ void Kernel::build(TracePipelines &pipelines) const {
     pipelines.fold();
 }
 
+void Kernel::dispatch_nothing() {
+    const std::array pipelines = {&pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_),
+                                  &pipelines_.commit(), &pipelines_.fold()};
+    device_.submit([&](const vk::raii::CommandBuffer &commands) {
+        for (const vulkan::ComputePipeline *pipeline : pipelines)
+            pipeline->dispatch(commands, sets_.front(), std::as_bytes(std::span(&frame_, 1)), 0, {{0}});
+    });
+}
+
 std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }

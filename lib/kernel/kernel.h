@@ -38,6 +38,9 @@ public:
     // driver refuses that.
     void build(TracePipelines &pipelines) const;
 
+    // Dispatches no work at all: some drivers compile a kernel no sooner than it is dispatched. None may be under way.
+    void dispatch_nothing();
+
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 

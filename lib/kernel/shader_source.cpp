@@ -5,6 +5,7 @@
 #include "commit.spv.h"
 #include "estimate.spv.h"
 #include "fold.spv.h"
+#include "lib/base/digest.h"
 #include "lib/base/error.h"
 #include "lib/glsl_module/glsl_module.h"
 #include "pathtrace.spv.h"
@@ -96,6 +97,13 @@ bool KernelCode::operator==(const KernelCode &other) const {
 
 KernelCode embedded_code() {
     return {pathtrace_spirv, commit_spirv, fold_spirv, resolve_spirv, estimate_spirv, accuracy_spirv, nullptr};
+}
+
+std::string digest_of(const KernelCode &code) {
+    Digest digest;
+    for (const auto &words : {code.pathtrace, code.commit, code.fold})
+        digest.add(words);
+    return digest.text();
 }
 
 KernelCode ShaderSource::read() const {

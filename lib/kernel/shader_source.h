@@ -26,6 +26,9 @@ struct KernelCode {
 
 KernelCode embedded_code();
 
+// Of the words that make pixels.
+std::string digest_of(const KernelCode &code);
+
 class ShaderSource {
 public:
     // A folder with pathtrace.comp, commit.comp, fold.comp, resolve.comp, estimate.comp, accuracy.comp and what they

@@ -1,8 +1,10 @@
 // Specialises the kernels; see trace_pipelines.h.
 #include "lib/kernel/trace_pipelines.h"
 
+#include "lib/kernel/specialised_code.h"
 #include "shaders/gpu_layout.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
@@ -16,10 +18,6 @@ namespace {
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eUniformBufferDynamic};
-
-// A kernel for one scene takes about 0.3 s to build and then saves about a third of the time, so that it pays after a
-// second. Waiting just that long costs at most twice what knowing the future would (the ski rental problem).
-constexpr double seconds_before_own_kernel = 1.0;
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
                                                  std::uint32_t sharers) {
@@ -41,42 +39,71 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
 
 } // namespace
 
-const vulkan::ComputePipeline &TracePipelines::build(std::optional<Specialised> &place,
-                                                     std::vector<std::uint32_t> constants) {
+TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
+    device_(device),
+    code_(std::move(code)),
+    kernel_key_(device.kernel_key(digest_of(code_))) {}
+
+// What was used longest ago makes place.
+const vulkan::ComputePipeline &TracePipelines::build(std::vector<std::uint32_t> constants) {
     using Clock = std::chrono::steady_clock;
-    place.reset(); // leaves it empty if the new one cannot be built
     const Clock::time_point start = Clock::now();
-    vulkan::ComputePipeline pipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants);
+    const std::vector<std::uint32_t> code = specialised_code(code_.pathtrace, constants);
+    vulkan::ComputePipeline pipeline =
+        code.empty()
+            ? vulkan::ComputePipeline(device_, code_.pathtrace, bindings, sizeof(gpu::FrameConstants), constants)
+            : vulkan::ComputePipeline(device_, code, bindings, sizeof(gpu::FrameConstants), {});
     device_.log().info([&] {
         const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
         const bool own = constants[gpu::ID_SCENE_SOURCE] == gpu::SCENE_IN_CONSTANTS;
         return std::string("built a kernel for ") + (own ? "this scene alone" : "all scenes of this kind") + " in " +
                std::to_string(milliseconds) + " ms";
     });
-    return place.emplace(Specialised{std::move(constants), std::move(pipeline)}).pipeline;
+    kept_.push_front({std::move(constants), std::move(pipeline)});
+    if (kept_.size() > most_kept)
+        kept_.pop_back();
+    return kept_.front().pipeline;
+}
+
+const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint32_t> &constants) {
+    const auto found = std::ranges::find(kept_, constants, &Specialised::constants);
+    if (found == kept_.end())
+        return nullptr;
+    kept_.splice(kept_.begin(), kept_, found);
+    return &found->pipeline;
+}
+
+// How long the scene that has a kernel of its own has used it, which is judged once another scene comes.
+void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
+    if (!own_)
+        return;
+    if (own_->constants == constants) {
+        own_->used_seconds += std::max(seconds - own_->last_seconds, 0.0);
+        own_->last_seconds = seconds;
+    } else {
+        clock_.left_after(own_->used_seconds);
+        own_.reset();
+    }
 }
 
 const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,
                                                      std::span<const glm::vec4> words, double seconds) {
-    const vulkan::ComputePipeline &pipeline = find_or_build(features, sharers, words, seconds);
-    features_ = features;
-    return pipeline;
-}
-
-const vulkan::ComputePipeline &TracePipelines::find_or_build(const Features &features, std::uint32_t sharers,
-                                                             std::span<const glm::vec4> words, double seconds) {
-    const bool same_features = features_ == features;
     std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
     if (device_.policy().scene_in_constants && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
-        if (one_scene_ && one_scene_->constants == own)
-            return one_scene_->pipeline;
-        if (!same_features || seconds > seconds_before_own_kernel)
-            return build(one_scene_, std::move(own));
+        note_own(own, seconds);
+        if (const vulkan::ComputePipeline *const kept = find(own))
+            return *kept;
+        if (kept_.empty() || ahead_ || clock_.is_time(seconds)) {
+            OwnKernel next{own, seconds, 0.0};
+            const vulkan::ComputePipeline &built = build(std::move(own));
+            own_ = std::move(next);
+            return built;
+        }
     }
-    if (any_scene_ && any_scene_->constants == constants)
-        return any_scene_->pipeline;
-    return build(any_scene_, std::move(constants));
+    if (const vulkan::ComputePipeline *const kept = find(constants))
+        return *kept;
+    return build(std::move(constants));
 }
 
 const vulkan::ComputePipeline &TracePipelines::commit() {

@@ -2,14 +2,18 @@
 // Owned by RenderDevice, used by Kernel.
 #pragma once
 
+#include "lib/kernel/own_kernel_clock.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <list>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,17 +22,35 @@ namespace pt {
 // All have the same bindings, so a descriptor set of one does for the others.
 class TracePipelines {
 public:
-    // The device must outlive the pipelines.
-    explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code()) :
-        device_(device),
-        code_(std::move(code)) {}
+    // Kernels of pathtrace.comp that are kept: lamps on and off, a sphere more or less, a camera in a ball and out, each
+    // with a kernel of one scene's own perhaps. Work under way uses the last two at most.
+    static constexpr std::size_t most_kept = 8;
 
-    // The kernel for scenes with these features, or where that is faster for this scene alone: building takes as long
-    // as many small images do, so a scene that took the place of one with the same features gets a kernel of its own
-    // only after it has been rendered for a while. Both give the same bits. sharers: invocations to a pixel; words: the
-    // scene buffer; seconds: for which this scene has been rendered so far. The reference holds until the next call.
+    // The device must outlive the pipelines.
+    explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
+
+    // What the driver's kernels of this code on this device are kept by. To be taken once, which cannot fail.
+    std::string take_kernel_key() noexcept { return std::move(kernel_key_); }
+
+    // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
+    // The first scene gets one of its own at once, as it has to wait for some kernel anyway; others do once they have
+    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. sharers:
+    // invocations to a pixel; words: the scene buffer; seconds: for which this scene has been rendered so far with
+    // nothing about it changed, the camera neither. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
                                          std::span<const glm::vec4> words, double seconds);
+
+    // While it is there, every scene gets a kernel of its own at once: whoever prepares kernels has the time.
+    class Ahead {
+    public:
+        explicit Ahead(TracePipelines &pipelines) : pipelines_(pipelines) { pipelines_.ahead_ = true; }
+        Ahead(const Ahead &) = delete;
+        Ahead &operator=(const Ahead &) = delete;
+        ~Ahead() { pipelines_.ahead_ = false; }
+
+    private:
+        TracePipelines &pipelines_;
+    };
 
     // The kernel that adds a split pass to the film.
     const vulkan::ComputePipeline &commit();
@@ -43,15 +65,24 @@ private:
         vulkan::ComputePipeline pipeline;
     };
 
-    const vulkan::ComputePipeline &find_or_build(const Features &features, std::uint32_t sharers,
-                                                 std::span<const glm::vec4> words, double seconds);
-    const vulkan::ComputePipeline &build(std::optional<Specialised> &place, std::vector<std::uint32_t> constants);
+    // Of the last scene that was given a kernel of its own, until another takes its place.
+    struct OwnKernel {
+        std::vector<std::uint32_t> constants;
+        double last_seconds; // of the scene
+        double used_seconds; // since the kernel was built
+    };
+
+    const vulkan::ComputePipeline *find(const std::vector<std::uint32_t> &constants);
+    const vulkan::ComputePipeline &build(std::vector<std::uint32_t> constants);
+    void note_own(const std::vector<std::uint32_t> &constants, double seconds);
 
     vulkan::Device &device_;
     KernelCode code_;
-    std::optional<Features> features_;     // of the kernel that was asked for last
-    std::optional<Specialised> any_scene_; // reads the scene from a buffer
-    std::optional<Specialised> one_scene_; // has the scene's numbers as constants
+    std::string kernel_key_;
+    std::list<Specialised> kept_; // the last used first
+    OwnKernelClock clock_;
+    std::optional<OwnKernel> own_;
+    bool ahead_ = false;
     std::optional<vulkan::ComputePipeline> commit_;
     std::optional<vulkan::ComputePipeline> fold_;
 };

@@ -22,13 +22,6 @@ std::string digest_of(const Camera &camera) {
     return digest.text();
 }
 
-std::string digest_of(const KernelCode &code) {
-    Digest digest;
-    for (const auto &words : {code.pathtrace, code.commit, code.fold})
-        digest.add(words);
-    return digest.text();
-}
-
 // Printable ASCII, as a film's header is.
 std::string printable(std::string text) {
     std::ranges::replace_if(

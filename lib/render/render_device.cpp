@@ -22,8 +22,8 @@ constexpr double share_assumed_of_learnt = 0.125;
 } // namespace
 
 RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                           vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds,
-                           const vulkan::DevicePolicy &policy) :
+                           vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy,
+                           const KernelCode &code, double target_seconds) :
     device_(instance, physical_device, std::move(logical_device), policy),
     code_(code),
     pipelines_(std::make_unique<TracePipelines>(device_, code)),
@@ -79,7 +79,7 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
     return pipelines;
 }
 
-void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) {
+void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
     kernel_.reset(); // they use the old ones
     image_reader_.reset();
     error_reader_.reset();
@@ -87,6 +87,16 @@ void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePi
     estimate_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
+    device_.pipeline_cache().set_key(pipelines_->take_kernel_key());
+}
+
+void RenderDevice::keep_kernels(const vulkan::KernelStore &store) {
+    device_.pipeline_cache().use(store, pipelines_->take_kernel_key(), device_.log());
+}
+
+void RenderDevice::save_kernels() noexcept {
+    if (!device_.hangs())
+        device_.pipeline_cache().save(device_.log());
 }
 
 // The schedule goes on where it was if the kernel does: what a sample costs is much the same. For another kernel it
@@ -115,6 +125,17 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     schedule_.emplace(film_->pixel_count(), limits);
 }
 
+void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
+    const TracePipelines::Ahead ahead(*pipelines_);
+    prepare(scene, settings);
+    kernel_->build(*pipelines_);
+    kernel_->dispatch_nothing();
+    if (device_.policy().resolve_on_device) {
+        resolve_pipeline();
+        estimate_pipeline();
+    }
+}
+
 DeviceFilm &RenderDevice::film() {
     while (film_is_behind()) {
         start_film_work();
@@ -125,11 +146,15 @@ DeviceFilm &RenderDevice::film() {
 
 ImageReader &RenderDevice::image_reader() {
     DeviceFilm &film = this->film();
-    if (!resolve_)
-        resolve_.emplace(resolve_pipeline(device_, code_.resolve));
     if (!image_reader_)
-        image_reader_.emplace(device_, *resolve_, film);
+        image_reader_.emplace(device_, resolve_pipeline(), film);
     return *image_reader_;
+}
+
+const vulkan::ComputePipeline &RenderDevice::resolve_pipeline() {
+    if (!resolve_)
+        resolve_.emplace(pt::resolve_pipeline(device_, code_.resolve));
+    return *resolve_;
 }
 
 const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {

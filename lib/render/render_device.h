@@ -25,8 +25,8 @@ class RenderDevice {
 public:
     // The instance must outlive it. target_seconds: aim for the time of a slice.
     RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalDevice &physical_device,
-                 vulkan::LogicalDevice logical_device, const KernelCode &code, double target_seconds,
-                 const vulkan::DevicePolicy &policy);
+                 vulkan::LogicalDevice logical_device, const vulkan::DevicePolicy &policy, const KernelCode &code,
+                 double target_seconds);
     // Waits for what is under way, as long as the device's patience allows.
     ~RenderDevice();
     RenderDevice(const RenderDevice &) = delete;
@@ -45,6 +45,9 @@ public:
 
     // What reads errors of other films.
     const vulkan::ComputePipeline &estimate_pipeline();
+    // Takes over kernels that the caller has kept, and hands over those that are built.
+    void keep_kernels(const vulkan::KernelStore &store);
+    void save_kernels() noexcept;
 
     // What the film of these settings takes of this device. Throws PT_ERROR_UNSUPPORTED if it has not so much.
     DeviceFilm make_film(const RenderSettings &settings);
@@ -56,10 +59,13 @@ public:
     // Pipelines of other code, built as far as the kernel needs them if there is one. Throws PT_ERROR_SHADER if the
     // driver refuses the code.
     std::unique_ptr<TracePipelines> make_pipelines(const KernelCode &code);
-    void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines);
+    void set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept;
 
     // Makes the kernel, or shows it this scene, unless it has it. After set_film. Idle.
     void prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
+
+    // The same, with all that the kernel will need, as fast as it can be.
+    void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
     std::uint32_t pass_pixels() const { return pass_pixels_; }
@@ -105,6 +111,7 @@ private:
     };
 
     bool can_clear_at_once() const;
+    const vulkan::ComputePipeline &resolve_pipeline();
     void start_film_work();
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 

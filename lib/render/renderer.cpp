@@ -25,6 +25,21 @@ std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
     return devices;
 }
 
+// Hands to the caller, at the end of a call, the kernels that were built in it.
+class KernelsKept {
+public:
+    explicit KernelsKept(const std::vector<std::unique_ptr<RenderDevice>> &devices) : devices_(devices) {}
+    KernelsKept(const KernelsKept &) = delete;
+    KernelsKept &operator=(const KernelsKept &) = delete;
+    ~KernelsKept() {
+        for (const auto &device : devices_)
+            device->save_kernels();
+    }
+
+private:
+    const std::vector<std::unique_ptr<RenderDevice>> &devices_;
+};
+
 Error too_many_samples(std::uint32_t sample_count, const std::string &reason, std::uint64_t number) {
     return {PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "accumulate",
                                                   .member = "sample_count",
@@ -64,10 +79,12 @@ void Renderer::use_device_of(const vulkan::CallerVulkan &caller, const CreateSet
 
 void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
                           const CreateSettings &settings) {
-    const vulkan::DevicePolicy policy =
+    vulkan::DevicePolicy policy =
         settings.like_gpus ? vulkan::gpu_like_policy() : vulkan::default_policy(vulkan::describe(physical_device));
-    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), code_,
-                                                      settings.submit_milliseconds * 1e-3, policy));
+    policy.scene_in_constants = policy.scene_in_constants && settings.scene_kernels;
+    devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), policy,
+                                                      code_, settings.submit_milliseconds * 1e-3));
+    devices_.back()->keep_kernels(settings.kernel_store);
     log().info([&] {
         const pt_device_info &info = devices_.back()->device().info();
         return std::string("renders on ") + info.name + " (" + info.driver + ")";
@@ -128,6 +145,7 @@ void Renderer::reload_shaders() {
 void Renderer::set_code(const KernelCode &code) {
     if (code == code_)
         return;
+    const KernelsKept kept(devices_);
     std::vector<std::unique_ptr<TracePipelines>> pipelines;
     for (const auto &device : devices_)
         pipelines.push_back(device->make_pipelines(code));
@@ -186,6 +204,7 @@ const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
+        const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.count() * devices_.front()->pixel_count();
         ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps(samples)});
         estimate_error(estimator);
@@ -240,13 +259,25 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
         throw too_many_samples(sample_count, "a pixel holds at most 2^32 - 1 samples (it has ", samples_.count());
 }
 
+const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {
+    if (!gpu_scene_)
+        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
+    return gpu_scene_;
+}
+
+void Renderer::prepare() {
+    require_settings();
+    const KernelsKept kept(devices_);
+    for (const auto &device : devices_)
+        device->prepare_ahead(gpu_scene_of_settings(), *settings_);
+}
+
 pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
     require_settings();
     require_room_for(sample_count);
-    if (!gpu_scene_)
-        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
+    const KernelsKept kept(devices_);
     for (const auto &device : devices_)
-        device->prepare(gpu_scene_, *settings_);
+        device->prepare(gpu_scene_of_settings(), *settings_);
 
     const std::uint64_t samples_wanted = samples_.count() + sample_count;
     const std::uint64_t pixel_count = devices_.front()->pixel_count();
@@ -352,6 +383,7 @@ void Renderer::readback(const Image &image) {
             value += count;
         }
     };
+    const KernelsKept kept(devices_);
     const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
     const double unit = scene_->film_unit;
     if (resolves_on_device()) {

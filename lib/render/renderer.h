@@ -15,6 +15,7 @@
 #include "lib/scene/scene.h"
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
+#include "lib/vulkan/kept_kernels.h"
 
 #include <pt/accuracy.h>
 #include <pt/devices.h>
@@ -32,11 +33,13 @@ namespace pt {
 // pt_create_info, checked, with its defaults applied.
 struct CreateSettings {
     bool validation = false;
+    bool scene_kernels = true;    // with a scene's numbers as constants, where they are faster
     std::string device;           // empty: the best
     std::string shader_directory; // empty: the kernels in the library
     Log log;
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
+    vulkan::KernelStore kernel_store;
     std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
     bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
 };
@@ -74,6 +77,9 @@ public:
     // Replaces the kernels on all devices or, if a driver refuses them, on none.
     void set_code(const KernelCode &code);
 
+    // Builds what accumulate() needs.
+    void prepare();
+
     // PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
 
@@ -108,6 +114,7 @@ private:
     void require_samples() const;
     void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
+    const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();
     bool is_in_pass() const;
     std::vector<DeviceFilm *> films() const;
     bool resolves_on_device() const;

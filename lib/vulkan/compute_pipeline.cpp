@@ -22,7 +22,7 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
         {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
 }
 
-vk::raii::Pipeline create_pipeline(const Device &device, const vk::raii::PipelineLayout &layout,
+vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayout &layout,
                                    std::span<const std::uint32_t> spirv, std::span<const std::uint32_t> constants) {
     const vk::raii::ShaderModule module =
         device.handle().createShaderModule({.codeSize = spirv.size_bytes(), .pCode = spirv.data()});
@@ -38,7 +38,11 @@ vk::raii::Pipeline create_pipeline(const Device &device, const vk::raii::Pipelin
                                                   .pName = "main",
                                                   .pSpecializationInfo = &specialization};
     try {
-        return device.handle().createComputePipeline(device.pipeline_cache(), {.stage = stage, .layout = *layout});
+        PipelineCache &cache = device.pipeline_cache();
+        vk::raii::Pipeline pipeline =
+            device.handle().createComputePipeline(cache.handle(), {.stage = stage, .layout = *layout});
+        cache.note_kernel();
+        return pipeline;
     } catch (const vk::SystemError &error) {
         const pt_result result = result_of(static_cast<vk::Result>(error.code().value()));
         // What is neither memory nor a lost device is the kernel's.

@@ -1,13 +1,16 @@
 // Creation of the device, submission and waiting; see device.h.
 #include "lib/vulkan/device.h"
 
+#include "lib/base/digest.h"
 #include "lib/base/error.h"
 #include "lib/vulkan/device_choice.h"
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <limits>
+#include <string_view>
 
 namespace pt::vulkan {
 
@@ -38,6 +41,15 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .max_uniform_range = std::min(limits.maxUniformBufferRange, largest_uniform_range) / 256 * 256,
             .max_workgroup_count = limits.maxComputeWorkGroupCount[0],
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
+}
+
+// As drivers put it into the head of their own caches, and the driver's version.
+std::array<std::uint32_t, 7> driver_id_of(const vk::raii::PhysicalDevice &device) {
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    std::array<std::uint32_t, 7> id = {properties.vendorID, properties.deviceID, properties.driverVersion};
+    static_assert(sizeof properties.pipelineCacheUUID == 4 * sizeof id[0]);
+    std::memcpy(&id[3], properties.pipelineCacheUUID.data(), sizeof properties.pipelineCacheUUID);
+    return id;
 }
 
 using Stage = vk::PipelineStageFlagBits;
@@ -99,6 +111,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
     limits_(limits_of(physical_device)),
     policy_(policy),
     memory_properties_(physical_device.getMemoryProperties()),
+    driver_id_(driver_id_of(physical_device)),
     logical_device_(std::move(logical_device)) {
     translated("preparing the device", [&] {
         command_pool_ = handle().createCommandPool({.flags = vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
@@ -109,7 +122,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
                                              .commandBufferCount = policy_.queue_depth + 1});
         for (vk::raii::CommandBuffer &buffer : commands)
             submissions_.push_back({std::move(buffer), handle().createFence({}), {}, false});
-        pipeline_cache_ = handle().createPipelineCache({});
+        pipeline_cache_ = PipelineCache(handle());
     });
 }
 
@@ -118,7 +131,7 @@ Device::~Device() {
         return;
     // vkDestroyDevice waits for the work under way, however long it takes (seen with NVIDIA's driver 580.159), and
     // destroying the instance without it crashes. Left alone, both go with the process, whose end stops the work.
-    pipeline_cache_.release();
+    pipeline_cache_.abandon();
     for (Submission &submission : submissions_) {
         submission.fence.release();
         submission.commands.release();
@@ -126,6 +139,15 @@ Device::~Device() {
     command_pool_.release();
     logical_device_.abandon();
     instance_.abandon();
+}
+
+std::string Device::kernel_key(const std::string &code_digest) const {
+    Digest digest;
+    digest.add(driver_id_);
+    digest.add(std::string_view(info_.name));
+    digest.add(std::string_view(info_.driver));
+    digest.add(code_digest);
+    return digest.text();
 }
 
 bool Device::hangs() const {

@@ -4,10 +4,12 @@
 
 #include "lib/vulkan/instance.h"
 #include "lib/vulkan/logical_device.h"
+#include "lib/vulkan/pipeline_cache.h"
 
 #include <pt/devices.h>
 #include <pt/pt.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
@@ -98,7 +100,12 @@ public:
     double submit(const Record &record) { return finish(start(record)); }
 
     const vk::raii::Device &handle() const { return logical_device_.handle(); }
-    const vk::raii::PipelineCache &pipeline_cache() const { return pipeline_cache_; }
+    PipelineCache &pipeline_cache() { return pipeline_cache_; }
+
+    // Of what the driver's kernels of some code are good for: this model of device, its driver, and that code. 32
+    // hexadecimal digits.
+    std::string kernel_key(const std::string &code_digest) const;
+
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }
     void count_allocation(std::uint64_t bytes) { allocated_bytes_ += bytes; }
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
@@ -126,11 +133,12 @@ private:
     Limits limits_;
     DevicePolicy policy_;
     vk::PhysicalDeviceMemoryProperties memory_properties_;
+    std::array<std::uint32_t, 7> driver_id_; // numbers that tell drivers and models of devices apart
     LogicalDevice logical_device_;
     vk::raii::CommandPool command_pool_ = nullptr;
     std::vector<Submission> submissions_;
     Clock::time_point last_end_;
-    vk::raii::PipelineCache pipeline_cache_ = nullptr;
+    PipelineCache pipeline_cache_;
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_ = "the device was lost";
     bool lost_ = false;

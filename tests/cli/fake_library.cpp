@@ -197,6 +197,10 @@ pt_result pt_reload_shaders(pt_context *context) {
     return call(context, "reload_shaders");
 }
 
+pt_result pt_prepare(pt_context *context) {
+    return call(context, "prepare");
+}
+
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     const std::string milliseconds = setting("FAKE_PT_SAMPLE_MS");
     const pt_result result = call(context, "accumulate");

@@ -4,6 +4,7 @@
 #include "lib/render/render_device.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device_choice.h"
 #include "recurrence.spv.h"
 #include "tests/device/caller_vulkan.h"
 #include "tests/device/coursework_gpu_scene.h"
@@ -87,8 +88,8 @@ protected:
         const CallerVulkan handles = this->handles(with_lock);
         Instance instance(pt::Log{}, handles.instance);
         const vk::raii::PhysicalDevice physical = validated_physical_device(instance.handle(), handles);
-        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles), pt::embedded_code(), 0.05,
-                                pt::vulkan::default_policy(pt::vulkan::describe(physical)));
+        pt::RenderDevice device(instance, physical, LogicalDevice::borrow(physical, handles),
+                                pt::vulkan::default_policy(pt::vulkan::describe(physical)), pt::embedded_code(), 0.05);
         const QueueSpy spy(device.device().handle());
         const pt::RenderSettings settings = pt::validated_render(render_of(20, 10, 2));
         device.set_film(device.make_film(settings));

@@ -36,6 +36,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_set_camera", [&] { return pt_set_camera(context, &camera); }},
         {"pt_set_render", [&] { return pt_set_render(context, &render); }},
         {"pt_reload_shaders", [&] { return pt_reload_shaders(context); }},
+        {"pt_prepare", [&] { return pt_prepare(context); }},
         {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
         {"pt_readback", [&] { return pt_readback(context, &image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
@@ -51,7 +52,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 
 // That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 9U);
+    EXPECT_EQ(outcomes.size(), 10U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }

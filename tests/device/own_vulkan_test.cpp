@@ -168,6 +168,18 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     EXPECT_EQ(observer.mutex.locks, observer.mutex.unlocks);
 }
 
+// Drivers may compile a kernel no sooner than it is dispatched, so pt_prepare does that, with no work at all.
+TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
+    QueueMutex mutex;
+    pt_vulkan vulkan = caller().handles();
+    mutex.guard(vulkan);
+    const Context context = context_on(vulkan);
+    render(context.get(), 0);
+    const std::uint64_t before = mutex.locks;
+    ASSERT_EQ(pt_prepare(context.get()), PT_OK) << pt_last_error(context.get());
+    EXPECT_EQ(mutex.locks, before + 1);
+}
+
 TEST_F(OwnVulkanTest, LeavesTheCallersDeviceUsable) {
     expect_usable();
     for (int round = 0; round < 2; ++round) {
@@ -217,10 +229,10 @@ TEST_F(OwnVulkanTest, ExcludesWhatIsTheLibrarysOwn) {
     pt_create_info info = info_of(vulkan);
     info.flags = PT_CREATE_VALIDATION;
     info.device = "all";
-    EXPECT_EQ(refusal(info),
-              "PT_ERROR_INVALID_ARGUMENT: create.flags = 1: must be 0 with vulkan, whose instance has its "
-              "own layers\n"
-              "create.device = \"all\": must be NULL with vulkan, which has one");
+    EXPECT_EQ(refusal(info), "PT_ERROR_INVALID_ARGUMENT: create.flags = 1: must not have PT_CREATE_VALIDATION with "
+                             "vulkan, whose instance has its "
+                             "own layers\n"
+                             "create.device = \"all\": must be NULL with vulkan, which has one");
     info.struct_size = offsetof(pt_create_info, vulkan); // and so there is none
     info.flags = 0;
     info.device = std::getenv("PT_TEST_DEVICE");

@@ -21,8 +21,8 @@ class RenderDeviceTest : public VulkanFixture {
 protected:
     pt::RenderDevice ready_device(double target_seconds) {
         return pt::RenderDevice(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
-                                pt::embedded_code(), target_seconds,
-                                pt::vulkan::default_policy(pt::vulkan::describe(physical_device())));
+                                pt::vulkan::default_policy(pt::vulkan::describe(physical_device())),
+                                pt::embedded_code(), target_seconds);
     }
 
     static void set_up(pt::RenderDevice &device) {

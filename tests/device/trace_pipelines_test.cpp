@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace {
@@ -31,55 +32,118 @@ using Words = std::vector<glm::vec4>;
 const Words ball = {{0, 0, -4, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 const Words other_ball = {{0, 0, -5, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
 
+// Each kernel is known by its place, as long as it is kept.
 class TracePipelinesTest : public VulkanFixture {
 protected:
-    pt::TracePipelines pipelines_with(bool scene_in_constants) {
-        return pt::TracePipelines(device_with({.patience = std::chrono::hours{1},
-                                               .share_memory = true,
-                                               .scene_in_constants = scene_in_constants,
-                                               .invocations = 0,
-                                               .queue_depth = 1}));
+    void use(bool scene_in_constants) {
+        pipelines_.emplace(device_with({.patience = std::chrono::hours{1},
+                                        .share_memory = true,
+                                        .scene_in_constants = scene_in_constants,
+                                        .invocations = 0,
+                                        .queue_depth = 1}));
     }
+
+    const ComputePipeline *trace(const Words &words, double seconds, std::uint32_t sampler = PT_SAMPLER_RANDOM) {
+        return &pipelines_->trace(features_of_a_sphere(sampler), 1, words, seconds);
+    }
+
+    void TearDown() override {
+        pipelines_.reset();
+        VulkanFixture::TearDown();
+    }
+
+    std::optional<pt::TracePipelines> pipelines_;
 };
 
-// The two kinds of kernel are told apart by where they are kept.
-TEST_F(TracePipelinesTest, ASceneGetsAKernelOfItsOwnAtOnceOrOnceItPays) {
-    pt::TracePipelines pipelines = pipelines_with(true);
-    const pt::Features features = features_of_a_sphere();
-    const ComputePipeline *own = &pipelines.trace(features, 1, ball, 0.0);
-    EXPECT_EQ(&pipelines.trace(features, 1, ball, 0.5), own);
+TEST_F(TracePipelinesTest, TheFirstSceneGetsAKernelOfItsOwnAndOthersWhenItPays) {
+    use(true);
+    const ComputePipeline *own = trace(ball, 0.0);
+    EXPECT_EQ(trace(ball, 1.5), own);
 
-    const ComputePipeline *any = &pipelines.trace(features, 1, other_ball, 0.0);
-    EXPECT_NE(any, own) << "it took the place of a scene with the same features";
-    EXPECT_EQ(&pipelines.trace(features, 1, other_ball, 0.9), any);
-    EXPECT_EQ(&pipelines.trace(features, 1, ball, 0.0), own) << "that kernel is still there";
-    EXPECT_EQ(&pipelines.trace(features, 1, other_ball, 1.1), own) << "after a second";
-    EXPECT_EQ(&pipelines.trace(features, 1, other_ball, 0.0), own);
-    EXPECT_EQ(&pipelines.trace(features, 1, ball, 0.0), any) << "its kernel has made place";
+    const ComputePipeline *any = trace(other_ball, 0.0);
+    EXPECT_NE(any, own);
+    EXPECT_EQ(trace(other_ball, 0.9), any);
+    EXPECT_EQ(trace(ball, 0.0), own) << "that kernel is still there";
+    const ComputePipeline *other_own = trace(other_ball, 1.1);
+    EXPECT_NE(other_own, any) << "after a second, as the first has paid";
+    EXPECT_NE(other_own, own);
+    EXPECT_EQ(trace(other_ball, 0.0), other_own);
+    EXPECT_EQ(trace(ball, 0.0), own) << "and so is this one";
+    EXPECT_EQ(trace({{0, 0, -6, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}}, 0.0), any);
 
-    const pt::Features other_features = features_of_a_sphere(PT_SAMPLER_SOBOL);
-    EXPECT_EQ(&pipelines.trace(other_features, 1, ball, 0.0), own) << "the first scene with these features";
-    EXPECT_EQ(&pipelines.trace(other_features, 1, other_ball, 0.0), any);
+    const ComputePipeline *any_of_other_kind = trace(ball, 0.0, PT_SAMPLER_SOBOL);
+    EXPECT_EQ(trace(other_ball, 0.0, PT_SAMPLER_SOBOL), any_of_other_kind)
+        << "only the first scene of all does not wait";
+}
+
+// Each stop of half a second more than the last: none of them gets a kernel that the next movement would leave.
+TEST_F(TracePipelinesTest, ACameraThatMovesAndStopsBuildsTwoKernels) {
+    use(true);
+    const ComputePipeline *own = trace(ball, 0.0);
+    const ComputePipeline *any = trace(other_ball, 0.0);
+    EXPECT_NE(any, own);
+    for (int stop = 0; stop < 20; ++stop) {
+        const Words seen = {{0, 0, -10 - stop, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}};
+        for (const double seconds : {0.0, 0.5, 1.0, 1.5, 1.9})
+            EXPECT_EQ(trace(seen, seconds), any) << "stop " << stop << ", " << seconds << " s";
+    }
+    EXPECT_NE(trace(ball, 2.1), any) << "its own is kept";
+    EXPECT_NE(trace(other_ball, 2.1), any) << "a long stop";
+}
+
+TEST_F(TracePipelinesTest, WhoPreparesKernelsGetsTheFastest) {
+    use(true);
+    const ComputePipeline *own = trace(ball, 0.0);
+    const ComputePipeline *any = trace(other_ball, 0.0);
+    {
+        const pt::TracePipelines::Ahead ahead(*pipelines_);
+        const ComputePipeline *other_own = trace(other_ball, 0.0);
+        EXPECT_NE(other_own, any);
+        EXPECT_NE(other_own, own);
+    }
+    EXPECT_EQ(trace({{0, 0, -6, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}}, 0.0), any);
+}
+
+// What was used longest ago is built anew. Not told by its place, which may be that of one that went.
+TEST_F(TracePipelinesTest, AHandfulIsKept) {
+    use(false);
+    const auto of_sharers = [&](std::uint32_t sharers) {
+        return &pipelines_->trace(features_of_a_sphere(), sharers, ball, 0.0);
+    };
+    std::vector<const ComputePipeline *> kernels;
+    for (std::uint32_t sharers = 1; sharers <= pt::TracePipelines::most_kept; ++sharers)
+        kernels.push_back(of_sharers(sharers));
+    for (std::uint32_t sharers = 1; sharers <= kernels.size(); ++sharers)
+        EXPECT_EQ(of_sharers(sharers), kernels[sharers - 1]) << sharers;
+    pipelines_->trace(features_of_a_sphere(), 1, ball, 0.0);
+    of_sharers(100); // in place of the kernel for two
+    EXPECT_EQ(of_sharers(1), kernels[0]);
+    for (std::uint32_t sharers = 3; sharers <= kernels.size(); ++sharers)
+        EXPECT_EQ(of_sharers(sharers), kernels[sharers - 1]) << sharers;
+    pipelines_->trace(features_of_a_sphere(), 2, ball, 0.0); // in place of the one for a hundred
+    EXPECT_EQ(of_sharers(1), kernels[0]);
 }
 
 TEST_F(TracePipelinesTest, ASceneOfManyWordsReadsABuffer) {
-    pt::TracePipelines pipelines = pipelines_with(true);
+    use(true);
     pt::Features features = features_of_a_sphere();
-    const ComputePipeline *own = &pipelines.trace(features, 1, ball, 0.0);
-    features.sphere_count = 21; // 63 words
-    EXPECT_EQ(&pipelines.trace(features, 1, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0), own);
     features.sphere_count = 22; // 66 words
-    EXPECT_NE(&pipelines.trace(features, 1, Words(66), 0.0), own);
-    EXPECT_NE(&pipelines.trace(features, 1, Words(66), 100.0), own);
+    const ComputePipeline *any = &pipelines_->trace(features, 1, Words(66), 0.0);
+    EXPECT_EQ(&pipelines_->trace(features, 1, Words(66, glm::vec4(1)), 0.0), any);
+    EXPECT_EQ(&pipelines_->trace(features, 1, Words(66), 100.0), any);
+    features.sphere_count = 21; // 63 words
+    const pt::TracePipelines::Ahead ahead(*pipelines_);
+    const ComputePipeline *own = &pipelines_->trace(features, 1, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
+    EXPECT_NE(&pipelines_->trace(features, 1, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);
 }
 
 TEST_F(TracePipelinesTest, WhereConstantsAreNoFasterAllScenesReadABuffer) {
-    pt::TracePipelines pipelines = pipelines_with(false);
-    const pt::Features features = features_of_a_sphere();
-    const ComputePipeline *any = &pipelines.trace(features, 1, ball, 0.0);
-    EXPECT_EQ(&pipelines.trace(features, 1, other_ball, 0.0), any);
-    EXPECT_EQ(&pipelines.trace(features, 1, other_ball, 100.0), any);
-    EXPECT_EQ(&pipelines.trace(features_of_a_sphere(PT_SAMPLER_SOBOL), 1, ball, 0.0), any);
+    use(false);
+    const ComputePipeline *any = trace(ball, 0.0);
+    EXPECT_EQ(trace(other_ball, 0.0), any);
+    EXPECT_EQ(trace(other_ball, 100.0), any);
+    const pt::TracePipelines::Ahead ahead(*pipelines_);
+    EXPECT_EQ(trace(other_ball, 0.0), any);
 }
 
 } // namespace

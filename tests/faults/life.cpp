@@ -50,6 +50,12 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
+uint64_t no_kernels(void * /*user*/, const char * /*key*/, void * /*data*/, uint64_t /*size_bytes*/) {
+    return 0;
+}
+
+void forget_kernels(void * /*user*/, const char * /*key*/, const void * /*data*/, uint64_t /*size_bytes*/) {}
+
 } // namespace
 
 Life::Life(const Setting &setting, const ExpectedImages &expected, const Steps &injected) :
@@ -71,6 +77,7 @@ Steps Life::all_steps() {
             "pt_set_scene",
             "pt_set_camera",
             "pt_set_render",
+            "pt_prepare",
             "pt_accumulate",
             "pt_readback, radiance",
             "pt_readback, standard error",
@@ -106,6 +113,8 @@ void Life::tell() {
     pt_create_info create{};
     create.struct_size = sizeof create;
     create.submit_milliseconds = setting_.submit_milliseconds;
+    create.load_kernels = &no_kernels;
+    create.store_kernels = &forget_kernels;
     call("pt_create", [&] {
         return setting_.device_count == 1 ? pt_create(&create, &context_)
                                           : create_shared(setting_.device_count, create, &context_);
@@ -123,6 +132,8 @@ void Life::tell() {
     call("pt_set_camera", set_camera);
     call("pt_set_render", set_render);
     rows_ = height;
+
+    look("pt_prepare", [&] { return pt_prepare(context_); });
 
     // In passes that are split over submissions; then up to where the error is estimated, and past it.
     accumulate_to("pt_accumulate", 2, 0.0);

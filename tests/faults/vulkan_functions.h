@@ -38,6 +38,7 @@
       VK_TIMEOUT)                                                                                                      \
     X(QueueSubmit, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_DEVICE_LOST, VK_TIMEOUT) \
     X(CreatePipelineCache, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                        \
+    X(GetPipelineCacheData, None, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                          \
     X(DestroyPipelineCache, Destroys)                                                                                  \
     X(CreateBuffer, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                               \
     X(DestroyBuffer, Destroys)                                                                                         \

@@ -36,6 +36,16 @@ class SceneRenderer(smallest.Renderer):
 
     def __init__(self, scene):
         super().__init__()
+        self.set_json(scene)
+        camera = scene["camera"]
+        shutter_open, shutter_close = camera.get("shutter", [0, 1])
+        self.set_camera(position=vector(camera["position"]), target=vector(camera["look_at"]),
+                        up=vector(camera.get("up", [0, 1, 0])), vertical_fov=math.radians(camera["vertical_fov"]),
+                        shutter_open=shutter_open, shutter_close=shutter_close)
+        self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
+
+    def set_json(self, scene):
+        """Takes materials, spheres and planes of a scene file's JSON."""
         names = list(scene["materials"])
         self.set_scene(
             [smallest.pt_material(colour(m.get("diffuse", 0)), colour(m.get("specular", 0)),
@@ -45,12 +55,6 @@ class SceneRenderer(smallest.Renderer):
                                 names.index(s["material"])) for s in scene.get("spheres", [])],
             [smallest.pt_plane(vector(p["normal"]), p["offset"], names.index(p["material"]))
              for p in scene.get("planes", [])])
-        camera = scene["camera"]
-        shutter_open, shutter_close = camera.get("shutter", [0, 1])
-        self.set_camera(position=vector(camera["position"]), target=vector(camera["look_at"]),
-                        up=vector(camera.get("up", [0, 1, 0])), vertical_fov=math.radians(camera["vertical_fov"]),
-                        shutter_open=shutter_open, shutter_close=shutter_close)
-        self.library.pt_get_stats.argtypes = [c_void_p, POINTER(Stats)]
 
     def stats(self):
         stats = Stats()

@@ -182,8 +182,9 @@ typedef struct pt_render {
  *
  * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
  * sample, and those that add to the image a sample which took several submissions. Before the first call of this
- * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a third of a second for that,
- * and as long again in the first submission that takes samples unless its cache has the kernel.
+ * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that,
+ * and two or three more in the first submission that takes samples unless its cache has the kernel (pt_prepare does
+ * both).
  *
  * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
  * at the most, and with several devices those that complete the samples begun. user is
@@ -235,9 +236,28 @@ enum {
  * pt_create_info.log_user. */
 typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 
+/** Gives back what pt_store_kernels_fn was given under a key, be it by another process.
+ *
+ * Returns how many bytes there are, 0 for none, and writes them to data if they are no more than size_bytes. First it is
+ * called with NULL and 0, to learn their number. What it gives is checked and, if it is damaged or belongs to another
+ * driver or version, left alone: the kernels are then built anew, and no call fails. key is as for pt_store_kernels_fn,
+ * user is pt_create_info.kernels_user. */
+typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
+
+/** Takes what a driver has made of kernels, to be kept under a key in place of what was there.
+ *
+ * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it is as fit for
+ * the name of a file. data is valid during the call: from some dozens of bytes to some megabytes, mostly the driver's own.
+ * Where it cannot be kept, nothing needs to be said. user is pt_create_info.kernels_user. */
+typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
+
 /** Bits of pt_create_info.flags. */
 enum {
-    PT_CREATE_VALIDATION = 1 /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
+    PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
+    /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again, and
+     * the first scene of a context gets one, as does each that is rendered for some time, a second at first; building
+     * it takes a third of a second. Without, a moving camera and spheres that move build nothing. */
+    PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
 /** What a context is to run on. Zeros are defaults, but for struct_size. */
@@ -250,10 +270,17 @@ typedef struct pt_create_info {
     uint32_t submit_milliseconds; /**< aim for the length of one submission, [1, 1000]; default 50 */
     uint32_t reserved;            /**< 0 */
     /** NULL: the context makes an instance and devices of its own. Else it runs on this device alone, see pt/vulkan.h;
-     * device must be NULL, and flags 0. Read by pt_create alone. */
+     * device must be NULL, and flags without PT_CREATE_VALIDATION. Read by pt_create alone. */
     const pt_vulkan *vulkan;
     /** NULL or empty: the kernels in the library. Else a folder of their GLSL files, see pt/shaders.h. */
     const char *shader_dir;
+    /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes start
+     * sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built
+     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders), also of those that fail. Drivers that have a
+     * cache of their own, as Mesa's lavapipe, give next to nothing. */
+    pt_load_kernels_fn load_kernels;
+    pt_store_kernels_fn store_kernels; /**< see load_kernels */
+    void *kernels_user;                /**< handed to both; the library does not look at it */
 } pt_create_info;
 
 /* -- any thread, no context -- */
@@ -315,6 +342,19 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
  * PT_ERROR_OUT_OF_DEVICE_MEMORY: it has too little memory left. In both cases, render fewer rows at a time.
  * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
+
+/** Builds the kernels that pt_accumulate needs for scene, camera and render settings as they are, so that it does not
+ * have to: on Mesa's lavapipe a third of a second for a few spheres, on a GPU about as long where its driver has not kept
+ * them.
+ *
+ * Without this call pt_accumulate builds what it needs. A context keeps the last eight kernels, so that settings which
+ * come back find theirs; which one a scene needs is decided by what kinds of things are in it and how many, and on which
+ * sides of them the camera is, not by where they are. Here a scene gets a kernel of its own at once where that is faster
+ * (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. Drivers cannot be interrupted, and so this call cannot.
+ *
+ * One thread at a time per context. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_UNSUPPORTED: the scene is
+ * beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */
+PT_API pt_result pt_prepare(pt_context *context);
 
 /** Adds samples to every pixel and returns when they are done.
  *

@@ -1,0 +1,34 @@
+// What a driver makes of kernels, as the caller keeps it from process to process. Used by PipelineCache.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace pt::vulkan {
+
+// The caller's functions; each may be NULL.
+struct KernelStore {
+    pt_load_kernels_fn load = nullptr;
+    pt_store_kernels_fn store = nullptr;
+    void *user = nullptr;
+};
+
+// Before a driver's bytes stands what they are, so that it never sees others: a driver trusts what it reads.
+struct KernelSeal {
+    char magic[8];
+    char key[32];
+    std::uint64_t size_bytes; // of what follows
+    std::uint64_t checksum;   // of it
+};
+
+// key: 32 characters.
+KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data);
+
+// What follows the seal; nothing if it is not just what was sealed under this key.
+std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes);
+
+} // namespace pt::vulkan

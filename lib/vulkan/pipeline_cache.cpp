@@ -1,0 +1,71 @@
+// Loading and storing a driver's kernels; see pipeline_cache.h.
+#include "lib/vulkan/pipeline_cache.h"
+
+#include <cstring>
+#include <memory>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace pt::vulkan {
+
+namespace {
+
+// Of what was kept, far more than the kernels of a context come to. More is not ours, whatever it says.
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+
+} // namespace
+
+PipelineCache::PipelineCache(const vk::raii::Device &device) :
+    device_(&device),
+    cache_(device.createPipelineCache({})) {}
+
+void PipelineCache::use(const KernelStore &store, std::string key, const Log &log) {
+    key_ = std::move(key);
+    store_ = store;
+    if (store.load)
+        load(store, log);
+}
+
+void PipelineCache::load(const KernelStore &store, const Log &log) {
+    const std::uint64_t size = store.load(store.user, key_.c_str(), nullptr, 0);
+    if (size == 0)
+        return;
+    std::vector<std::byte> bytes(size <= most_bytes ? size : 0);
+    const bool unchanged = store.load(store.user, key_.c_str(), bytes.data(), bytes.size()) == size;
+    const std::span<const std::byte> data = unchanged ? unsealed_kernels(key_, bytes) : std::span<const std::byte>{};
+    if (data.empty()) {
+        log.info([] { return std::string("the kernels that were kept are damaged or foreign, and are built anew"); });
+        return;
+    }
+    try {
+        cache_ = device_->createPipelineCache({.initialDataSize = data.size(), .pInitialData = data.data()});
+        kept_checksum_ = kernel_seal(key_, data).checksum;
+    } catch (const vk::SystemError &error) {
+        log.info([&] { return std::string("the driver refuses the kernels that were kept: ") + error.what(); });
+    }
+}
+
+// Without exceptions, since it ends calls that have done their work: where memory is short, nothing is kept.
+void PipelineCache::save(const Log &log) noexcept {
+    if (!store_.store || !std::exchange(has_news_, false))
+        return;
+    const auto get_data = device_->getDispatcher()->vkGetPipelineCacheData;
+    const VkDevice device = **device_;
+    const VkPipelineCache cache = *cache_;
+    std::size_t size = 0;
+    if (get_data(device, cache, &size, nullptr) != VK_SUCCESS)
+        return;
+    const std::unique_ptr<std::byte[]> bytes(new (std::nothrow) std::byte[sizeof(KernelSeal) + size]);
+    if (!bytes || get_data(device, cache, &size, bytes.get() + sizeof(KernelSeal)) != VK_SUCCESS)
+        return;
+    const KernelSeal seal = kernel_seal(key_, {bytes.get() + sizeof(KernelSeal), size});
+    if (seal.checksum == kept_checksum_)
+        return;
+    std::memcpy(bytes.get(), &seal, sizeof seal);
+    log.info([&] { return "hands over " + std::to_string(size) + " bytes of kernels to be kept"; });
+    store_.store(store_.user, key_.c_str(), bytes.get(), sizeof seal + size);
+    kept_checksum_ = seal.checksum;
+}
+
+} // namespace pt::vulkan

@@ -1,0 +1,49 @@
+// A driver's cache of the kernels that it has built on a device, which the caller may keep from process to process.
+// Owned by Device. Nothing depends on it but time: whatever is wrong with what was kept, kernels are built anew.
+#pragma once
+
+#include "lib/base/log.h"
+#include "lib/vulkan/api.h"
+#include "lib/vulkan/kept_kernels.h"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+namespace pt::vulkan {
+
+class PipelineCache {
+public:
+    PipelineCache() = default; // none
+    // An empty one. The device must outlive it.
+    explicit PipelineCache(const vk::raii::Device &device);
+
+    const vk::raii::PipelineCache &handle() const { return cache_; }
+
+    // Takes over what the caller has kept under a key, if it is whole and the driver accepts it, and hands over by
+    // save() what is new. key: 32 hexadecimal digits.
+    void use(const KernelStore &store, std::string key, const Log &log);
+
+    // From now on what save() hands over belongs to another key.
+    void set_key(std::string key) noexcept { key_ = std::move(key); }
+
+    // A kernel was built.
+    void note_kernel() { has_news_ = true; }
+
+    // Hands the kernels to the caller, if some were built since, and the driver has others to show for it.
+    void save(const Log &log) noexcept;
+
+    void abandon() { cache_.release(); }
+
+private:
+    void load(const KernelStore &store, const Log &log);
+
+    const vk::raii::Device *device_ = nullptr;
+    vk::raii::PipelineCache cache_ = nullptr;
+    KernelStore store_;
+    std::string key_;
+    std::uint64_t kept_checksum_ = 0; // of what the caller has
+    bool has_news_ = false;
+};
+
+} // namespace pt::vulkan
