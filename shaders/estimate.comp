@@ -1,5 +1,5 @@
-// Sums up what the pixels of a film say about the error of its image: one workgroup per region, one invocation per row of
-// a tile. A region depends on nothing outside it, and every sum has its order, so that a film always gives the same bits.
+// Sums up what the pixels of a film say about the error of its image: one workgroup per region. A region depends on
+// nothing outside it, and every sum has its order, so that a film always gives the same bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 
@@ -11,17 +11,21 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 #include "film_mean.glsl"
 #include "pixel_error.glsl"
 
-layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Tiles { TileError tiles[]; } estimated;
+layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
+const uint PIXELS_IN_REGION = REGION_SIZE * REGION_SIZE;
+const uint PIXELS_OF_INVOCATION = PIXELS_IN_REGION / ESTIMATE_WORKGROUP_SIZE;
 
-// Of one channel: the means of the region's pixels, and the sets of them in the rows of tiles, in tiles and in all.
-shared float means[REGION_SIZE * REGION_SIZE];
-shared ValueSet row_sets[ESTIMATE_WORKGROUP_SIZE];
+// By pixels of the region. Invocations look at pixels one below the other, so that those beside each other read memory
+// together; what the pixels add up to is summed by invocations that each have a row of a tile, and then by tiles.
+shared float means[PIXELS_IN_REGION];            // of one channel; at last what is unseen in all
+shared float squares[PIXELS_IN_REGION];          // of all channels
+shared float relative_squares[PIXELS_IN_REGION]; // likewise
+shared vec4 rows[ESTIMATE_WORKGROUP_SIZE];
 shared ValueSet tile_sets[TILES_IN_REGION];
-// Of all channels: what the rows of tiles add up to.
-shared TileError row_errors[ESTIMATE_WORKGROUP_SIZE];
+shared uint tile_counts[TILES_IN_REGION][4]; // rejected samples, low and high; pixels that are unknown, and lost
 
 // A number of up to 160 bits that counts 2^-60ths.
 float as_float(uint words[NUMBER_WORDS])
@@ -71,38 +75,45 @@ Shown shown_in(uint channel, uint pixel_in_strip, Counts counts)
                  borrow == 1u ? as_float(sum_a) / float(counts.a) : as_float(sum_b) / float(counts.b));
 }
 
-// The pixels of the region that touch one, where the region ends beside it: the lower of two in the middle.
-Neighbourhood neighbourhood_at_edge(uvec2 place, uvec2 size)
+void count_in_tile(uint tile, PartCount older, PartCount newer)
 {
-    float values[9];
-    uint count = 0u;
-    uvec2 first = place - min(place, uvec2(1u));
-    uvec2 last = min(place + 1u, size - 1u);
-    for (uint y = first.y; y <= last.y; ++y)
-        for (uint x = first.x; x <= last.x; ++x)
-            values[count++] = means[y * REGION_SIZE + x];
-    Neighbourhood found = Neighbourhood(0.0, 0.0);
-    for (uint i = 0u; i < count; ++i) {
-        uint below = 0u;
-        for (uint other = 0u; other < count; ++other)
-            below += values[other] < values[i] || (values[other] == values[i] && other < i) ? 1u : 0u;
-        if (below == (count - 1u) / 2u && count > 1u)
-            found.median = values[i];
-        found.largest = max(found.largest, values[i]);
-    }
-    return found;
+    uint rejected[2] = uint[2](older.done - older.accepted, newer.done - newer.accepted);
+    for (uint part = 0u; part < 2u; ++part)
+        if (rejected[part] != 0u) {
+            uint before = atomicAdd(tile_counts[tile][0], rejected[part]);
+            if (before + rejected[part] < before)
+                atomicAdd(tile_counts[tile][1], 1u);
+        }
+    if (older.accepted == 0u || newer.accepted == 0u)
+        atomicAdd(tile_counts[tile][2], 1u);
+    if (uvec2(older.done, newer.done) != estimate.sample_counts)
+        atomicAdd(tile_counts[tile][3], 1u);
 }
 
-Neighbourhood neighbourhood(uvec2 place, uvec2 size)
+// Of the pixels of the region that touch one, and itself: k of nine, where the region ends beside it. The lower of two in
+// the middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2
+// of those that are missing lie below all, and the others above. A pixel alone has no neighbours.
+Neighbourhood neighbourhood(ivec2 place, ivec2 size)
 {
-    if (any(equal(place, uvec2(0u))) || any(equal(place + 1u, size)))
-        return neighbourhood_at_edge(place, size);
-    uint above = (place.y - 1u) * REGION_SIZE + place.x;
-    uint beside = above + REGION_SIZE;
-    uint below = beside + REGION_SIZE;
-    return neighbourhood_of_rows(sorted(means[above - 1u], means[above], means[above + 1u]),
-                                 sorted(means[beside - 1u], means[beside], means[beside + 1u]),
-                                 sorted(means[below - 1u], means[below], means[below + 1u]));
+    const float below_all = -1.0;
+    const float above_all = 3e38;
+    ivec2 first = max(place - 1, ivec2(0));
+    ivec2 last = min(place + 1, size - 1);
+    int count = (last.x - first.x + 1) * (last.y - first.y + 1);
+    int lows = 4 - (count - 1) / 2;
+    float values[9];
+    float largest = 0.0;
+    [[unroll]] for (int i = 0; i < 9; ++i) {
+        ivec2 other = place + ivec2(i % 3 - 1, i / 3 - 1);
+        bool is_there = all(greaterThanEqual(other, first)) && all(lessThanEqual(other, last));
+        float value = means[is_there ? other.y * int(REGION_SIZE) + other.x : 0];
+        largest = max(largest, is_there ? value : 0.0);
+        values[i] = is_there ? value : lows > 0 ? below_all : above_all;
+        lows -= is_there ? 0 : 1;
+    }
+    float median = median_of_rows(sorted(values[0], values[1], values[2]), sorted(values[3], values[4], values[5]),
+                                  sorted(values[6], values[7], values[8]));
+    return Neighbourhood(count > 1 ? median : 0.0, largest);
 }
 
 // Sums of squares with the sum of the squares of their shares in them.
@@ -113,96 +124,154 @@ void add_squares(inout float sum, inout float shares, float other_sum, float oth
     sum = all;
 }
 
-void add(inout TileError to, TileError other)
+// Adds a tile with a part of the pixels that whole ones have to those of a region.
+void add_tile(inout ErrorSquares region, float square, float pixel_shares, float part)
 {
-    add_squares(to.square, to.square_shares, other.square, other.square_shares);
-    add_squares(to.relative_square, to.relative_shares, other.relative_square, other.relative_shares);
-    to.unseen += other.unseen;
-    uint carry;
-    to.rejected.x = uaddCarry(to.rejected.x, other.rejected.x, carry);
-    to.rejected.y += other.rejected.y + carry;
-    to.unknown_pixels += other.unknown_pixels;
-    to.lost_pixels += other.lost_pixels;
+    float before = region.sum;
+    add_squares(region.sum, region.pixel_shares, square, pixel_shares);
+    float tiles = before;
+    add_squares(tiles, region.tile_shares, square, 1.0);
+    region.part_share = tiles > 0.0 ? (region.part_share * before + part * square) / tiles : 0.0;
 }
 
 void main()
 {
-    const uint tile = gl_LocalInvocationID.x / TILE_SIZE;
-    const uvec2 tile_place = uvec2(tile % TILES_IN_ROW, tile / TILES_IN_ROW);
+    const uint invocation = gl_LocalInvocationID.x;
     const uvec2 region_place = gl_WorkGroupID.xy * REGION_SIZE;
     const uvec2 size = min(uvec2(estimate.film_width, estimate.row_count) - region_place, uvec2(REGION_SIZE));
-    const uvec2 row_place = tile_place * TILE_SIZE + uvec2(0u, gl_LocalInvocationID.x % TILE_SIZE);
+
+    // The row of a tile that this invocation adds up.
+    const uint tile = invocation / TILE_SIZE;
+    const uvec2 row_place = uvec2(tile % TILES_IN_ROW, tile / TILES_IN_ROW) * TILE_SIZE
+                          + uvec2(0u, invocation % TILE_SIZE);
+    const uint row_first = row_place.y * REGION_SIZE + row_place.x;
     const uint row_pixels = row_place.y < size.y && row_place.x < size.x ? min(size.x - row_place.x, TILE_SIZE) : 0u;
-    const uint first_pixel =
-        (region_place.y + row_place.y) * estimate.film_width + region_place.x + row_place.x;
 
-    // What all channels have in common.
-    TileError row = TileError(0.0, 0.0, 0.0, 0.0, 0.0, 0u, 0u, 0u, uvec2(0u));
-    Counts counts[TILE_SIZE];
-    float squares[TILE_SIZE];
-    float relative_squares[TILE_SIZE];
-    for (uint i = 0u; i < row_pixels; ++i) {
-        PartCount older = part_count(estimate.older_part, first_pixel + i, estimate.strip_pixel_count);
-        PartCount newer = part_count(1u - estimate.older_part, first_pixel + i, estimate.strip_pixel_count);
-        bool is_known = older.accepted > 0u && newer.accepted > 0u;
-        row.unknown_pixels += is_known ? 0u : 1u;
-        row.lost_pixels += uvec2(older.done, newer.done) != estimate.sample_counts ? 1u : 0u;
-        uint carry;
-        row.rejected.x = uaddCarry(row.rejected.x, older.done - older.accepted, carry);
-        row.rejected.y += carry;
-        row.rejected.x = uaddCarry(row.rejected.x, newer.done - newer.accepted, carry);
-        row.rejected.y += carry;
-        counts[i] = counts_of(older, newer);
-        squares[i] = 0.0;
-        relative_squares[i] = 0.0;
-    }
+    if (invocation < TILES_IN_REGION)
+        tile_counts[invocation] = uint[4](0u, 0u, 0u, 0u);
+    barrier();
 
+    float unseen[PIXELS_OF_INVOCATION];
     for (uint channel = 0u; channel < 3u; ++channel) {
-        // The means of the region, and what they are on the average: of rows of tiles, then of tiles, then of all.
-        Shown shown[TILE_SIZE];
-        ValueSet row_set = empty_set();
-        for (uint i = 0u; i < row_pixels; ++i) {
-            shown[i] = shown_in(channel, first_pixel + i, counts[i]);
-            means[row_place.y * REGION_SIZE + row_place.x + i] = shown[i].mean;
-            row_set = with_value(row_set, shown[i].mean);
+        // What the samples of each pixel show.
+        float standard_errors[PIXELS_OF_INVOCATION];
+        float lessers[PIXELS_OF_INVOCATION];
+        for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
+            uint index = i * ESTIMATE_WORKGROUP_SIZE + invocation;
+            uvec2 place = uvec2(index % REGION_SIZE, index / REGION_SIZE);
+            if (any(greaterThanEqual(place, size)))
+                continue;
+            uint pixel = (region_place.y + place.y) * estimate.film_width + region_place.x + place.x;
+            PartCount older = part_count(estimate.older_part, pixel, estimate.strip_pixel_count);
+            PartCount newer = part_count(1u - estimate.older_part, pixel, estimate.strip_pixel_count);
+            Shown shown = shown_in(channel, pixel, counts_of(older, newer));
+            means[index] = shown.mean;
+            standard_errors[i] = shown.standard_error;
+            lessers[i] = shown.lesser;
+            if (channel == 0u) {
+                count_in_tile(place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE, older, newer);
+                squares[index] = 0.0;
+                relative_squares[index] = 0.0;
+                unseen[i] = 0.0;
+            }
         }
-        row_sets[gl_LocalInvocationID.x] = row_set;
         barrier();
-        if (gl_LocalInvocationID.x < TILES_IN_REGION) {
+
+        // What the pixels are on the average: of rows of tiles, then of tiles, then of the region.
+        ValueSet row_set = empty_set();
+        for (uint i = 0u; i < row_pixels; ++i)
+            row_set = with_value(row_set, means[row_first + i]);
+        rows[invocation] = vec4(row_set.sum, row_set.count, row_set.largest, row_set.second);
+        barrier();
+        if (invocation < TILES_IN_REGION) {
             ValueSet tile_set = empty_set();
-            for (uint i = 0u; i < TILE_SIZE; ++i)
-                tile_set = united(tile_set, row_sets[gl_LocalInvocationID.x * TILE_SIZE + i]);
-            tile_sets[gl_LocalInvocationID.x] = tile_set;
+            for (uint i = 0u; i < TILE_SIZE; ++i) {
+                vec4 row = rows[invocation * TILE_SIZE + i];
+                tile_set = united(tile_set, ValueSet(row.x, row.y, row.z, row.w));
+            }
+            tile_sets[invocation] = tile_set;
         }
         barrier();
         ValueSet region_set = empty_set();
         for (uint i = 0u; i < TILES_IN_REGION; ++i)
             region_set = united(region_set, tile_sets[i]);
 
-        for (uint i = 0u; i < row_pixels; ++i) {
-            Neighbourhood near = neighbourhood(row_place + uvec2(i, 0u), size);
-            float around = max(near.median, level_about(shown[i].mean, tile_sets[tile], region_set));
-            squares[i] += squared(shown[i].standard_error);
-            relative_squares[i] +=
-                relative_square(shown[i].standard_error, shown[i].mean, shown[i].lesser, around,
+        // What is expected of each pixel's error.
+        for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
+            uint index = i * ESTIMATE_WORKGROUP_SIZE + invocation;
+            uvec2 place = uvec2(index % REGION_SIZE, index / REGION_SIZE);
+            if (any(greaterThanEqual(place, size)))
+                continue;
+            // As it was stored: of what sets have, it must be the same number.
+            float mean = means[index];
+            Neighbourhood near = neighbourhood(ivec2(place), ivec2(size));
+            ValueSet tile_set = tile_sets[place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE];
+            float around = max(near.median, level_about(mean, tile_set, region_set));
+            squares[index] += squared(standard_errors[i]);
+            relative_squares[index] +=
+                relative_square(standard_errors[i], mean, lessers[i], around,
                                 RelativeError(estimate.relative_offset, estimate.relative_scale));
-            row.unseen +=
-                unseen_square(shown[i].mean, near.largest, estimate.sample_count, estimate.relative_offset);
+            unseen[i] += unseen_square(mean, near.largest, estimate.sample_count, estimate.relative_offset);
         }
         barrier(); // before the next channel's means
     }
-
-    for (uint i = 0u; i < row_pixels; ++i) {
-        add_squares(row.square, row.square_shares, squares[i], 1.0);
-        add_squares(row.relative_square, row.relative_shares, relative_squares[i], 1.0);
-    }
-    row_errors[gl_LocalInvocationID.x] = row;
+    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i)
+        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = unseen[i];
     barrier();
-    if (gl_LocalInvocationID.x < TILES_IN_REGION) {
-        TileError sum = row_errors[gl_LocalInvocationID.x * TILE_SIZE];
-        for (uint i = 1u; i < TILE_SIZE; ++i)
-            add(sum, row_errors[gl_LocalInvocationID.x * TILE_SIZE + i]);
-        uint region = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
-        estimated.tiles[region * TILES_IN_REGION + gl_LocalInvocationID.x] = sum;
+
+    // Sums of rows of tiles, then of each tile.
+    vec4 row = vec4(0.0);
+    float row_unseen = 0.0;
+    for (uint i = 0u; i < row_pixels; ++i) {
+        add_squares(row.x, row.y, squares[row_first + i], 1.0);
+        add_squares(row.z, row.w, relative_squares[row_first + i], 1.0);
+        row_unseen += means[row_first + i];
+    }
+    barrier(); // all have read the pixels
+    rows[invocation] = row;
+    means[invocation] = row_unseen;
+    barrier();
+    if (invocation < TILES_IN_REGION) {
+        vec4 sum = vec4(0.0);
+        float tile_unseen = 0.0;
+        for (uint i = 0u; i < TILE_SIZE; ++i) {
+            vec4 other = rows[invocation * TILE_SIZE + i];
+            add_squares(sum.x, sum.y, other.x, other.y);
+            add_squares(sum.z, sum.w, other.z, other.w);
+            tile_unseen += means[invocation * TILE_SIZE + i];
+        }
+        squares[invocation] = sum.x;
+        squares[TILES_IN_REGION + invocation] = sum.y;
+        relative_squares[invocation] = sum.z;
+        relative_squares[TILES_IN_REGION + invocation] = sum.w;
+        means[PIXELS_IN_REGION - 1u - invocation] = tile_unseen; // beyond those of rows
+    }
+    barrier();
+
+    // And of tiles.
+    if (invocation == 0u) {
+        RegionError region;
+        region.square = ErrorSquares(0.0, 0.0, 0.0, 0.0);
+        region.relative_square = ErrorSquares(0.0, 0.0, 0.0, 0.0);
+        region.unseen = 0.0;
+        region.unknown_pixels = 0u;
+        region.lost_pixels = 0u;
+        region.reserved = 0u;
+        region.rejected = uvec2(0u);
+        for (uint i = 0u; i < TILES_IN_REGION; ++i) {
+            // The pixels of a tile that the region has, of those of a whole one.
+            uvec2 corner = uvec2(i % TILES_IN_ROW, i / TILES_IN_ROW) * TILE_SIZE;
+            uvec2 in_region = min(size - min(size, corner), uvec2(TILE_SIZE));
+            float part = float(in_region.x * in_region.y) / float(TILE_SIZE * TILE_SIZE);
+            add_tile(region.square, squares[i], squares[TILES_IN_REGION + i], part);
+            add_tile(region.relative_square, relative_squares[i], relative_squares[TILES_IN_REGION + i], part);
+            region.unseen += means[PIXELS_IN_REGION - 1u - i];
+            uint carry;
+            region.rejected.x = uaddCarry(region.rejected.x, tile_counts[i][0], carry);
+            region.rejected.y += tile_counts[i][1] + carry;
+            region.unknown_pixels += tile_counts[i][2];
+            region.lost_pixels += tile_counts[i][3];
+        }
+        estimated.regions[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = region;
     }
 }

@@ -162,17 +162,24 @@ PT_CONSTANT REGION_SIZE = 32;
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
 
-// What a tile adds to the error of the image, in film units.
-struct TileError {
-    float square;          // sum over pixels and channels of what is expected of (x - r)^2
-    float square_shares;   // sum of the squares of the pixels' shares in it
-    float relative_square; // the same of (x - r)^2 / (r^2 + offset^2), times relative_scale^2
-    float relative_shares;
-    float unseen;         // the same of light that no sample met, not scaled
-    uint unknown_pixels;  // without a sample in either part
-    uint lost_pixels;     // whose samples a driver lost
+// The sum of what is expected of the squares of errors in a region, and how it is made up: shares in it are numbers that
+// their squares leave in the range of float.
+struct ErrorSquares {
+    float sum;          // over pixels and channels
+    float pixel_shares; // sum of the squares of the pixels' shares
+    float tile_shares;  // sum of the squares of the tiles' shares
+    float part_share;   // sum of the tiles' shares, each times its pixels over those of a whole tile
+};
+
+// What a region says about the error of the image.
+struct RegionError {
+    ErrorSquares square;          // of (x - r)^2, in film units
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2
+    float unseen;                 // the same of light that no sample met, not scaled
+    uint unknown_pixels;          // without a sample in either part
+    uint lost_pixels;             // whose samples a driver lost
     uint reserved;
-    uvec2 rejected;       // samples, low and high word
+    uvec2 rejected;               // samples, low and high word
 };
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
@@ -229,7 +236,7 @@ static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameCo
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
 static_assert(sizeof(ResolveConstants) == 44 && offsetof(ResolveConstants, pixel_count) == 40);
-static_assert(sizeof(EstimateConstants) == 36 && sizeof(TileError) == 40 && offsetof(TileError, rejected) == 32);
+static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

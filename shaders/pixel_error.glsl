@@ -66,10 +66,9 @@ struct Neighbourhood {
 };
 
 // Of nine values in three sorted rows (Paeth 1990, Median finding on a 3 x 3 grid).
-Neighbourhood neighbourhood_of_rows(vec3 a, vec3 b, vec3 c)
+float median_of_rows(vec3 a, vec3 b, vec3 c)
 {
-    return Neighbourhood(sorted(sorted(a.x, b.x, c.x).z, sorted(a.y, b.y, c.y).y, sorted(a.z, b.z, c.z).x).y,
-                         max(max(a.z, b.z), c.z));
+    return sorted(sorted(a.x, b.x, c.x).z, sorted(a.y, b.y, c.y).y, sorted(a.z, b.z, c.z).x).y;
 }
 
 // What divides the square of a value's error, and what is added to a square: offset^2.

@@ -42,6 +42,29 @@ double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
+double squared(double value) {
+    return value * value;
+}
+
+// How many pixels with equal errors would make a sum as uncertain: their squares are each a share of 1 / n of the sum,
+// and the sum of the squares of the shares is 1 / n.
+double pixel_count(const ErrorSquares &squares) {
+    return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
+}
+
+void add_tile(ErrorSquares &to, double square, double value_count) {
+    to.sum += square;
+    to.of_tiles += squared(square);
+    to.times_tile_sizes += square * value_count;
+}
+
+void add_squares(ErrorSquares &to, const ErrorSquares &other) {
+    to.sum += other.sum;
+    to.of_pixels += other.of_pixels;
+    to.of_tiles += other.of_tiles;
+    to.times_tile_sizes += other.times_tile_sizes;
+}
+
 } // namespace
 
 ErrorEstimate unknown_error() {
@@ -71,7 +94,7 @@ double exaggeration(std::uint32_t sampler) {
 }
 
 void ErrorEstimator::add(const PixelEstimates &pixels) {
-    rejected_ += pixels.rejected;
+    all_.rejected += pixels.rejected;
     const std::size_t band_values = 3 * region_size * conditions_.width;
     for (std::size_t first = 0; first < pixels.radiance.size();) {
         const std::size_t count = std::min(band_values - radiance_.size(), pixels.radiance.size() - first);
@@ -123,81 +146,75 @@ void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t
             pixels[i].unseen += values[i].unseen;
         }
     }
+    RegionErrors region;
     for (std::size_t top = 0; top < height; top += tile_size)
         for (std::size_t first = 0; first < width; first += tile_size) {
             const std::size_t bottom = std::min(top + tile_size, height);
             const std::size_t last = std::min(first + tile_size, width);
-            TileErrors tile{};
+            const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
+            double square = 0.0;
+            double relative_square = 0.0;
             for (std::size_t y = top; y < bottom; ++y)
                 for (std::size_t x = first; x < last; ++x) {
                     const ValueError &pixel = pixels[y * width + x];
-                    tile.square += pixel.square;
-                    tile.square_of_pixels += pixel.square * pixel.square;
-                    tile.relative_square += pixel.relative_square;
-                    tile.relative_square_of_pixels += pixel.relative_square * pixel.relative_square;
-                    tile.unseen += pixel.unseen;
+                    square += pixel.square;
+                    relative_square += pixel.relative_square;
+                    region.square.of_pixels += squared(pixel.square);
+                    region.relative_square.of_pixels += squared(pixel.relative_square);
+                    region.unseen += pixel.unseen;
                 }
-            tile.value_count = static_cast<double>(3 * (bottom - top) * (last - first));
-            add(tile);
+            region.value_count += value_count;
+            region.squares_of_tile_sizes += squared(value_count);
+            add_tile(region.square, square, value_count);
+            add_tile(region.relative_square, relative_square, value_count);
         }
+    add(region);
 }
 
-void ErrorEstimator::add(const TileErrors &tile) {
-    squares_.add(tile.value_count, tile.square, tile.square_of_pixels);
-    relative_squares_.add(tile.value_count, tile.relative_square, tile.relative_square_of_pixels);
-    unseen_ += tile.unseen;
-    rejected_ += tile.rejected;
+void ErrorEstimator::add(const RegionErrors &region) {
+    all_.value_count += region.value_count;
+    all_.squares_of_tile_sizes += region.squares_of_tile_sizes;
+    add_squares(all_.square, region.square);
+    add_squares(all_.relative_square, region.relative_square);
+    all_.unseen += region.unseen;
+    all_.rejected += region.rejected;
 }
 
-// The squares of n equal pixels are each a share of 1 / n of the sum, and the sum of the squares of the shares is 1 /
-// n.
-double ErrorEstimator::Squares::pixel_count() const {
-    return sum_ > 0.0 ? sum_ * sum_ / sum_of_pixel_squares_ : infinity;
-}
-
-// Tiles are independent of each other: the variance of their sum is estimated by the sum of the squares of their
-// deviations from the mean. That their expectations differ too only adds to it.
-Interval ErrorEstimator::Squares::root_mean(double other_squares, bool uncertain, double margin,
-                                            double exaggeration) const {
-    const bool shows_nothing = sum_ + other_squares == 0.0;
-    if (!std::isfinite(sum_) || (shows_nothing && uncertain))
+// Tiles are independent of each other: the variance of the sum S over n values is estimated by the sum of the squares of
+// their deviations from the mean, s - c S / n for a tile with c values. That their expectations differ too only adds to
+// it.
+Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
+    const bool shows_nothing = squares.sum + other_squares == 0.0;
+    if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))
         return unknown_error().rmse;
     if (shows_nothing)
         return {0.0, 0.0, 0.0};
-    double variance = 0.0;
-    for (const Tile &tile : tiles_) {
-        const double deviation = tile.square - sum_ / value_count_ * tile.value_count;
-        variance += deviation * deviation;
-    }
-    const double estimate =
-        std::sqrt((sum_ + other_squares) / value_count_) * (1.0 + share_added(pixel_count())) * margin;
-    const double relative_deviation = sum_ > 0.0 ? std::sqrt(variance) / sum_ : 0.0;
+    const double mean = squares.sum / all_.value_count;
+    const double variance =
+        squares.of_tiles - 2.0 * mean * squares.times_tile_sizes + mean * mean * all_.squares_of_tile_sizes;
+    const double estimate = std::sqrt((squares.sum + other_squares) / all_.value_count) *
+                            (1.0 + share_added(pixel_count(squares))) * margin(conditions_.sampler);
+    const double relative_deviation = squares.sum > 0.0 ? std::sqrt(std::max(variance, 0.0)) / squares.sum : 0.0;
     const double spread = std::sqrt(1.0 + normal_95 * relative_deviation) * (uncertain ? uncertain_factor : 1.0);
-    return {estimate, estimate / (spread * exaggeration), estimate * spread};
+    return {estimate, estimate / (spread * exaggeration(conditions_.sampler)), estimate * spread};
 }
 
 ErrorEstimate ErrorEstimator::result() {
     if (!radiance_.empty())
         finish_band();
-    const bool few = squares_.pixel_count() < few_pixels;
-    const bool few_relative = relative_squares_.pixel_count() < few_pixels;
-    const bool unseen = unseen_ > much_unseen * (relative_squares_.sum() + unseen_);
     std::uint32_t uncertain = 0;
-    if (few)
+    if (pixel_count(all_.square) < few_pixels)
         uncertain |= PT_UNCERTAIN_RMSE;
-    if (few_relative)
+    if (pixel_count(all_.relative_square) < few_pixels)
         uncertain |= PT_UNCERTAIN_RELATIVE_RMSE;
-    if (unseen)
+    if (all_.unseen > much_unseen * (all_.relative_square.sum + all_.unseen))
         uncertain |= PT_UNCERTAIN_UNSEEN;
     if (conditions_.may_miss_lamps)
         uncertain |= PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t rmse_bits = PT_UNCERTAIN_RMSE | PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t relative_bits = PT_UNCERTAIN_RELATIVE_RMSE | PT_UNCERTAIN_UNSEEN | PT_UNCERTAIN_UNMET;
-    const double exaggeration = pt::exaggeration(conditions_.sampler);
-    return {squares_.root_mean(0.0, (uncertain & rmse_bits) != 0, margin(conditions_.sampler), exaggeration),
-            relative_squares_.root_mean(unseen_, (uncertain & relative_bits) != 0, margin(conditions_.sampler),
-                                        exaggeration),
-            uncertain};
+    return {root_mean(all_.square, 0.0, (uncertain & rmse_bits) != 0),
+            root_mean(all_.relative_square, all_.unseen, (uncertain & relative_bits) != 0), uncertain};
 }
 
 } // namespace pt

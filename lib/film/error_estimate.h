@@ -52,15 +52,22 @@ struct SampleConditions {
     bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
 };
 
-// What a tile of pixels says.
-struct TileErrors {
-    double value_count;               // pixels times channels
-    double square;                    // sum of what is expected of (x - r)^2; infinite if it is unknown
-    double square_of_pixels;          // sum over pixels of the squares of their sums over channels
-    double relative_square;           // the same of (x - r)^2 / (r^2 + 0.01)
-    double relative_square_of_pixels; // likewise
-    double unseen;                    // the same of light that no sample met
-    std::uint64_t rejected;           // samples left out
+// The squares that are expected of errors, summed over pixels and channels, and how they lie.
+struct ErrorSquares {
+    double sum = 0.0;              // infinite if it is unknown
+    double of_pixels = 0.0;        // sum over pixels of the squares of their sums over channels
+    double of_tiles = 0.0;         // sum over tiles of the squares of their sums
+    double times_tile_sizes = 0.0; // sum over tiles of their sums, each times the number of its values
+};
+
+// What a region says.
+struct RegionErrors {
+    double value_count = 0.0;           // pixels times channels
+    double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
+    ErrorSquares square;                // of (x - r)^2
+    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01)
+    double unseen = 0.0;                // the same of light that no sample met
+    std::uint64_t rejected = 0;         // samples left out
 };
 
 class ErrorEstimator {
@@ -70,43 +77,18 @@ public:
     // Takes consecutive pixels with their standard errors, the first being the first of the image.
     void add(const PixelEstimates &pixels);
 
-    // Takes a tile of pixels. The last bits of the result depend on the order of the tiles.
-    void add(const TileErrors &tile);
+    // Takes a region. The last bits of the result depend on the order of the regions.
+    void add(const RegionErrors &region);
 
     // Of all pixels taken, at least one row.
     ErrorEstimate result();
 
     // Samples left out of them.
-    std::uint64_t rejected() const { return rejected_; }
+    std::uint64_t rejected() const { return all_.rejected; }
 
 private:
-    // Squares that are expected of errors, summed over an image.
-    class Squares {
-    public:
-        void add(double value_count, double square, double square_of_pixels) {
-            tiles_.push_back({value_count, square});
-            value_count_ += value_count;
-            sum_ += square;
-            sum_of_pixel_squares_ += square_of_pixels;
-        }
-
-        double sum() const { return sum_; }
-        // How many pixels with equal errors would make the sum as uncertain.
-        double pixel_count() const;
-        // The root of their mean, if other squares are added to the sum.
-        Interval root_mean(double other_squares, bool uncertain, double margin, double exaggeration) const;
-
-    private:
-        struct Tile {
-            double value_count;
-            double square;
-        };
-
-        std::vector<Tile> tiles_;
-        double value_count_ = 0.0; // of all tiles
-        double sum_ = 0.0;
-        double sum_of_pixel_squares_ = 0.0;
-    };
+    // The root of the mean of some squares, if others are added to their sum.
+    Interval root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const;
 
     void finish_band();
     void add_region(std::size_t left, std::size_t width, std::size_t height);
@@ -116,10 +98,7 @@ private:
     std::vector<float> radiance_; // of a band of regions that is not complete
     std::vector<float> standard_error_;
     std::vector<float> lesser_;
-    Squares squares_;
-    Squares relative_squares_;
-    double unseen_ = 0.0;
-    std::uint64_t rejected_ = 0;
+    RegionErrors all_;
 };
 
 } // namespace pt

@@ -13,22 +13,18 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint32_t tiles_in_row = gpu::REGION_SIZE / gpu::TILE_SIZE;
-constexpr std::uint32_t tiles_in_region = tiles_in_row * tiles_in_row;
-
 std::uint32_t regions_of(std::uint32_t pixels) {
     return (pixels + gpu::REGION_SIZE - 1) / gpu::REGION_SIZE;
 }
 
-std::uint64_t tile_bytes(const DeviceFilm &film, const DeviceFilm::Strip &strip) {
-    const std::uint64_t regions =
-        std::uint64_t{regions_of(film.width())} * regions_of(strip.pixel_count / film.width());
-    return regions * tiles_in_region * sizeof(gpu::TileError);
+std::uint64_t region_bytes(const DeviceFilm &film, const DeviceFilm::Strip &strip) {
+    return std::uint64_t{regions_of(film.width())} * regions_of(strip.pixel_count / film.width()) *
+           sizeof(gpu::RegionError);
 }
 
 // The strips are of one size, but for the last, which is no larger.
-std::uint64_t most_tile_bytes(DeviceFilm &film) {
-    return tile_bytes(film, film.strips().front());
+std::uint64_t most_region_bytes(DeviceFilm &film) {
+    return region_bytes(film, film.strips().front());
 }
 
 // How the kernel measures relative errors, so that all squares are normal floats.
@@ -48,24 +44,35 @@ struct RelativeUnits {
     }
 };
 
-TileErrors errors_of(const gpu::TileError &tile, std::uint32_t pixel_count, double unit, const RelativeUnits &units) {
-    if (tile.lost_pixels > 0)
-        throw Error(PT_ERROR_INTERNAL, "the driver lost samples of " + std::to_string(tile.lost_pixels) + " pixels");
-    TileErrors errors{};
-    errors.value_count = 3.0 * pixel_count;
-    errors.rejected = std::uint64_t{tile.rejected.y} << 32 | tile.rejected.x;
-    const bool known = tile.unknown_pixels == 0;
-    const double relative_scale = static_cast<double>(units.scale);
-    const auto square = [&](double of_film, double factor) {
-        return known ? of_film * factor : std::numeric_limits<double>::infinity();
-    };
-    errors.square = square(static_cast<double>(tile.square), unit * unit);
-    errors.square_of_pixels = errors.square * errors.square * static_cast<double>(tile.square_shares);
-    errors.relative_square =
-        square(static_cast<double>(tile.relative_square), 1.0 / (relative_scale * relative_scale * units.factor));
-    errors.relative_square_of_pixels =
-        errors.relative_square * errors.relative_square * static_cast<double>(tile.relative_shares);
-    errors.unseen = static_cast<double>(tile.unseen) / units.factor;
+ErrorSquares squares_of(const gpu::ErrorSquares &found, double factor) {
+    constexpr double values_of_tile = 3.0 * gpu::TILE_SIZE * gpu::TILE_SIZE;
+    const double sum = static_cast<double>(found.sum) * factor;
+    return {sum, sum * sum * static_cast<double>(found.pixel_shares),
+            sum * sum * static_cast<double>(found.tile_shares),
+            sum * static_cast<double>(found.part_share) * values_of_tile};
+}
+
+// The sum of the squares of pieces of so many pixels, the last of which may be shorter.
+double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
+    const double rest = pixels % piece;
+    return static_cast<double>(pixels / piece) * piece * piece + rest * rest;
+}
+
+RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::uint32_t height, double unit,
+                       const RelativeUnits &units) {
+    if (found.lost_pixels > 0)
+        throw Error(PT_ERROR_INTERNAL, "the driver lost samples of " + std::to_string(found.lost_pixels) + " pixels");
+    const double scale = static_cast<double>(units.scale);
+    RegionErrors errors;
+    errors.value_count = 3.0 * width * height;
+    errors.squares_of_tile_sizes =
+        9.0 * squares_of_pieces(width, gpu::TILE_SIZE) * squares_of_pieces(height, gpu::TILE_SIZE);
+    errors.square = squares_of(found.square, unit * unit);
+    errors.relative_square = squares_of(found.relative_square, 1.0 / (scale * scale * units.factor));
+    errors.unseen = static_cast<double>(found.unseen) / units.factor;
+    errors.rejected = std::uint64_t{found.rejected.y} << 32 | found.rejected.x;
+    if (found.unknown_pixels > 0)
+        errors.square.sum = errors.relative_square.sum = std::numeric_limits<double>::infinity();
     return errors;
 }
 
@@ -82,15 +89,16 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     device_(device),
     estimate_(estimate),
     film_(film),
-    tiles_(device, vulkan::BufferUse::Storage, most_tile_bytes(film), "error of an image"),
-    host_(device, vulkan::BufferUse::HostRead, most_tile_bytes(film), "error of an image") {
+    regions_(device, vulkan::BufferUse::Storage, most_region_bytes(film), "error of an image"),
+    host_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image") {
     for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &tiles_};
+        const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &regions_};
         sets_.push_back(estimate.bind(buffers));
     }
 }
 
-void ErrorReader::read(double unit, const PartCounts &samples, const std::function<void(const TileErrors &)> &receive) {
+void ErrorReader::read(double unit, const PartCounts &samples,
+                       const std::function<void(const RegionErrors &)> &receive) {
     const RelativeUnits units(unit);
     const std::uint32_t width = film_.width();
     gpu::EstimateConstants constants{};
@@ -110,19 +118,13 @@ void ErrorReader::read(double unit, const PartCounts &samples, const std::functi
             estimate_.dispatch(commands, sets_[i], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},
                                regions_of(rows));
             vulkan::barrier_between_commands(commands);
-            host_.copy(commands, tiles_, tile_bytes(film_, strip));
+            host_.copy(commands, regions_, region_bytes(film_, strip));
         });
-        const auto *tile = reinterpret_cast<const gpu::TileError *>(host_.host_bytes().data());
+        const auto *region = reinterpret_cast<const gpu::RegionError *>(host_.host_bytes().data());
         for (std::uint32_t top = 0; top < rows; top += gpu::REGION_SIZE)
             for (std::uint32_t left = 0; left < width; left += gpu::REGION_SIZE)
-                for (std::uint32_t in_region = 0; in_region < tiles_in_region; ++in_region, ++tile) {
-                    const std::uint32_t x = left + in_region % tiles_in_row * gpu::TILE_SIZE;
-                    const std::uint32_t y = top + in_region / tiles_in_row * gpu::TILE_SIZE;
-                    if (x < width && y < rows)
-                        receive(errors_of(*tile,
-                                          std::min(gpu::TILE_SIZE, width - x) * std::min(gpu::TILE_SIZE, rows - y),
-                                          unit, units));
-                }
+                receive(errors_of(*region++, std::min(gpu::REGION_SIZE, width - left),
+                                  std::min(gpu::REGION_SIZE, rows - top), unit, units));
     }
 }
 

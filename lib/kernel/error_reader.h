@@ -1,4 +1,4 @@
-// Reads what a film says about the error of its image: estimate.comp sums it up by tiles, on the device. Owned by
+// Reads what a film says about the error of its image: estimate.comp sums it up by regions, on the device. Owned by
 // RenderDevice; bound to its film.
 #pragma once
 
@@ -21,15 +21,15 @@ public:
     // All must outlive it. estimate: of estimate_pipeline(). The film's strips must be whole rows of regions.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
-    // Calls receive(tile) for every tile of the film, always in the same order. unit: of the film, a power of two, in
+    // Calls receive(region) for every region of the film, always in the same order. unit: of the film, a power of two, in
     // radiance; samples: that every pixel has. Throws PT_ERROR_INTERNAL if a driver lost work.
-    void read(double unit, const PartCounts &samples, const std::function<void(const TileErrors &)> &receive);
+    void read(double unit, const PartCounts &samples, const std::function<void(const RegionErrors &)> &receive);
 
 private:
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer tiles_; // of a strip
+    vulkan::Buffer regions_; // of a strip
     vulkan::Buffer host_;
     std::vector<vulkan::DescriptorSet> sets_; // one per strip
 };

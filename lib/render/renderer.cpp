@@ -219,7 +219,7 @@ const ErrorEstimate &Renderer::error() {
 void Renderer::estimate_error(ErrorEstimator &estimator) {
     RenderDevice &device = *devices_.front();
     const double unit = scene_->film_unit;
-    const auto add = [&](const TileErrors &tile) { estimator.add(tile); };
+    const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!device.device().policy().resolve_on_device || !device.film().has_whole_regions()) {
         read_films(films(), samples_, piece_pixels,
                    [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });

@@ -116,9 +116,11 @@ def measure_errors(contexts, arguments):
     for error in filter(None, arguments.errors.split(",")):
         for _ in range(min(arguments.rounds, 3)):
             for context in contexts:
+                context.accumulate(256)  # a GPU that had nothing to do runs slowly at first
                 context.measure(f"to {error}", context.move_camera, lambda: context.accumulate(1 << 16, float(error)))
                 samples = context.sample_count()
                 context.times[f"to {error}, samples"] = [samples]
+                context.accumulate(256)
                 context.measure(f"to {error}, known", context.move_camera, lambda: context.accumulate(samples))
 
 
