@@ -30,16 +30,16 @@ std::uint64_t most_region_bytes(DeviceFilm &film) {
 // How the kernel measures relative errors, so that all squares are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
-    float scale;   // an error is below 2^FILM_MAX_EXPONENT, and divided by the offset and scaled below 2^60
+    float scale;   // an error is below 2^FILM_MAX_EXPONENT, and scaled and divided by the offset below 2^60
     double factor; // of the squares, because the offset is another
 
     // An offset far above all that a film holds is the limit of all pixels: a smaller one, far above too, makes all
     // squares larger by the same factor.
     explicit RelativeUnits(double unit) {
-        constexpr double far_above = 1e18;
+        constexpr double far_above = 1e13;
         const double exact = std::sqrt(relative_offset) / unit;
         offset = static_cast<float>(std::min(exact, far_above));
-        scale = std::min(1.0F, 0x1p32F * offset);
+        scale = 0x1p32F * offset;
         factor = std::pow(std::max(exact / far_above, 1.0), 2.0);
     }
 };

@@ -2,6 +2,7 @@
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
+#include "lib/base/stream_copy.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
@@ -377,8 +378,7 @@ void Renderer::readback(const Image &image) {
     const auto receive = [&](std::span<const float> values) {
         for (const std::size_t row_values = 3 * width; !values.empty();) {
             const std::size_t count = std::min(values.size(), row_values - value % row_values);
-            std::ranges::copy(values.first(count),
-                              image.data + value / row_values * image.row_floats + value % row_values);
+            stream_copy(values.first(count), image.data + value / row_values * image.row_floats + value % row_values);
             values = values.subspan(count);
             value += count;
         }
