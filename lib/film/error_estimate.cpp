@@ -78,7 +78,7 @@ bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {
 std::uint64_t next_check(std::uint64_t sample_count) {
     if (sample_count < min_estimate_samples)
         return min_estimate_samples;
-    const std::uint64_t step = std::bit_floor(sample_count) / 8;
+    const std::uint64_t step = std::bit_floor(sample_count) / 4;
     return (sample_count / step + 1) * step;
 }
 

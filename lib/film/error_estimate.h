@@ -36,7 +36,7 @@ ErrorEstimate unknown_error();
 // may outweigh all light in the picture.
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples);
 
-// The sample count, greater than the given one, at which the error is looked at next: 16, then eighths of powers of
+// The sample count, greater than the given one, at which the error is looked at next: 16, then quarters of powers of
 // two.
 std::uint64_t next_check(std::uint64_t sample_count);
 bool is_check(std::uint64_t sample_count);

