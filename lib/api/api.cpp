@@ -4,12 +4,14 @@
 #include "lib/api/guard.h"
 #include "lib/api/image.h"
 #include "lib/api/struct_size.h"
+#include "lib/base/error.h"
 #include "lib/base/rules.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/render/renderer.h"
 
+#include <pt/async.h>
 #include <pt/errors.h>
 #include <pt/film.h>
 #include <pt/shaders.h>
@@ -38,9 +40,10 @@ struct Refusal {
 };
 thread_local Refusal refusal;
 
-// Runs a call on a context, or fails without one. A call that is refused touches nothing of the context.
+// Runs a call that may come at any time on a context, or fails without one. A call that is refused touches nothing of
+// the context.
 template <typename Call>
-pt_result guard_context(pt_context *context, Call &&call) noexcept {
+pt_result guard_any_time(pt_context *context, Call &&call) noexcept {
     if (!context)
         return guard(thread_last_error, [] { require_not_null(nullptr, "context"); });
     if (const char *reason = context->in_use.take()) {
@@ -53,6 +56,31 @@ pt_result guard_context(pt_context *context, Call &&call) noexcept {
         refusal.forget(context); // a call from a callback may have been refused meanwhile; this failure is newer
     context->in_use.release();
     return result;
+}
+
+// The same for all others, which wait until no samples are under way between calls.
+template <typename Call>
+pt_result guard_context(pt_context *context, Call &&call) noexcept {
+    return guard_any_time(context, [&](Renderer &renderer) {
+        if (renderer.is_under_way())
+            throw Error(PT_ERROR_INVALID_STATE,
+                        "samples are under way: call pt_poll until it does not return PT_PENDING, or first pt_cancel");
+        return call(renderer);
+    });
+}
+
+// What pt_accumulate and pt_start are asked for.
+pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may_call_back) {
+    const pt_accumulate_info accumulate = copy_in(info, "accumulate");
+    Violations violations;
+    const Subject subject(violations, "accumulate");
+    subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+    subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
+                    accumulate.target_error, "must be finite and >= 0");
+    if (accumulate.progress && !may_call_back)
+        subject.refuse("progress", "a function", "must be NULL for pt_start: pt_poll says how far the samples are");
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    return accumulate;
 }
 
 // What is in use cannot be freed, so that pt_destroy can only say so. It does once: the log function itself may call
@@ -158,7 +186,7 @@ void pt_destroy(pt_context *context) {
 }
 
 pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
-    return pt::guard_context(context, [&](const pt::Renderer &renderer) {
+    return pt::guard_any_time(context, [&](const pt::Renderer &renderer) {
         pt::require_not_null(device, "device");
         *device = renderer.device();
     });
@@ -191,16 +219,30 @@ pt_result pt_prepare(pt_context *context) {
 
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        const pt_accumulate_info accumulate = pt::copy_in(info, "accumulate");
-        pt::Violations violations;
-        const pt::Subject subject(violations, "accumulate");
-        subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
-        subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
-                        accumulate.target_error, "must be finite and >= 0");
-        violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+        const pt_accumulate_info accumulate = pt::validated_accumulate(info, true);
         return renderer.accumulate(accumulate.sample_count, accumulate.target_error,
                                    {accumulate.progress, accumulate.progress_user});
     });
+}
+
+pt_result pt_start(pt_context *context, const pt_accumulate_info *info) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_accumulate_info accumulate = pt::validated_accumulate(info, false);
+        return renderer.start(accumulate.sample_count, accumulate.target_error);
+    });
+}
+
+pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
+    return pt::guard_any_time(context, [&](pt::Renderer &renderer) {
+        const pt::Renderer::Advance advance = renderer.poll(nanoseconds);
+        if (fraction)
+            *fraction = advance.fraction;
+        return advance.result;
+    });
+}
+
+pt_result pt_cancel(pt_context *context) {
+    return pt::guard_any_time(context, [](pt::Renderer &renderer) { renderer.cancel(); });
 }
 
 pt_result pt_readback(pt_context *context, const pt_image *image) {

@@ -32,6 +32,8 @@ const char *result_name(pt_result result) noexcept {
         return "PT_CANCELLED";
     case PT_TARGET_REACHED:
         return "PT_TARGET_REACHED";
+    case PT_PENDING:
+        return "PT_PENDING";
     case PT_ERROR_INVALID_ARGUMENT:
         return "PT_ERROR_INVALID_ARGUMENT";
     case PT_ERROR_INVALID_SCENE:

@@ -257,8 +257,8 @@ void Kernel::prepare_pass() {
     pass_sets_ = std::move(sets);
 }
 
-double Kernel::finish(vulkan::Device::Ticket ticket) {
-    const double seconds = device_.finish(ticket);
+double Kernel::finish(vulkan::Device::Ticket ticket, double expected_seconds) {
+    const double seconds = device_.finish(ticket, expected_seconds);
     seconds_ += seconds;
     return seconds;
 }

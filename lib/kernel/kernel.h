@@ -54,8 +54,9 @@ public:
     // holds whole samples again with the range that ends it.
     vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample, const SampleRange &hull);
 
-    // Waits for a slice of start() and returns the seconds it took.
-    double finish(vulkan::Device::Ticket ticket);
+    // Waits for a slice of start() and returns the seconds it took, or where these are not known what comes nearest to
+    // those expected.
+    double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
     // Samples that a dispatch takes, and where the table of their points is.

@@ -219,9 +219,12 @@ std::uint32_t RenderDevice::start_samples(const SampleRange &samples, const Samp
 
 RenderDevice::Finished RenderDevice::finish() {
     const Work work = under_way_.front();
-    const double seconds = work.on_film ? device_.finish(work.ticket) : kernel_->finish(work.ticket);
+    Schedule &schedule = *(work.on_film ? film_schedule_ : schedule_);
+    const double expected = schedule.expected_seconds(work.slice);
+    const double seconds =
+        work.on_film ? device_.finish(work.ticket, expected) : kernel_->finish(work.ticket, expected);
     under_way_.erase(under_way_.begin());
-    (work.on_film ? film_schedule_ : schedule_)->measured(work.slice, seconds);
+    schedule.measured(work.slice, seconds);
     return {work.on_film ? 0 : std::uint64_t{work.slice.pixel_count} * work.slice.sample_count, seconds};
 }
 

@@ -90,10 +90,14 @@ public:
     // has begun: 0 for the film and within a pass. has_room() must hold.
     std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
 
-    // Whether finish() would not wait. Not idle.
-    bool is_done() const { return device_.is_done(under_way_.front().ticket); }
+    // Whether finish() would not wait, having waited for that until a time. Not idle.
+    bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
-    // Waits for the slice that was started first.
+    // Looks which slices have ended while nobody waited for them. Without, a slice is taken to end when it is seen to.
+    void look() { device_.look(); }
+
+    // Waits for the slice that was started first. seconds: where nobody saw it end, what comes nearest to what was
+    // expected of it.
     struct Finished {
         std::uint64_t paths; // samples in all its pixels; 0 of work on the film
         double seconds;

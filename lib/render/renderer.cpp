@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <thread>
 #include <utility>
 
 namespace pt {
@@ -273,101 +272,93 @@ void Renderer::prepare() {
         device->prepare_ahead(gpu_scene_of_settings(), *settings_);
 }
 
-pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
+void Renderer::begin(std::uint32_t sample_count, double target_error, const Progress &progress) {
     require_settings();
     require_room_for(sample_count);
-    const KernelsKept kept(devices_);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
+    job_.emplace(Job{samples_.count() + sample_count, target_error,
+                     Accumulation(devices_, samples_, settings_->first_sample, sample_count, progress, work_)});
+}
 
-    const std::uint64_t samples_wanted = samples_.count() + sample_count;
-    const std::uint64_t pixel_count = devices_.front()->pixel_count();
-    Job job{progress, sample_count * pixel_count - devices_.front()->pass_pixels()};
-    while (samples_.count() < samples_wanted) {
-        if (!is_in_pass() && is_on_target(target_error))
+Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
+    using Clock = Accumulation::Clock;
+    const Clock::time_point now = Clock::now();
+    const auto most = static_cast<std::uint64_t>((Clock::time_point::max() - now).count());
+    try {
+        const pt_result result = advance(now + std::chrono::nanoseconds(std::min(nanoseconds, most)));
+        const Advance advanced{result, job_->accumulation.fraction()};
+        if (result != PT_PENDING)
+            job_.reset();
+        return advanced;
+    } catch (...) {
+        give_up();
+        throw;
+    }
+}
+
+pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
+    const KernelsKept kept(devices_);
+    begin(sample_count, target_error, progress);
+    return go_on(UINT64_MAX).result;
+}
+
+pt_result Renderer::start(std::uint32_t sample_count, double target_error) {
+    const KernelsKept kept(devices_);
+    begin(sample_count, target_error, {nullptr, nullptr});
+    return go_on(0).result;
+}
+
+Renderer::Advance Renderer::poll(std::uint64_t nanoseconds) {
+    require_under_way();
+    const KernelsKept kept(devices_);
+    return go_on(nanoseconds);
+}
+
+void Renderer::cancel() {
+    require_under_way();
+    job_->accumulation.stop();
+}
+
+void Renderer::require_under_way() const {
+    if (!job_)
+        throw Error(PT_ERROR_INVALID_STATE, "no samples are under way: call pt_start first");
+}
+
+// With a target error in runs, from each number of samples at which the error is looked at to the next.
+pt_result Renderer::advance(Accumulation::Clock::time_point until) {
+    Accumulation &accumulation = job_->accumulation;
+    const double target_error = job_->target_error;
+    const std::uint64_t wanted = job_->count;
+    while (samples_.count() < wanted) {
+        if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
-        take_samples(target_error > 0.0 ? std::min(samples_wanted, next_check(samples_.count())) : samples_wanted, job);
-        if (job.stopped && samples_.count() < samples_wanted)
+        if (!accumulation.run(target_error > 0.0 ? std::min(wanted, next_check(samples_.count())) : wanted, until))
+            return PT_PENDING;
+        take_over(accumulation.samples());
+        if (accumulation.stopped() && samples_.count() < wanted)
             return PT_CANCELLED;
     }
     return PT_OK;
 }
 
-// Takes samples until the film has as many. Devices are dealt the samples that it lacks in ascending order, and none is
-// left out once one is begun. Only a device that is alone may stop within a pass, and will go on there.
-void Renderer::take_samples(std::uint64_t count, Job &job) {
-    SampleSet dealt = samples_;
-    if (is_in_pass())
-        dealt.add(devices_.front()->pass());
-    const auto deal = [&](RenderDevice &device) {
-        const bool finishes_pass = !device.pass().empty() && !(job.stopped && devices_.size() == 1);
-        const bool goes_on =
-            !job.stopped && (device.film_is_behind() || (device.pass().empty() && dealt.count() < count));
-        if (!device.has_room() || !(finishes_pass || goes_on))
-            return false;
-        SampleRange next = dealt.next_missing(settings_->first_sample);
-        next.end = std::min(next.end, next.first + (count - std::min(count, dealt.count())));
-        dealt.prepare_add(); // what is started must be counted
-        dealt.add({next.first, next.first + device.start(next, dealt.hull())});
-        return true;
-    };
-    const auto take = [&] {
-        do {
-            for (const auto &device : devices_)
-                while (deal(*device)) {
-                }
-        } while (finish_slice(job));
-        SampleSet whole = dealt;
-        if (is_in_pass())
-            whole.remove(devices_.front()->pass());
-        samples_ = std::move(whole);
-        error_.reset();
-        rejected_samples_.reset();
-    };
+void Renderer::take_over(SampleSet samples) noexcept {
+    samples_ = std::move(samples);
+    error_.reset();
+    rejected_samples_.reset();
+}
+
+// What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
+void Renderer::give_up() noexcept {
     try {
-        take();
-    } catch (...) {
-        // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
-        job.stopped = true;
-        try {
-            take();
-        } catch (...) {
-            for (const auto &device : devices_)
-                device->drain();
+        if (job_->accumulation.complete())
+            take_over(job_->accumulation.samples());
+        else
             discard_samples();
-        }
-        throw;
+    } catch (...) {
+        discard_samples();
     }
-}
-
-// Waits until a device has ended a slice, and tells the caller. False if none is under way.
-bool Renderer::finish_slice(Job &job) {
-    RenderDevice *const device = next_to_finish();
-    if (!device)
-        return false;
-    const auto [paths, seconds] = device->finish();
-    ++submit_count_;
-    device_seconds_ += seconds;
-    job.pixels_done += paths;
-    const double share = static_cast<double>(job.pixels_done) / static_cast<double>(job.pixels_wanted);
-    if (job.progress.function && !job.stopped)
-        job.stopped = job.progress.function(job.progress.user, std::min(share, 1.0)) != 0;
-    return true;
-}
-
-// The device whose slice ends first, waiting for it only if it is alone: of several it is the first that is seen to
-// be done.
-RenderDevice *Renderer::next_to_finish() {
-    constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
-    if (devices_.size() == 1)
-        return devices_.front()->is_idle() ? nullptr : devices_.front().get();
-    while (std::ranges::any_of(devices_, [](const auto &device) { return !device->is_idle(); })) {
-        for (const auto &device : devices_)
-            if (!device->is_idle() && device->is_done())
-                return device.get();
-        std::this_thread::sleep_for(pause);
-    }
-    return nullptr;
+    job_.reset();
 }
 
 void Renderer::readback(const Image &image) {
@@ -432,9 +423,7 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     if (is_in_pass() && added.overlap(device.pass()))
         device.discard_pass();
     add(film, all.hull(), device.device(), device_film);
-    samples_ = std::move(all);
-    error_.reset();
-    rejected_samples_.reset();
+    take_over(std::move(all));
 }
 
 pt_stats Renderer::stats(bool with_error) {
@@ -443,8 +432,8 @@ pt_stats Renderer::stats(bool with_error) {
     const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(samples_.count());
-    stats.submit_count = submit_count_;
-    stats.device_seconds = device_seconds_;
+    stats.submit_count = work_.submit_count;
+    stats.device_seconds = work_.seconds;
     for (const auto &device : devices_) {
         if (readable && !samples_.empty() && !rejected_samples_)
             stats.rejected_samples += device->film().rejected_samples();

@@ -9,6 +9,7 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
+#include "lib/render/accumulation.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
@@ -44,17 +45,11 @@ struct CreateSettings {
     bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
 };
 
-// The caller's pt_progress_fn.
-struct Progress {
-    pt_progress_fn function; // may be NULL
-    void *user;
-};
-
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that
-// accumulate() keeps whole samples.
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that those
+// that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -80,8 +75,25 @@ public:
     // Builds what accumulate() needs.
     void prepare();
 
-    // PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
+    // Takes samples: PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
     pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
+
+    // The same, without waiting for any: PT_PENDING where they are under way then, or PT_TARGET_REACHED.
+    pt_result start(std::uint32_t sample_count, double target_error);
+
+    struct Advance {
+        pt_result result; // PT_PENDING while samples are under way, then that of accumulate()
+        double fraction;  // of the samples
+    };
+
+    // Takes in samples that are under way and deals out the next, for so long at the most. If it throws, none are under
+    // way any more.
+    Advance poll(std::uint64_t nanoseconds);
+
+    // No more samples are begun; poll() says when those under way have ended.
+    void cancel();
+
+    bool is_under_way() const { return job_.has_value(); }
 
     void readback(const Image &image);
 
@@ -97,12 +109,11 @@ public:
     std::vector<pt_function_accuracy> accuracy();
 
 private:
-    // One call of accumulate().
+    // Samples that are to be taken.
     struct Job {
-        Progress progress;
-        std::uint64_t pixels_wanted;   // pixels times samples
-        std::uint64_t pixels_done = 0; // of them
-        bool stopped = false;          // by the caller, or by a failure
+        std::uint64_t count; // of the film, with all of them
+        double target_error;
+        Accumulation accumulation;
     };
 
     void use_own_devices(const CreateSettings &settings);
@@ -124,9 +135,12 @@ private:
     const ErrorEstimate &error();
     void estimate_error(ErrorEstimator &estimator);
     bool is_on_target(double target_error);
-    void take_samples(std::uint64_t count, Job &job);
-    bool finish_slice(Job &job);
-    RenderDevice *next_to_finish();
+    void begin(std::uint32_t sample_count, double target_error, const Progress &progress);
+    Advance go_on(std::uint64_t nanoseconds);
+    void require_under_way() const;
+    pt_result advance(Accumulation::Clock::time_point until);
+    void take_over(SampleSet samples) noexcept;
+    void give_up() noexcept;
 
     ShaderSource source_;
     KernelCode code_;
@@ -139,8 +153,8 @@ private:
     SampleSet samples_;                             // whole ones, in every pixel
     std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_; // likewise
-    std::uint64_t submit_count_ = 0;
-    double device_seconds_ = 0.0;
+    DeviceWork work_;
+    std::optional<Job> job_; // while samples are under way
 };
 
 } // namespace pt

@@ -11,6 +11,10 @@ namespace {
 // submission.
 constexpr double max_growth = 2.0;
 
+double paths_of(const Slice &slice) {
+    return static_cast<double>(slice.pixel_count) * slice.sample_count;
+}
+
 } // namespace
 
 Schedule::Schedule(std::uint32_t pixel_count, const ScheduleLimits &limits) :
@@ -39,6 +43,10 @@ Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
     return {pass_pixels_done, static_cast<std::uint32_t>(std::min(left, workgroups * granularity)), 1, false};
 }
 
+double Schedule::expected_seconds(const Slice &slice) const {
+    return limits_.target_seconds * paths_of(slice) / budget_;
+}
+
 // A submission takes an overhead, about 0.1 ms, and a time per path, and one measurement cannot tell the two apart.
 // So the excess over the expected time is treated as fixed overhead: exact for slices of the whole budget, while
 // small slices, which are mostly overhead, change little. Repeated, it converges to the budget that takes
@@ -47,12 +55,10 @@ Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
 void Schedule::measured(const Slice &slice, double seconds) {
     if (!(seconds >= 0.0))
         return;
-    const double paths = static_cast<double>(slice.pixel_count) * slice.sample_count;
-    const double expected_seconds = limits_.target_seconds * paths / budget_;
-    const double budget_seconds = std::max(limits_.target_seconds + (seconds - expected_seconds), 0.0);
+    const double budget_seconds = std::max(limits_.target_seconds + (seconds - expected_seconds(slice)), 0.0);
     const double learnt = budget_ * (limits_.target_seconds / budget_seconds);
     const double smallest = limits_.pixel_granularity;
-    budget_ = std::max({smallest, std::min(learnt, budget_), std::min(learnt, max_growth * paths)});
+    budget_ = std::max({smallest, std::min(learnt, budget_), std::min(learnt, max_growth * paths_of(slice))});
 }
 
 } // namespace pt

@@ -33,6 +33,8 @@ public:
     // Paths that are expected to take the time of a submission.
     double budget() const { return budget_; }
 
+    double expected_seconds(const Slice &slice) const;
+
     // Learns from the time a slice took. Times that are negative or NaN are ignored.
     void measured(const Slice &slice, double seconds);
 

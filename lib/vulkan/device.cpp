@@ -126,7 +126,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
                                              .level = vk::CommandBufferLevel::ePrimary,
                                              .commandBufferCount = policy_.queue_depth + 1});
         for (vk::raii::CommandBuffer &buffer : commands)
-            submissions_.push_back({std::move(buffer), handle().createFence({}), {}, false});
+            submissions_.push_back({std::move(buffer), handle().createFence({})});
         pipeline_cache_ = PipelineCache(handle());
     });
 }
@@ -164,7 +164,7 @@ bool Device::hangs() const {
 // Whether a submission has come to an end by now, be it by the loss of the device.
 bool Device::ended(const Submission &submission) const {
     try {
-        return !submission.pending || submission.fence.getStatus() == vk::Result::eSuccess;
+        return !submission.pending || submission.end || submission.fence.getStatus() == vk::Result::eSuccess;
     } catch (const vk::SystemError &) {
         return true;
     }
@@ -202,29 +202,52 @@ Device::Ticket Device::start(const Record &record) {
         }
     });
     free->pending = true;
+    free->last_look = free->start;
+    free->end.reset();
     return static_cast<Ticket>(free - submissions_.begin());
 }
 
-bool Device::is_done(Ticket ticket) const {
-    const Submission &submission = submissions_[ticket];
-    return lost() || ended(submission) || is_overdue(submission);
+// What is overdue is left to finish(), which gives it up.
+bool Device::is_done(Ticket ticket, Clock::time_point until) {
+    Submission &submission = submissions_[ticket];
+    while (!lost() && !is_overdue(submission)) {
+        const Clock::time_point now = Clock::now();
+        const std::chrono::nanoseconds left = until > now ? until - now : std::chrono::nanoseconds::zero();
+        if (look_at(submission, std::min(left, wait_time())))
+            return true;
+        if (Clock::now() >= until)
+            return false;
+    }
+    return true;
 }
 
-double Device::finish(Ticket ticket) {
+void Device::look() {
+    for (Submission &submission : submissions_)
+        if (!lost() && submission.pending && !submission.end && look_at(submission, std::chrono::nanoseconds::zero()))
+            submission.end->earliest = submission.last_look;
+}
+
+double Device::finish(Ticket ticket, double expected_seconds) {
     require_alive();
     Submission &submission = submissions_[ticket];
     wait(submission);
     submission.pending = false;
-    const Clock::time_point begin = std::max(submission.start, last_end_);
-    last_end_ = Clock::now();
-    return std::chrono::duration<double>(last_end_ - begin).count();
+    const Moment end = *submission.end;
+    const auto seconds = [](Clock::time_point from, Clock::time_point to) {
+        return std::max(std::chrono::duration<double>(to - from).count(), 0.0);
+    };
+    const double least = seconds(std::max(submission.start, last_end_.latest), end.earliest);
+    const double most = seconds(std::max(submission.start, last_end_.earliest), end.latest);
+    last_end_ = end;
+    return std::clamp(expected_seconds, least, most);
 }
 
 bool Device::comes_to_rest() noexcept {
     for (Submission &submission : submissions_) {
+        submission.pending = submission.pending && !submission.end;
         try {
             for (bool was_overdue = false; submission.pending; was_overdue = is_overdue(submission)) {
-                const std::uint64_t step = wait_nanoseconds();
+                const auto step = static_cast<std::uint64_t>(wait_time().count());
                 submission.pending = handle().waitForFences(*submission.fence, VK_TRUE, step) == vk::Result::eTimeout;
                 if (submission.pending && was_overdue) {
                     gave_up_ = true;
@@ -253,32 +276,48 @@ void Device::record_work(const vk::raii::CommandBuffer &commands, const Record &
     commands.end();
 }
 
-std::uint64_t Device::wait_nanoseconds() const {
-    return static_cast<std::uint64_t>(std::min(wait_step, policy_.patience).count());
+std::chrono::nanoseconds Device::wait_time() const {
+    return std::min(wait_step, policy_.patience);
 }
 
-// Work is given up, here and in comes_to_rest(), only if it is overdue and a look after that finds it unfinished: a
-// process that was stopped, or got no processor for long, may find the time over and the work done.
-void Device::wait(const Submission &submission) {
+// Whether it has ended, having waited for so long at the most.
+bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
+    if (submission.end)
+        return true;
     try {
-        for (const Clock::time_point end = Clock::now() + policy_.polling; Clock::now() < end && !ended(submission);) {
+        const Clock::time_point begin = Clock::now();
+        const std::chrono::nanoseconds polling = std::min(policy_.polling, timeout);
+        while (Clock::now() - begin < polling && !this->ended(submission)) {
         }
-        for (bool was_overdue = false;
-             handle().waitForFences(*submission.fence, VK_TRUE, wait_nanoseconds()) == vk::Result::eTimeout;
-             was_overdue = is_overdue(submission))
-            if (was_overdue) {
-                gave_up_ = true;
-                lose([&] {
-                    const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience);
-                    return "it did not end a submission within " + std::to_string(patience.count()) + " ms";
-                });
-            }
-        handle().resetFences(*submission.fence);
+        const std::chrono::nanoseconds left = std::max<std::chrono::nanoseconds>(timeout - (Clock::now() - begin), {});
+        const auto nanoseconds = static_cast<std::uint64_t>(left.count());
+        const bool ended = handle().waitForFences(*submission.fence, VK_TRUE, nanoseconds) == vk::Result::eSuccess;
+        const Clock::time_point now = Clock::now();
+        if (ended) {
+            handle().resetFences(*submission.fence);
+            submission.end = {now, now};
+        } else {
+            submission.last_look = now;
+        }
+        return ended;
     } catch (const vk::SystemError &error) {
         // Whatever the error is: waits for the work, so that what it uses may be destroyed from here on.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
+}
+
+// Work is given up, here and in comes_to_rest(), only if it is overdue and a look after that finds it unfinished: a
+// process that was stopped, or got no processor for long, may find the time over and the work done.
+void Device::wait(Submission &submission) {
+    for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
+        if (was_overdue) {
+            gave_up_ = true;
+            lose([&] {
+                const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(policy_.patience);
+                return "it did not end a submission within " + std::to_string(patience.count()) + " ms";
+            });
+        }
 }
 
 void barrier_between_commands(const vk::raii::CommandBuffer &commands) {

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -89,12 +90,18 @@ public:
     // way, besides one of submit().
     Ticket start(const Record &record);
 
-    // Whether finish() would not wait.
-    bool is_done(Ticket ticket) const;
+    using Clock = std::chrono::steady_clock;
+
+    // Whether finish() would not wait, having waited for that until a time.
+    bool is_done(Ticket ticket, Clock::time_point until);
+
+    // Looks which submissions have ended while nobody waited for them. Their ends are only known to lie between the last
+    // look at them and this one.
+    void look();
 
     // Waits and returns the seconds from submission, or from the end of the one before if that was later, to
-    // completion.
-    double finish(Ticket ticket);
+    // completion. Where the ends are not known, what comes nearest to the expected seconds.
+    double finish(Ticket ticket, double expected_seconds = 0.0);
 
     // Waits for what is under way, however finish() failed. False if it does not end within the device's patience.
     bool comes_to_rest() noexcept;
@@ -114,19 +121,26 @@ public:
     void count_release(std::uint64_t bytes) { allocated_bytes_ -= bytes; }
 
 private:
-    using Clock = std::chrono::steady_clock;
+    // When something happened, as far as is known.
+    struct Moment {
+        Clock::time_point earliest;
+        Clock::time_point latest;
+    };
 
     // Commands that are under way, or may be used again.
     struct Submission {
         vk::raii::CommandBuffer commands;
         vk::raii::Fence fence;
-        Clock::time_point start;
-        bool pending; // not yet seen to have ended
+        bool pending = false; // finish() is to come
+        Clock::time_point start{};
+        Clock::time_point last_look{}; // that found it unfinished
+        std::optional<Moment> end{};   // once it has been seen
     };
 
     void record_work(const vk::raii::CommandBuffer &commands, const Record &record) const;
-    std::uint64_t wait_nanoseconds() const; // at a time
-    void wait(const Submission &submission);
+    std::chrono::nanoseconds wait_time() const; // at a time
+    bool look_at(Submission &submission, std::chrono::nanoseconds timeout);
+    void wait(Submission &submission);
     bool ended(const Submission &submission) const;
     bool is_overdue(const Submission &submission) const;
     [[noreturn]] void lose(const std::function<std::string()> &reason);
@@ -140,7 +154,7 @@ private:
     LogicalDevice logical_device_;
     vk::raii::CommandPool command_pool_ = nullptr;
     std::vector<Submission> submissions_;
-    Clock::time_point last_end_;
+    Moment last_end_{};
     PipelineCache pipeline_cache_;
     std::uint64_t allocated_bytes_ = 0;
     std::string lost_message_ = "the device was lost";

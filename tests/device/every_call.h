@@ -4,6 +4,7 @@
 #include "tests/device/api_fixture.h"
 
 #include <pt/accuracy.h>
+#include <pt/async.h>
 #include <pt/devices.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
@@ -38,6 +39,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_reload_shaders", [&] { return pt_reload_shaders(context); }},
         {"pt_prepare", [&] { return pt_prepare(context); }},
         {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
+        {"pt_start", [&] { return pt_start(context, &one); }},
         {"pt_readback", [&] { return pt_readback(context, &image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
         {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
@@ -52,7 +54,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 
 // That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 10U);
+    EXPECT_EQ(outcomes.size(), 11U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }

@@ -354,6 +354,36 @@ TEST_F(VulkanTest, ALongSubmissionIsWaitedFor) {
     EXPECT_EQ(download(recurrence.values(), 16383, 1)[0], Recurrence::expected(0, 60'000));
 }
 
+TEST_F(VulkanTest, ASubmissionIsWaitedForUntilATime) {
+    const Gate gate(device().handle());
+    const Device::Ticket ticket = device().start([&](const auto &commands) { gate.record(commands); });
+    EXPECT_FALSE(device().is_done(ticket, Device::Clock::time_point::min()));
+    EXPECT_FALSE(device().is_done(ticket, Device::Clock::now() + std::chrono::milliseconds{5}));
+    device().look();
+    EXPECT_FALSE(device().is_done(ticket, Device::Clock::now()));
+    gate.open();
+    EXPECT_TRUE(device().is_done(ticket, Device::Clock::time_point::max()));
+    EXPECT_TRUE(device().is_done(ticket, Device::Clock::time_point::min()));
+    EXPECT_GE(device().finish(ticket), 5e-3);
+}
+
+// Nobody knows then how long it took, only that it was no longer than until somebody looked.
+TEST_F(VulkanTest, ASubmissionMayEndUnseen) {
+    const auto seconds_of = [&](double expected, bool seen) {
+        const Device::Ticket ticket = device().start([](const auto &) {});
+        if (!seen) {
+            device().handle().waitIdle();
+            device().look();
+        }
+        return device().finish(ticket, expected);
+    };
+    EXPECT_EQ(seconds_of(0.0, false), 0.0);
+    EXPECT_EQ(seconds_of(1e-12, false), 1e-12) << "what was expected may be so";
+    EXPECT_LT(seconds_of(1e9, false), 1e6);
+    EXPECT_GT(seconds_of(0.0, true), 0.0);
+    EXPECT_GT(seconds_of(1e-12, true), 1e-12);
+}
+
 TEST_F(VulkanTest, GpusAreWaitedForInBoundedTime) {
     pt_device_info info{};
     for (const std::uint32_t gpu :

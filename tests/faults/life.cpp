@@ -6,6 +6,7 @@
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
 
+#include <pt/async.h>
 #include <pt/film.h>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,16 @@ int32_t go_on(void * /*user*/, double /*fraction*/) {
     return 0;
 }
 
+// Samples that are under way between calls. After a failure of one of these none are, or calls that follow are refused.
+pt_result start_and_poll(pt_context *context, const pt_accumulate_info *info) {
+    pt_accumulate_info to_start = *info;
+    to_start.progress = nullptr;
+    pt_result result = pt_start(context, &to_start);
+    for (uint64_t nanoseconds = 0; result == PT_PENDING; nanoseconds = UINT64_MAX)
+        result = pt_poll(context, nanoseconds, nullptr);
+    return result;
+}
+
 uint64_t no_kernels(void * /*user*/, const char * /*key*/, void * /*data*/, uint64_t /*size_bytes*/) {
     return 0;
 }
@@ -88,6 +99,7 @@ Steps Life::all_steps() {
             "pt_set_scene, again",
             "pt_add_film",
             "pt_set_camera, again",
+            "pt_start and pt_poll",
             "pt_set_render, smaller",
             "pt_accumulate, again",
             "pt_destroy"};
@@ -159,7 +171,7 @@ void Life::tell() {
     accumulate_to("", 1, 0.0);
     add_film("pt_add_film");
     call("pt_set_camera, again", set_camera);
-    accumulate_to("", 1, 0.0);
+    accumulate_to("pt_start and pt_poll", 3, 0.0, &start_and_poll);
     the_render.row_count = height / 2;
     call("pt_set_render, smaller", set_render);
     rows_ = height / 2;
@@ -211,7 +223,7 @@ void Life::call(const std::string &step, const Function &function, const std::fu
 
 // A call that fails keeps the whole samples that it has taken, which may be all. Of several devices none may be left,
 // if memory does not suffice to complete what each has begun.
-void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error) {
+void Life::accumulate_to(const std::string &step, uint32_t sample_count, double target_error, Accumulate accumulate) {
     pt_accumulate_info info{};
     info.struct_size = sizeof info;
     info.sample_count = sample_count - state().sample_count;
@@ -219,7 +231,7 @@ void Life::accumulate_to(const std::string &step, uint32_t sample_count, double 
     info.target_error = target_error;
     const uint32_t before = state().sample_count;
     call(
-        step, [&] { return info.sample_count == 0 ? PT_OK : pt_accumulate(context_, &info); },
+        step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },
         [&] {
             const State after = state();
             EXPECT_LE(after.sample_count, sample_count) << step;

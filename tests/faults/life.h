@@ -78,7 +78,9 @@ private:
     void look(const std::string &step, const Function &function);
     void call(const std::string &step, const Function &function);
     void call(const std::string &step, const Function &function, const std::function<void()> &after_failure);
-    void accumulate_to(const std::string &step, uint32_t sample_count, double target_error);
+    using Accumulate = pt_result (*)(pt_context *, const pt_accumulate_info *);
+    void accumulate_to(const std::string &step, uint32_t sample_count, double target_error,
+                       Accumulate accumulate = &pt_accumulate);
     void readback(const std::string &step, uint32_t quantity);
     void save_film(const std::string &step);
     void add_film(const std::string &step);

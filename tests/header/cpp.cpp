@@ -1,6 +1,7 @@
 // The headers as C++, and their binary interface: numbers and types that programs were compiled with must never change. Sizes
 // and offsets are in abi/struct_layout.txt.
 #include <pt/accuracy.h>
+#include <pt/async.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
 #include <pt/film.h>
@@ -20,7 +21,7 @@ static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_function_accu
 static_assert(are_plain<pt_broken_rule>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
-static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2);
+static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2 && PT_PENDING == 3);
 static_assert(PT_ERROR_INVALID_ARGUMENT == -1 && PT_ERROR_INVALID_SCENE == -2 && PT_ERROR_INVALID_STATE == -3);
 static_assert(PT_ERROR_UNSUPPORTED == -4 && PT_ERROR_NO_DEVICE == -5 && PT_ERROR_OUT_OF_HOST_MEMORY == -6);
 static_assert(PT_ERROR_OUT_OF_DEVICE_MEMORY == -7 && PT_ERROR_DEVICE_LOST == -8 && PT_ERROR_SHADER == -9);
@@ -47,6 +48,9 @@ static_assert(std::is_same_v<decltype(&pt_set_camera), pt_result (*)(pt_context 
 static_assert(std::is_same_v<decltype(&pt_set_render), pt_result (*)(pt_context *, const pt_render *)>);
 static_assert(std::is_same_v<decltype(&pt_reload_shaders), pt_result (*)(pt_context *)>);
 static_assert(std::is_same_v<decltype(&pt_accumulate), pt_result (*)(pt_context *, const pt_accumulate_info *)>);
+static_assert(std::is_same_v<decltype(&pt_start), pt_result (*)(pt_context *, const pt_accumulate_info *)>);
+static_assert(std::is_same_v<decltype(&pt_poll), pt_result (*)(pt_context *, uint64_t, double *)>);
+static_assert(std::is_same_v<decltype(&pt_cancel), pt_result (*)(pt_context *)>);
 static_assert(std::is_same_v<decltype(&pt_readback), pt_result (*)(pt_context *, const pt_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
 static_assert(

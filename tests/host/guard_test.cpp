@@ -73,6 +73,7 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_OK), "PT_OK");
     EXPECT_STREQ(pt::result_name(PT_CANCELLED), "PT_CANCELLED");
     EXPECT_STREQ(pt::result_name(PT_TARGET_REACHED), "PT_TARGET_REACHED");
+    EXPECT_STREQ(pt::result_name(PT_PENDING), "PT_PENDING");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_ARGUMENT), "PT_ERROR_INVALID_ARGUMENT");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_SCENE), "PT_ERROR_INVALID_SCENE");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INVALID_STATE), "PT_ERROR_INVALID_STATE");
@@ -85,7 +86,7 @@ TEST(ResultName, IsThatOfTheHeader) {
     EXPECT_STREQ(pt::result_name(PT_ERROR_INTERNAL), "PT_ERROR_INTERNAL");
     EXPECT_STREQ(pt::result_name(PT_ERROR_INCOMPATIBLE), "PT_ERROR_INCOMPATIBLE");
     EXPECT_STREQ(pt::result_name(-12), "unknown result");
-    EXPECT_STREQ(pt::result_name(3), "unknown result");
+    EXPECT_STREQ(pt::result_name(4), "unknown result");
 }
 
 using Lines = std::vector<std::string>;

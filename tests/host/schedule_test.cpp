@@ -294,6 +294,16 @@ TEST(Schedule, SmallSlicesChangeLittle) {
     EXPECT_NEAR(paths_of(schedule.next(UINT32_MAX, 0)), 5e6, 0.01 * 5e6);
 }
 
+TEST(Schedule, WhatWasExpectedTeachesNothing) {
+    pt::ScheduleLimits limits = usual_limits();
+    limits.max_samples = 1U << 30;
+    pt::Schedule schedule(64, limits);
+    EXPECT_EQ(schedule.expected_seconds({0, 64, 128, true}), 0.025) << "half of the budget";
+    for (const std::uint32_t samples : {1U, 128U, 256U})
+        schedule.measured({0, 64, samples, true}, schedule.expected_seconds({0, 64, samples, true}));
+    EXPECT_EQ(schedule.budget(), 16384.0);
+}
+
 // Negative controls: the judges see each fault.
 TEST(ScheduleJudge, SeesFaults) {
     pt::ScheduleLimits limits = usual_limits();

@@ -2,8 +2,8 @@
  * pt: an offscreen path tracer for spheres and planes on any Vulkan device.
  *
  * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
- * What only some programs need stands beside it: pt/stats.h (what was done, and the image's error), pt/errors.h (the
- * last error as data), pt/devices.h (which devices there are), pt/vulkan.h (a device of the caller's own), pt/shaders.h
+ * What only some programs need stands beside it: pt/async.h (samples that are taken while the program goes on),
+ * pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as data), pt/devices.h (which devices there are), pt/vulkan.h (a device of the caller's own), pt/shaders.h
  * (changed kernels) and pt/accuracy.h (how well a device computes).
  *
  * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Colour is
@@ -52,11 +52,12 @@ typedef int32_t pt_result;
 /** Values of pt_result. */
 enum {
     PT_OK = 0,                          /**< done */
-    PT_CANCELLED = 1,                   /**< the progress callback asked to stop; whole samples were kept */
+    PT_CANCELLED = 1,                   /**< the caller asked to stop; whole samples were kept */
     PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
+    PT_PENDING = 3,                     /**< samples are under way, see pt/async.h */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
     PT_ERROR_INVALID_SCENE = -2,        /**< a scene breaks a rule; the message names field, value and rule */
-    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set first, or the context is in a call already */
+    PT_ERROR_INVALID_STATE = -3,        /**< something has to be set or to end first, or a call is under way already */
     PT_ERROR_UNSUPPORTED = -4,          /**< valid, but beyond this device, driver or library */
     PT_ERROR_NO_DEVICE = -5,            /**< no Vulkan driver, or no device fits; the message has the reasons */
     PT_ERROR_OUT_OF_HOST_MEMORY = -6,   /**< the machine has too little memory left */
@@ -195,7 +196,7 @@ typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 typedef struct pt_accumulate_info {
     uint32_t struct_size;    /**< sizeof(pt_accumulate_info) */
     uint32_t sample_count;   /**< samples to add to every pixel, >= 1; indices must stay below 2^32 */
-    pt_progress_fn progress; /**< may be NULL; called during pt_accumulate alone */
+    pt_progress_fn progress; /**< may be NULL; called during pt_accumulate alone, so that pt_start refuses it */
     void *progress_user;     /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
      * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has as many

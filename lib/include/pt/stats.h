@@ -44,8 +44,8 @@ typedef struct pt_stats {
     uint32_t sample_count;     /**< whole samples in every pixel */
     uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /**< memory allocated on all its devices now */
-    uint64_t submit_count;     /**< submissions that pt_accumulate waited for since pt_create, to all devices */
-    double device_seconds;     /**< time spent in them, summed over the devices */
+    uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
+    double device_seconds;     /**< time spent in them, summed; with pt_poll as far as it saw them end */
     uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
     uint32_t device_count;     /**< devices that share the samples */
     double rmse;               /**< root mean square error, a radiance */
@@ -62,7 +62,7 @@ typedef struct pt_stats {
  * 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes what has been done; at any time, of a lost device too.
+/** Writes what has been done; at any time but while samples are under way (pt/async.h), of a lost device too.
  *
  * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
  * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
