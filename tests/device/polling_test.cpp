@@ -151,7 +151,9 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
                 ++done;
             }
         }
-        EXPECT_GT(cancelled, 1);
+        pt_device_info info{};
+        ASSERT_EQ(pt_get_context_device(on.get(), &info), PT_OK);
+        EXPECT_TRUE(cancelled > 1 || info.kind != PT_DEVICE_CPU) << "to others these samples are one submission";
     }
 }
 
