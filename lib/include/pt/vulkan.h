@@ -62,7 +62,8 @@ struct pt_vulkan {
  *            is written. Into a VkImage it goes by vkCmdCopyBufferToImage.
  * Before     earlier accesses of the caller's to the memory must have ended, as one sees by a fence, or
  *            wait_semaphore is signalled after them: the kernel's writes wait for it in
- *            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal operation must have been submitted already.
+ *            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal operation must have been submitted
+ *            already. (Mesa's lavapipe holds the call until the work before that has ended.)
  * After      the writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without
  *            signal_semaphore the call returns when they have ended and are available, also to the host
  *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
