@@ -113,6 +113,11 @@ PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
 
+// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h.
+PT_CONSTANT FORMAT_RGB32F = 0;
+PT_CONSTANT FORMAT_RGBA32F = 1;
+PT_CONSTANT FORMAT_RGBA16F = 2;
+
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
@@ -214,6 +219,8 @@ struct ResolveConstants {
     uint first_pixel; // of the rectangle that is resolved
     uint width;       // of that rectangle
     uint pixel_count; // in it
+    uint first_word;  // of the image in its buffer
+    uint row_words;   // from a row to the next
 };
 
 // Of estimate.comp, for a strip of whole rows.
@@ -235,7 +242,7 @@ static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConsta
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
-static_assert(sizeof(ResolveConstants) == 44 && offsetof(ResolveConstants, pixel_count) == 40);
+static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 } // namespace pt::gpu
 #endif

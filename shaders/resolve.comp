@@ -8,9 +8,14 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { ResolveConstants resolve; };
 
 #include "film_mean.glsl"
+#include "half.glsl"
 
-layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint values[]; } resolved; // bits of floats
+layout(constant_id = 0) const uint FORMAT = FORMAT_RGB32F;
+
+layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved; // of pixels
 layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // whose samples a driver lost
+
+const uint PIXEL_WORDS = FORMAT == FORMAT_RGB32F ? 3u : FORMAT == FORMAT_RGBA32F ? 4u : 2u;
 
 // Of fewer samples the two parts say next to nothing.
 bool knows_error(PartCount older, PartCount newer)
@@ -34,7 +39,9 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= resolve.pixel_count)
         return;
-    uint pixel = resolve.first_pixel + index / resolve.width * resolve.film_width + index % resolve.width;
+    uint row = index / resolve.width;
+    uint column = index % resolve.width;
+    uint pixel = resolve.first_pixel + row * resolve.film_width + column;
     uint pixel_in_strip = pixel - resolve.strip_first_pixel;
     if (pixel_in_strip >= resolve.strip_pixel_count)
         return;
@@ -42,6 +49,19 @@ void main()
     PartCount newer = part_count(1u - resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
     if (uvec2(older.done, newer.done) != resolve.sample_counts)
         atomicAdd(findings.lost_pixels, 1u);
-    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel)
-        resolved.values[3u * index + channel] = value_of(channel, pixel_in_strip, older, newer);
+    uint first_word = resolve.first_word + row * resolve.row_words + column * PIXEL_WORDS;
+    uvec2 halves = uvec2(0u, HALF_ONE_BITS << 16);
+    [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
+        uint value = value_of(channel, pixel_in_strip, older, newer);
+        if (FORMAT == FORMAT_RGBA16F)
+            halves[channel / 2u] |= half_bits(value) << 16u * (channel % 2u);
+        else
+            resolved.words[first_word + channel] = value;
+    }
+    if (FORMAT == FORMAT_RGBA32F)
+        resolved.words[first_word + 3u] = floatBitsToUint(1.0);
+    if (FORMAT == FORMAT_RGBA16F) {
+        resolved.words[first_word] = halves[0];
+        resolved.words[first_word + 1u] = halves[1];
+    }
 }

@@ -15,6 +15,7 @@
 #include <pt/errors.h>
 #include <pt/film.h>
 #include <pt/shaders.h>
+#include <pt/vulkan.h>
 
 #include <algorithm>
 #include <cmath>
@@ -251,6 +252,16 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         // Before pt_set_render there is no size to check against; the renderer refuses then.
         const bool sized = renderer.width() > 0;
         renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count()) : pt::Image{});
+    });
+}
+
+pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_buffer_image target = pt::copy_in(image, "image");
+        // Likewise; and without a lent device no field matters.
+        const bool sized = renderer.is_on_lent_device() && renderer.width() > 0;
+        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count())
+                                : pt::BufferImage{});
     });
 }
 

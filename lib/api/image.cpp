@@ -1,34 +1,97 @@
-// The rules of an image in the caller's memory; see image.h.
+// The rules of images that callers ask for; see image.h.
 #include "lib/api/image.h"
 
 #include "lib/base/rules.h"
+#include "lib/film/pixel_format.h"
 
+#include <algorithm>
 #include <string>
 
 namespace pt {
 
+namespace {
+
+constexpr std::uint32_t buffer_word_bytes = 4; // what a kernel writes
+
+// Of an image of width x height pixels, the part that is asked for.
+template <typename Source>
+Rectangle rectangle_of(const Source &source, std::uint32_t width, std::uint32_t height) {
+    if (source.x == 0 && source.y == 0 && source.width == 0 && source.height == 0)
+        return {0, 0, width, height};
+    return {source.x, source.y, source.width, source.height};
+}
+
+// A rectangle's columns, or its rows: whether there are some, all within the image.
+bool check_extent(const Subject &image, const char *name, std::uint32_t extent, const Member &begin,
+                  std::uint32_t first, std::uint32_t limit) {
+    image.require(extent >= 1, name, extent, "must be >= 1, but where x, y, width and height are all 0");
+    const bool within = first < limit && extent <= limit - first;
+    if (extent >= 1)
+        image.require(within, begin, std::uint64_t{first} + extent, "must be <= " + number_text(limit));
+    return within && extent >= 1;
+}
+
+// The rules that images have in common, whatever the memory. alignment: of rows, in bytes. offset: of the image in its
+// memory.
+template <typename Source>
+ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
+                           std::uint32_t width, std::uint32_t height) {
+    const ImageLayout layout{rectangle_of(source, width, height), source.quantity, source.format, source.row_bytes};
+    const Rectangle &pixels = layout.pixels;
+    image.require(source.quantity <= PT_QUANTITY_STANDARD_ERROR, "quantity", source.quantity,
+                  "must be a PT_QUANTITY_* of pt.h");
+    image.require(source.format < format_count, "format", source.format, "must be a PT_FORMAT_* of pt.h");
+    image.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
+    const bool columns_fit = check_extent(image, "width", pixels.width, {"x", "+ width"}, pixels.x, width);
+    const bool rows_fit = check_extent(image, "height", pixels.height, {"y", "+ height"}, pixels.y, height);
+    if (!columns_fit || !rows_fit || source.format >= format_count)
+        return layout; // how much memory it takes is not known
+
+    const std::string width_text = "width * " + number_text(pixel_bytes(source.format));
+    const std::uint64_t width_bytes = std::uint64_t{pixels.width} * pixel_bytes(source.format);
+    const std::uint64_t row_bytes = source.row_bytes == 0 ? width_bytes : source.row_bytes;
+    image.require(row_bytes % alignment == 0, "row_bytes", row_bytes,
+                  "must be a multiple of " + number_text(alignment));
+    image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
+                  "must be >= " + width_text + " (" + number_text(width_bytes) + ")");
+    // offset + (height - 1) * row_bytes + width_bytes <= size_bytes, by division: the product may pass 2^64.
+    const std::uint64_t room = source.size_bytes - std::min(source.size_bytes, offset);
+    const bool large_enough = room >= width_bytes && (room - width_bytes) / row_bytes >= pixels.height - 1;
+    const std::string before = offset == 0 ? "" : "offset_bytes + ";
+    const std::string before_number = offset == 0 ? "" : number_text(offset) + " + ";
+    image.require(large_enough, "size_bytes", source.size_bytes,
+                  "must be >= " + before + "(height - 1) * row_bytes + " + width_text + " (" + before_number +
+                      number_text(pixels.height - 1) + " * " + number_text(row_bytes) + " + " +
+                      number_text(width_bytes) + ")");
+    return {pixels, source.quantity, source.format, row_bytes};
+}
+
+} // namespace
+
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height) {
     Violations violations;
     const Subject image(violations, "image");
-    const std::uint64_t width_bytes = std::uint64_t{width} * 3 * sizeof(float);
-    const std::uint64_t row_bytes = source.row_bytes == 0 ? width_bytes : source.row_bytes;
-    image.require(source.quantity <= PT_QUANTITY_STANDARD_ERROR, "quantity", source.quantity,
-                  "must be a PT_QUANTITY_* of pt.h");
+    const std::uint32_t alignment = component_bytes(source.format);
     if (!source.data)
         image.refuse("data", "NULL", "must not be NULL");
-    image.require(reinterpret_cast<std::uintptr_t>(source.data) % alignof(float) == 0, "data",
-                  std::uint64_t{reinterpret_cast<std::uintptr_t>(source.data)}, "must be a multiple of 4");
-    image.require(row_bytes % sizeof(float) == 0, "row_bytes", row_bytes, "must be a multiple of 4");
-    image.require(row_bytes >= width_bytes, "row_bytes", row_bytes,
-                  "must be >= width * 12 (" + number_text(width_bytes) + ")");
-    // (height - 1) * row_bytes + width_bytes <= size_bytes, by division: the product may pass 2^64.
-    const bool large_enough =
-        source.size_bytes >= width_bytes && (source.size_bytes - width_bytes) / row_bytes >= height - 1;
-    image.require(large_enough, "size_bytes", source.size_bytes,
-                  "must be >= (height - 1) * row_bytes + width * 12 (" + number_text(height - 1) + " * " +
-                      number_text(row_bytes) + " + " + number_text(width_bytes) + ")");
+    image.require(reinterpret_cast<std::uintptr_t>(source.data) % alignment == 0, "data",
+                  std::uint64_t{reinterpret_cast<std::uintptr_t>(source.data)},
+                  "must be a multiple of " + number_text(alignment));
+    const ImageLayout layout = checked_layout(image, source, alignment, 0, width, height);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
-    return {source.data, static_cast<std::size_t>(row_bytes / sizeof(float)), source.quantity};
+    return {layout, static_cast<std::byte *>(source.data)};
+}
+
+BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height) {
+    Violations violations;
+    const Subject image(violations, "image");
+    if (source.buffer == 0)
+        image.refuse("buffer", "0", "must be a VkBuffer");
+    image.require(source.offset_bytes % buffer_word_bytes == 0, "offset_bytes", source.offset_bytes,
+                  "must be a multiple of 4");
+    const ImageLayout layout = checked_layout(image, source, buffer_word_bytes, source.offset_bytes, width, height);
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    return {layout, source.buffer, source.offset_bytes, source.wait_semaphore, source.signal_semaphore};
 }
 
 } // namespace pt

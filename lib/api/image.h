@@ -1,21 +1,40 @@
-// Where a caller wants an image, checked against its size.
+// Where a caller wants an image, in memory or in a buffer of the device, checked against its size.
 #pragma once
 
+#include "lib/film/film_header.h"
+
 #include <pt/pt.h>
+#include <pt/vulkan.h>
 
 #include <cstddef>
 #include <cstdint>
 
 namespace pt {
 
-struct Image {
-    float *data;
-    std::size_t row_floats; // distance between rows
-    std::uint32_t quantity; // PT_QUANTITY_*
+// What is read, and how its rows lie in memory.
+struct ImageLayout {
+    Rectangle pixels;        // of what is rendered, at least one
+    std::uint32_t quantity;  // PT_QUANTITY_*
+    std::uint32_t format;    // PT_FORMAT_*
+    std::uint64_t row_bytes; // distance between rows
 };
 
-// Checks that an image whose struct_size is settled holds width x height pixels, both >= 1. Throws
+struct Image {
+    ImageLayout layout;
+    std::byte *data;
+};
+
+struct BufferImage {
+    ImageLayout layout;
+    std::uint64_t buffer; // VkBuffer
+    std::uint64_t offset_bytes;
+    std::uint64_t wait_semaphore;   // VkSemaphore, or 0
+    std::uint64_t signal_semaphore; // likewise
+};
+
+// Checks an image whose struct_size is settled, of width x height pixels that are rendered, both >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height);
+BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
 } // namespace pt

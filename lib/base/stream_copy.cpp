@@ -11,21 +11,21 @@ namespace pt {
 
 #ifdef __SSE2__
 
-void stream_copy(std::span<const float> from, float *to) {
-    constexpr std::size_t lanes = 4;
-    const std::size_t misaligned = reinterpret_cast<std::uintptr_t>(to) / sizeof(float) % lanes;
-    const std::size_t head = std::min((lanes - misaligned) % lanes, from.size());
-    std::ranges::copy(from.first(head), to);
-    std::size_t i = head;
-    for (; i + lanes <= from.size(); i += lanes)
-        _mm_stream_ps(to + i, _mm_loadu_ps(from.data() + i));
-    std::ranges::copy(from.subspan(i), to + i);
-    _mm_sfence(); // what follows, on other threads too, sees the values
+void stream_copy(std::span<const std::byte> from, std::byte *to) {
+    constexpr std::size_t lane = sizeof(__m128i);
+    const std::size_t misaligned = reinterpret_cast<std::uintptr_t>(to) % lane;
+    std::size_t done = std::min((lane - misaligned) % lane, from.size());
+    std::ranges::copy(from.first(done), to);
+    for (; done + lane <= from.size(); done += lane)
+        _mm_stream_si128(reinterpret_cast<__m128i *>(to + done),
+                         _mm_loadu_si128(reinterpret_cast<const __m128i *>(from.data() + done)));
+    std::ranges::copy(from.subspan(done), to + done);
+    _mm_sfence(); // what follows, on other threads too, sees the bytes
 }
 
 #else
 
-void stream_copy(std::span<const float> from, float *to) {
+void stream_copy(std::span<const std::byte> from, std::byte *to) {
     std::ranges::copy(from, to);
 }
 

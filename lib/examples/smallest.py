@@ -71,7 +71,8 @@ class pt_accumulate_info(Sized):
 
 class pt_image(Sized):
     _fields_ = [("struct_size", c_uint32), ("quantity", c_uint32), ("data", POINTER(c_float)), ("size_bytes", c_uint64),
-                ("row_bytes", c_uint64)]
+                ("row_bytes", c_uint64), ("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32),
+                ("format", c_uint32), ("reserved", c_uint32)]
 
 
 def load_library():

@@ -58,7 +58,10 @@ std::vector<float> render(double eye) {
     settings.height = height;
     const pt_accumulate_info samples{sizeof samples, 64, nullptr, nullptr, 0};
     std::vector<float> pixels(std::size_t{3} * width * height);
-    const pt_image image{sizeof image, PT_QUANTITY_RADIANCE, pixels.data(), pixels.size() * sizeof(float), 0};
+    pt_image image{};
+    image.struct_size = sizeof image;
+    image.data = pixels.data();
+    image.size_bytes = pixels.size() * sizeof(float);
 
     const Context context = create_context();
     check(pt_set_scene(context.get(), &scene), context);

@@ -180,16 +180,21 @@ void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
 
 void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive) {
+    read_films(films, samples, {0, films.front()->pixel_count()}, most_pixels, receive);
+}
+
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, const PixelRange &pixels,
+                std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
     const std::uint64_t split = split_of(samples.hull());
     const PartCounts expected = part_counts(samples);
     PixelSums sums;
     PixelSums others;
-    for_each_piece(films.front()->pixel_count(), most_pixels, [&](std::uint32_t first, std::uint32_t count) {
+    for_each_piece(pixels.count, most_pixels, [&](std::uint32_t first, std::uint32_t count) {
         sums.resize(count);
-        films.front()->read(first, split, sums);
+        films.front()->read(pixels.first + first, split, sums);
         for (DeviceFilm *film : films.subspan(1)) {
             others.resize(count);
-            film->read(first, split, others);
+            film->read(pixels.first + first, split, others);
             sums.add(others);
         }
         sums.require_samples(expected);

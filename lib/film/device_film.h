@@ -91,10 +91,18 @@ private:
     PartUse parts_;
 };
 
+// Consecutive pixels of a film.
+struct PixelRange {
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
 // Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the
-// first beginning with pixel 0. Throws PT_ERROR_INTERNAL if a driver lost work.
+// first beginning with pixel 0, or with the first of a range. Throws PT_ERROR_INTERNAL if a driver lost work.
 void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive);
+void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, const PixelRange &pixels,
+                std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
 // Pixels of the pieces in which films are read and written, so that a large image is not held twice. Were planes a
 // power of two apart, the words of a pixel would contend for one set of the processor's cache.

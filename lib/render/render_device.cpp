@@ -56,6 +56,7 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 void RenderDevice::set_film(DeviceFilm film) {
     kernel_.reset(); // their descriptor sets name the old film
     image_reader_.reset();
+    buffer_writer_.reset();
     error_reader_.reset();
     film_ = std::move(film);
     ScheduleLimits limits{};
@@ -82,6 +83,7 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
     kernel_.reset(); // they use the old ones
     image_reader_.reset();
+    buffer_writer_.reset();
     error_reader_.reset();
     resolve_.reset();
     estimate_.reset();
@@ -131,7 +133,7 @@ void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, c
     kernel_->build(*pipelines_);
     kernel_->dispatch_nothing();
     if (device_.policy().resolve_on_device) {
-        resolve_pipeline();
+        resolve_pipelines().of(PT_FORMAT_RGB32F);
         estimate_pipeline();
     }
 }
@@ -147,13 +149,20 @@ DeviceFilm &RenderDevice::film() {
 ImageReader &RenderDevice::image_reader() {
     DeviceFilm &film = this->film();
     if (!image_reader_)
-        image_reader_.emplace(device_, resolve_pipeline(), film);
+        image_reader_.emplace(device_, resolve_pipelines(), film);
     return *image_reader_;
 }
 
-const vulkan::ComputePipeline &RenderDevice::resolve_pipeline() {
+BufferWriter &RenderDevice::buffer_writer() {
+    DeviceFilm &film = this->film();
+    if (!buffer_writer_)
+        buffer_writer_.emplace(device_, resolve_pipelines(), film, BufferWriter::piece_limits(device_.limits()));
+    return *buffer_writer_;
+}
+
+ResolvePipelines &RenderDevice::resolve_pipelines() {
     if (!resolve_)
-        resolve_.emplace(pt::resolve_pipeline(device_, code_.resolve));
+        resolve_.emplace(device_, code_.resolve);
     return *resolve_;
 }
 

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
+#include "lib/kernel/resolve.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/render_settings.h"
@@ -41,6 +43,7 @@ public:
 
     // Of the film, brought up to date.
     ImageReader &image_reader();
+    BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
     // What reads errors of other films.
@@ -115,7 +118,7 @@ private:
     };
 
     bool can_clear_at_once() const;
-    const vulkan::ComputePipeline &resolve_pipeline();
+    ResolvePipelines &resolve_pipelines();
     void start_film_work();
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 
@@ -123,10 +126,11 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    std::optional<vulkan::ComputePipeline> resolve_;  // of the code, once an image was read
+    std::optional<ResolvePipelines> resolve_;         // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
+    std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel

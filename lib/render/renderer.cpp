@@ -2,15 +2,16 @@
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
-#include "lib/base/stream_copy.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
+#include "lib/render/image_rows.h"
 #include "lib/render/saved_film.h"
 #include "lib/scene/lamp_share.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <utility>
 
@@ -361,31 +362,46 @@ void Renderer::give_up() noexcept {
     job_.reset();
 }
 
+ImageQuery Renderer::query(const ImageLayout &layout) const {
+    return {layout.pixels, layout.quantity == PT_QUANTITY_STANDARD_ERROR, scene_->film_unit, part_counts(samples_),
+            layout.format};
+}
+
+// On the host, of the rows that the image has a part of.
 void Renderer::readback(const Image &image) {
     require_settings();
     require_samples();
-    const std::size_t width = settings_->width;
-    std::size_t value = 0;
-    const auto receive = [&](std::span<const float> values) {
-        for (const std::size_t row_values = 3 * width; !values.empty();) {
-            const std::size_t count = std::min(values.size(), row_values - value % row_values);
-            stream_copy(values.first(count), image.data + value / row_values * image.row_floats + value % row_values);
-            values = values.subspan(count);
-            value += count;
-        }
-    };
     const KernelsKept kept(devices_);
-    const bool is_error = image.quantity == PT_QUANTITY_STANDARD_ERROR;
-    const double unit = scene_->film_unit;
+    const ImageQuery query = this->query(image.layout);
+    ImageRows rows(image);
     if (resolves_on_device()) {
-        devices_.front()->image_reader().read(
-            {{0, 0, settings_->width, settings_->row_count}, is_error, unit, part_counts(samples_)}, receive);
+        devices_.front()->image_reader().read(query, [&](std::span<const std::byte> pixels) { rows.put(pixels); });
         return;
     }
-    read_films(films(), samples_, piece_pixels, [&](const PixelSums &sums) {
-        const PixelEstimates pixels = sums.estimates(unit, is_error);
-        receive(is_error ? pixels.standard_error : pixels.radiance);
+    const std::uint32_t width = settings_->width;
+    const PixelRange range{query.pixels.y * width, query.pixels.height * width};
+    std::uint64_t first = range.first;
+    read_films(films(), samples_, range, piece_pixels, [&](const PixelSums &sums) {
+        const PixelEstimates pixels = sums.estimates(query.unit, query.standard_error);
+        rows.put_part(first, width, query.standard_error ? pixels.standard_error : pixels.radiance);
+        first += sums.pixel_count();
     });
+}
+
+// A lent device is the only one, so its film holds all samples.
+void Renderer::readback(const BufferImage &image) {
+    require_alive();
+    if (!is_on_lent_device())
+        throw Error(PT_ERROR_INVALID_STATE, "the context has a device of its own: pt_create_info.vulkan lends it one");
+    require_settings();
+    require_samples();
+    const KernelsKept kept(devices_);
+    devices_.front()->buffer_writer().write(
+        query(image.layout), {.buffer = std::bit_cast<VkBuffer>(image.buffer),
+                              .offset = image.offset_bytes,
+                              .row_bytes = image.layout.row_bytes,
+                              .semaphores = {.wait = std::bit_cast<VkSemaphore>(image.wait_semaphore),
+                                             .signal = std::bit_cast<VkSemaphore>(image.signal_semaphore)}});
 }
 
 FilmIdentity Renderer::identity() const {

@@ -61,6 +61,9 @@ public:
     std::uint32_t width() const { return settings_ ? settings_->width : 0; }
     std::uint32_t row_count() const { return settings_ ? settings_->row_count : 0; }
 
+    // Whether it works on a device that the caller has lent.
+    bool is_on_lent_device() const { return devices_.front()->device().is_borrowed(); }
+
     // Each setter discards the samples so far.
     void set_scene(Scene scene);
     void set_camera(const Camera &camera);
@@ -96,6 +99,7 @@ public:
     bool is_under_way() const { return job_.has_value(); }
 
     void readback(const Image &image);
+    void readback(const BufferImage &image);
 
     // Of the film of the samples so far.
     FilmHeader film_header() const;
@@ -129,6 +133,7 @@ private:
     bool is_in_pass() const;
     std::vector<DeviceFilm *> films() const;
     bool resolves_on_device() const;
+    ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
     bool may_miss_lamps(std::uint64_t samples) const; // of all pixels

@@ -24,6 +24,8 @@ public:
     const Object &operator*() const { return object_; }
     const Object *operator->() const { return &object_; }
 
+    bool is_owned() const { return owned_; }
+
     // Gives up ownership: from now on the object is left alone.
     void disown() { owned_ = false; }
 

@@ -73,6 +73,14 @@ ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> 
 }
 
 DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
+    std::vector<BufferRange> ranges(buffers.size());
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+        if (buffers[i])
+            ranges[i] = BufferRange(*buffers[i]);
+    return bind(ranges);
+}
+
+DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
     return translated("binding buffers", [&] {
         std::vector<vk::DescriptorPoolSize> sizes;
         for (const vk::DescriptorType type : bindings_)
@@ -93,10 +101,11 @@ DescriptorSet ComputePipeline::bind(std::span<Buffer *const> buffers) const {
                 continue;
             const bool uniform = bindings_[i] == vk::DescriptorType::eUniformBuffer ||
                                  bindings_[i] == vk::DescriptorType::eUniformBufferDynamic;
-            const std::uint64_t range =
-                std::min<std::uint64_t>(device_->limits().max_uniform_range, buffers[i]->size());
-            const vk::DescriptorBufferInfo info{.buffer = buffers[i]->handle(),
-                                                .range = uniform ? range : VK_WHOLE_SIZE};
+            const std::uint64_t uniform_bytes =
+                std::min<std::uint64_t>(device_->limits().max_uniform_range, ranges[i].bytes);
+            const vk::DescriptorBufferInfo info{.buffer = ranges[i].buffer,
+                                                .offset = ranges[i].offset,
+                                                .range = uniform ? uniform_bytes : ranges[i].bytes};
             device_->handle().updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = set.set_,
                                                                           .dstBinding = i,
                                                                           .descriptorCount = 1,

@@ -11,6 +11,17 @@
 
 namespace pt::vulkan {
 
+// A part of a buffer, for a storage binding. Its offset is a multiple of Limits::storage_buffer_alignment.
+struct BufferRange {
+    BufferRange() = default; // none
+    explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
+    BufferRange(vk::Buffer of, std::uint64_t first, std::uint64_t count) : buffer(of), offset(first), bytes(count) {}
+
+    vk::Buffer buffer;
+    std::uint64_t offset = 0;
+    std::uint64_t bytes = 0;
+};
+
 // Buffers bound to a kernel. They must outlive the last dispatch with it.
 class DescriptorSet {
 public:
@@ -34,6 +45,7 @@ public:
 
     // buffers[i] goes to binding i; NULL where there is none.
     DescriptorSet bind(std::span<Buffer *const> buffers) const;
+    DescriptorSet bind(std::span<const BufferRange> ranges) const;
 
     // Records a dispatch of group_count workgroups along x, and rows of them along y. offsets: of the dynamic bindings
     // into their buffers, in bytes.

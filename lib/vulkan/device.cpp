@@ -43,6 +43,7 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .max_allocation_bytes = chain.get<vk::PhysicalDeviceMaintenance3Properties>().maxMemoryAllocationSize,
             .max_uniform_range = std::min(limits.maxUniformBufferRange, largest_uniform_range) / 256 * 256,
             .max_workgroup_count = limits.maxComputeWorkGroupCount[0],
+            .storage_buffer_alignment = limits.minStorageBufferOffsetAlignment,
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
@@ -124,7 +125,7 @@ Device::Device(Instance &instance, const vk::raii::PhysicalDevice &physical_devi
         std::vector<vk::raii::CommandBuffer> commands =
             handle().allocateCommandBuffers({.commandPool = *command_pool_,
                                              .level = vk::CommandBufferLevel::ePrimary,
-                                             .commandBufferCount = policy_.queue_depth + 1});
+                                             .commandBufferCount = policy_.queue_depth + 2});
         for (vk::raii::CommandBuffer &buffer : commands)
             submissions_.push_back({std::move(buffer), handle().createFence({})});
         pipeline_cache_ = PipelineCache(handle());
@@ -186,7 +187,7 @@ void Device::lose(const std::function<std::string()> &reason) {
     throw Error(PT_ERROR_DEVICE_LOST, lost_message_);
 }
 
-Device::Ticket Device::start(const Record &record) {
+Device::Ticket Device::start(const Record &record, const Semaphores &semaphores) {
     require_alive();
     const auto free = std::ranges::find(submissions_, false, &Submission::pending);
     if (free == submissions_.end())
@@ -194,8 +195,16 @@ Device::Ticket Device::start(const Record &record) {
     translated("recording work", [&] { record_work(free->commands, record); });
     translated("submitting work", [&] {
         const vk::CommandBuffer commands = *free->commands;
+        const vk::PipelineStageFlags waiting_stages = Stage::eComputeShader;
         try {
-            free->start = logical_device_.submit({.commandBufferCount = 1, .pCommandBuffers = &commands}, *free->fence);
+            free->start = logical_device_.submit({.waitSemaphoreCount = semaphores.wait ? 1U : 0U,
+                                                  .pWaitSemaphores = &semaphores.wait,
+                                                  .pWaitDstStageMask = &waiting_stages,
+                                                  .commandBufferCount = 1,
+                                                  .pCommandBuffers = &commands,
+                                                  .signalSemaphoreCount = semaphores.signal ? 1U : 0U,
+                                                  .pSignalSemaphores = &semaphores.signal},
+                                                 *free->fence);
         } catch (const vk::DeviceLostError &error) {
             comes_to_rest(); // the submissions before it; what they use may be destroyed from here on
             lose([&] { return error.what(); });

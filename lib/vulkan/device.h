@@ -22,9 +22,10 @@ namespace pt::vulkan {
 struct Limits {
     std::uint64_t max_storage_buffer_range; // bytes that one binding can see
     std::uint64_t max_allocation_bytes;
-    std::uint32_t max_uniform_range;   // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
-    std::uint32_t max_workgroup_count; // along x
-    std::uint64_t loop_trip_budget;    // loop trips after which the driver silently stops an invocation
+    std::uint32_t max_uniform_range;        // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
+    std::uint32_t max_workgroup_count;      // along x
+    std::uint64_t storage_buffer_alignment; // of the offsets of bindings
+    std::uint64_t loop_trip_budget;         // loop trips after which the driver silently stops an invocation
 };
 
 // How a device is used. Tests choose other values than a device's own, to reach paths that it would not take.
@@ -47,6 +48,12 @@ DevicePolicy default_policy(const pt_device_info &info);
 
 // That of a GPU, but for its patience: tests reach with it on a CPU what only GPUs do.
 DevicePolicy gpu_like_policy();
+
+// Of a submission, each of them binary or none: it waits before its kernels, and signals at its end.
+struct Semaphores {
+    vk::Semaphore wait;
+    vk::Semaphore signal;
+};
 
 class Device {
 public:
@@ -87,8 +94,8 @@ public:
 
     // Records commands and submits them. What earlier submissions wrote is visible to the commands, and what they write
     // is visible to the host after finish(). Submissions run one after the other; as many as queue_depth may be under
-    // way, besides one of submit().
-    Ticket start(const Record &record);
+    // way, besides one of submit() and one for a caller who waits on the device.
+    Ticket start(const Record &record, const Semaphores &semaphores = {});
 
     using Clock = std::chrono::steady_clock;
 
@@ -110,6 +117,7 @@ public:
     double submit(const Record &record) { return finish(start(record)); }
 
     const vk::raii::Device &handle() const { return logical_device_.handle(); }
+    bool is_borrowed() const { return logical_device_.is_borrowed(); }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
     // Of what the driver's kernels of some code are good for: this model of device, its driver, and that code. 32

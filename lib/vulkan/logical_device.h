@@ -17,6 +17,7 @@ public:
     static LogicalDevice borrow(const vk::raii::PhysicalDevice &physical_device, const CallerVulkan &caller);
 
     const vk::raii::Device &handle() const { return *device_; }
+    bool is_borrowed() const { return !device_.is_owned(); }
     std::uint32_t queue_family() const { return queue_family_; }
 
     // Submits to the queue, and locks it for this thread meanwhile. Returns the time at which it had the lock.

@@ -232,7 +232,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
-    float *value = image->data;
+    auto *value = static_cast<float *>(image->data);
     for (std::uint32_t y = render.first_row; y < render.first_row + rows_of(render); ++y) {
         for (std::uint32_t x = 0; x < render.width; ++x) {
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);

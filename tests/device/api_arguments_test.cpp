@@ -158,7 +158,9 @@ TEST_F(ApiTest, RefusesNullPointers) {
     refused(pt_get_stats(context(), nullptr), "stats");
     refused(pt_get_accuracy(context(), nullptr, nullptr), "count");
     accumulate(1);
-    pt_image no_data{sizeof(pt_image), 0, nullptr, 1000000, 0};
+    pt_image no_data{};
+    no_data.struct_size = sizeof no_data;
+    no_data.size_bytes = 1000000;
     refused(pt_readback(context(), &no_data), "image.data");
 }
 

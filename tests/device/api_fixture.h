@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/support/context_fixture.h"
+#include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ inline pt_accumulate_info samples(uint32_t count) {
 }
 
 inline pt_image tight_image(std::vector<float> &pixels) {
-    return {sizeof(pt_image), 0, pixels.data(), pixels.size() * sizeof(float), 0};
+    return image_target(pixels);
 }
 
 // Gives a context the scene, the camera and the render settings.

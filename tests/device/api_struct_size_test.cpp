@@ -130,8 +130,12 @@ TEST_F(StructSizeTest, Image) {
     accumulate(1);
     const auto call = [&](const pt_image &image) { return outcome(pt_readback(context(), &image)); };
     std::vector<float> pixels(width * height * 4);
-    const pt_image image{sizeof image, PT_QUANTITY_STANDARD_ERROR, pixels.data(), pixels.size() * sizeof(float),
-                         width * 16};
+    pt_image image = image_target(pixels, PT_QUANTITY_STANDARD_ERROR, width * 16);
+    image.x = 1;
+    image.y = 2;
+    image.width = 3;
+    image.height = 1;
+    image.format = PT_FORMAT_RGBA32F;
     EXPECT_EQ(call(image).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(image, call), none);
     expect_tail_refused(image, "image", call);

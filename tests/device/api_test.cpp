@@ -1,6 +1,7 @@
 // The contract of pt.h on a real device: states, messages, progress, and that a failed call changes nothing. The
 // rules of single fields have their own tests, without a device.
 #include "tests/device/api_fixture.h"
+#include "tests/support/image_target.h"
 
 #include <pt/devices.h>
 
@@ -196,7 +197,7 @@ TEST_F(ApiTest, ReadbackWritesRowsAlone) {
     constexpr uint32_t row_floats = width * 3 + 5;
     constexpr float sentinel = -7.0F;
     std::vector<float> pixels(row_floats * height + 5, sentinel);
-    const pt_image target{sizeof target, 0, pixels.data(), pixels.size() * sizeof(float), row_floats * sizeof(float)};
+    const pt_image target = image_target(pixels, PT_QUANTITY_RADIANCE, row_floats * sizeof(float));
     ASSERT_EQ(pt_readback(context(), &target), PT_OK) << message();
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const bool inside = i / row_floats < height && i % row_floats < width * 3;

@@ -9,6 +9,7 @@
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
+#include <pt/vulkan.h>
 
 #include <cstdint>
 #include <functional>
@@ -27,6 +28,8 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_accumulate_info one = samples(1);
     std::vector<float> pixels(width * height * 3);
     const pt_image image = tight_image(pixels);
+    pt_buffer_image buffer_image{};
+    buffer_image.struct_size = sizeof buffer_image;
     pt_device_info device{};
     pt_stats stats{};
     stats.struct_size = sizeof stats;
@@ -41,6 +44,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
         {"pt_start", [&] { return pt_start(context, &one); }},
         {"pt_readback", [&] { return pt_readback(context, &image); }},
+        {"pt_readback_to_buffer", [&] { return pt_readback_to_buffer(context, &buffer_image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
         {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
     };

@@ -4,6 +4,7 @@
 #include "tests/device/probe.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
 
 #include <gtest/gtest.h>
@@ -149,7 +150,7 @@ TEST_F(ExactnessTest, SliceTargetsKeepTheBits) {
         const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr, 0};
         ASSERT_EQ(pt_accumulate(other.get(), &samples), PT_OK) << pt_last_error(other.get());
         images[i].resize(width * height * 3);
-        const pt_image image{sizeof image, 0, images[i].data(), images[i].size() * sizeof(float), 0};
+        const pt_image image = image_target(images[i]);
         ASSERT_EQ(pt_readback(other.get(), &image), PT_OK) << pt_last_error(other.get());
     }
     EXPECT_EQ(images[0], images[2]);
@@ -180,7 +181,7 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
         done = stats.sample_count;
         if (cancelled == 2 && done > 0) { // what is there is the image of exactly that many samples
             Image image(width * height * 3);
-            const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+            const pt_image target = image_target(image);
             ASSERT_EQ(pt_readback(other.get(), &target), PT_OK) << pt_last_error(other.get());
             EXPECT_EQ(image, image_of({done}));
         }
@@ -189,7 +190,7 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
     ASSERT_EQ(pt_get_context_device(other.get(), &info), PT_OK);
     EXPECT_TRUE(cancelled > 2 || info.kind != PT_DEVICE_CPU) << "to others these samples are few submissions";
     Image image(width * height * 3);
-    const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+    const pt_image target = image_target(image);
     ASSERT_EQ(pt_readback(other.get(), &target), PT_OK) << pt_last_error(other.get());
     EXPECT_EQ(image, uninterrupted);
 }
@@ -229,7 +230,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
     ASSERT_EQ(pt_get_context_device(other.get(), &info), PT_OK);
     EXPECT_TRUE(cancelled > 2 || info.kind != PT_DEVICE_CPU) << "to others these samples are few submissions";
     Image image(width * height * 3);
-    const pt_image readable{sizeof readable, PT_QUANTITY_RADIANCE, image.data(), image.size() * sizeof(float), 0};
+    const pt_image readable = image_target(image);
     ASSERT_EQ(pt_readback(other.get(), &readable), PT_OK) << pt_last_error(other.get());
     EXPECT_EQ(image, expected);
 
@@ -258,8 +259,7 @@ TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
 TEST_F(ExactnessTest, StandardErrorsAreThoseOfTheFilmsParts) {
     const auto standard_errors = [&] {
         Image errors(width * height * 3);
-        const pt_image target{sizeof target, PT_QUANTITY_STANDARD_ERROR, errors.data(), errors.size() * sizeof(float),
-                              0};
+        const pt_image target = image_target(errors, PT_QUANTITY_STANDARD_ERROR);
         EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
         return errors;
     };

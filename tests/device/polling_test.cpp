@@ -2,6 +2,7 @@
 #include "tests/device/api_fixture.h"
 #include "tests/device/every_call.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 #include "tests/support/shared_context.h"
 
 #include <pt/async.h>
@@ -85,7 +86,7 @@ protected:
 
     static Pixels image_of(pt_context *on) {
         Pixels pixels(std::size_t{polled_width} * polled_height * 3);
-        const pt_image target{sizeof target, 0, pixels.data(), pixels.size() * sizeof(float), 0};
+        const pt_image target = image_target(pixels);
         EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
         return pixels;
     }

@@ -1,10 +1,13 @@
 // Means and standard errors of exact sums, from the device and from the host, against exact whole numbers and long
 // double. PT_TEST_SUMS is the number of random sums, where these are to be more.
+#include "lib/film/pixel_format.h"
 #include "lib/film/quotient.h"
+#include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/vulkan_fixture.h"
 #include "tests/support/expected_error.h"
+#include "tests/support/half_edges.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +15,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -193,30 +199,42 @@ protected:
     };
 
     Values resolved(pt::DeviceFilm &film, const pt::PixelSums &sums, double unit, bool standard_error) {
-        pt::ImageReader reader(device(), pipeline(), film);
         Values values;
-        reader.read({{0, 0, width, height}, standard_error, unit, {100, 100}},
-                    [&](std::span<const float> piece) { std::ranges::copy(piece, std::back_inserter(values.device)); });
+        values.device = floats(read(film, {{0, 0, width, height}, standard_error, unit, {100, 100}}));
         const pt::PixelEstimates estimates = sums.estimates(unit, standard_error);
         values.host = standard_error ? estimates.standard_error : estimates.radiance;
         return values;
     }
 
-    const pt::vulkan::ComputePipeline &pipeline() {
-        if (!pipeline_)
-            pipeline_.emplace(pt::resolve_pipeline(device(), pt::embedded_code().resolve));
-        return *pipeline_;
+    std::vector<std::byte> read(pt::DeviceFilm &film, const pt::ImageQuery &query) {
+        std::vector<std::byte> bytes;
+        pt::ImageReader(device(), pipelines(), film).read(query, [&](std::span<const std::byte> piece) {
+            bytes.insert(bytes.end(), piece.begin(), piece.end());
+        });
+        return bytes;
+    }
+
+    static std::vector<float> floats(std::span<const std::byte> bytes) {
+        std::vector<float> values(bytes.size() / sizeof(float));
+        std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    }
+
+    pt::ResolvePipelines &pipelines() {
+        if (!pipelines_)
+            pipelines_.emplace(device(), pt::embedded_code().resolve);
+        return *pipelines_;
     }
 
     void TearDown() override {
-        pipeline_.reset();
+        pipelines_.reset();
         VulkanFixture::TearDown();
     }
 
     std::size_t batches_ = 1;
 
 private:
-    std::optional<pt::vulkan::ComputePipeline> pipeline_;
+    std::optional<pt::ResolvePipelines> pipelines_;
 };
 
 // Units so that the means are what pictures have, and beyond both ends of the range of float.
@@ -271,24 +289,130 @@ TEST_F(Resolve, RectanglesArePartsOfTheImage) {
     pt::DeviceFilm::NewSums on_device(device(), film);
     on_device.write(0, film_of(pixels));
     on_device.replace(parts);
-    pt::ImageReader reader(device(), pipeline(), film);
-    const auto read = [&](const pt::Rectangle &rectangle) {
-        std::vector<float> values;
-        reader.read({rectangle, false, 1.0, {100, 100}},
-                    [&](std::span<const float> piece) { values.insert(values.end(), piece.begin(), piece.end()); });
-        return values;
+    const auto read_part = [&](const pt::Rectangle &rectangle) {
+        return floats(read(film, {rectangle, false, 1.0, {100, 100}}));
     };
-    const std::vector<float> all = read({0, 0, wide, high});
+    const std::vector<float> all = read_part({0, 0, wide, high});
     ASSERT_EQ(all.size(), 3 * pixels.size());
     for (const pt::Rectangle &part : {pt::Rectangle{0, 0, 1, 1}, pt::Rectangle{1200, 699, 1, 1},
                                       pt::Rectangle{100, 20, 1000, 600}, pt::Rectangle{7, 300, 3, 400}}) {
-        const std::vector<float> values = read(part);
+        const std::vector<float> values = read_part(part);
         ASSERT_EQ(values.size(), 3 * part.pixel_count());
         for (std::size_t i = 0; i < values.size(); ++i) {
             const std::size_t pixel = (part.y + i / 3 / part.width) * wide + part.x + i / 3 % part.width;
             ASSERT_EQ(values[i], all[3 * pixel + i % 3]) << i;
         }
     }
+}
+
+// Every float16 number and what is at both sides of the middles between them, and numbers beyond both ends.
+TEST_F(Resolve, FormatsAreThoseOfTheHost) {
+    device_with(pt::vulkan::gpu_like_policy());
+    std::vector<float> numbers = {65536.0F, 1e9F, 0x1p-40F};
+    for (std::uint32_t half = 0; half < half_infinity; ++half) {
+        const float middle = middle_above_half(half);
+        for (const float number :
+             {float_of_half(half), std::nextafter(middle, 0.0F), middle, std::nextafter(middle, 1e9F)})
+            numbers.push_back(number);
+    }
+    numbers.resize(3 * std::size_t{width} * height);
+    constexpr int exponent = -60; // of the last bit of all of them, and of the sums
+    std::vector<ResolvedPixel> pixels(std::size_t{width} * height);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        pixels[i / 3].parts[0].sums[i % 3] = static_cast<WideSum>(std::ldexp(numbers[i], -exponent));
+    for (ResolvedPixel &pixel : pixels)
+        pixel.parts[0].accepted = 1;
+    const pt::PixelSums sums = film_of(pixels);
+    pt::DeviceFilm film(device(), width, height, 30'000);
+    pt::PartUse parts;
+    parts.extend({0, 200});
+    pt::DeviceFilm::NewSums on_device(device(), film);
+    on_device.write(0, sums);
+    on_device.replace(parts);
+    pt::ImageQuery query{{0, 0, width, height}, false, std::ldexp(1.0, exponent + fraction_bits), {100, 100}};
+    ASSERT_EQ(floats(read(film, query)), numbers);
+    for (const std::uint32_t format : {PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
+        for (query.standard_error = false;; query.standard_error = true) {
+            query.format = format;
+            const std::vector<float> values =
+                query.standard_error ? std::vector(numbers.size(), std::numeric_limits<float>::infinity()) : numbers;
+            std::vector<std::byte> expected(pixels.size() * pt::pixel_bytes(format));
+            pt::write_pixels(values, format, expected.data());
+            ASSERT_TRUE(read(film, query) == expected) << "format " << format;
+            if (query.standard_error)
+                break;
+        }
+}
+
+// Into a buffer of the device, strip by strip of the film and piece by piece of the buffer: the bytes that the host
+// reads, at any place, and nothing beside them.
+TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
+    device_with(pt::vulkan::gpu_like_policy());
+    RandomSums random;
+    constexpr std::uint32_t wide = 101;
+    constexpr std::uint32_t high = 60;
+    pt::DeviceFilm film(device(), wide, high, 991);
+    pt::PartUse parts;
+    parts.extend({0, 200});
+    std::vector<ResolvedPixel> pixels(std::size_t{wide} * high);
+    std::ranges::generate(pixels, [&] { return random.pixel(); });
+    pt::DeviceFilm::NewSums on_device(device(), film);
+    on_device.write(0, film_of(pixels));
+    on_device.replace(parts);
+    pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, 200'000, "test");
+    const std::vector<std::byte> guards(buffer.size(), std::byte{0xa5});
+    const auto large = pt::BufferWriter::piece_limits(device().limits());
+    EXPECT_GE(large.pixels, 1U << 21);
+    EXPECT_LE(large.pixels * 16, device().limits().max_storage_buffer_range);
+    for (const auto &limits : {large, {500, large.bytes}, {large.pixels, 4000}, {50, 800}, {large.pixels, 16}}) {
+        pt::BufferWriter writer(device(), pipelines(), film, limits);
+        for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
+            for (const auto &[part, offset, gap] : {std::tuple(pt::Rectangle{0, 0, wide, high}, 0U, 0U),
+                                                    {{0, 0, wide, high}, 4U, 12U},
+                                                    {{100, 59, 1, 1}, 199'984U, 400U},
+                                                    {{17, 3, 61, 41}, 100'300U, 68U}}) {
+                const pt::ImageQuery query{part, false, 1.0, {100, 100}, format};
+                const std::uint64_t row = std::uint64_t{part.width} * pt::pixel_bytes(format);
+                const std::vector<std::byte> image = read(film, query);
+                std::vector<std::byte> expected = guards;
+                for (std::uint32_t y = 0; y < part.height; ++y)
+                    std::ranges::copy(std::span(image).subspan(y * row, row),
+                                      expected.begin() + static_cast<std::ptrdiff_t>(offset + y * (row + gap)));
+                buffer.upload(guards, 0);
+                writer.write(query, {buffer.handle(), offset, row + gap, {}});
+                std::vector<std::byte> found(buffer.size());
+                buffer.download(found, 0);
+                ASSERT_TRUE(found == expected) << "format " << format << ", offset " << offset << ", pieces of "
+                                               << limits.pixels << " pixels and " << limits.bytes << " bytes";
+            }
+    }
+}
+
+// Of a call that does not wait the next one tells, and writes nothing.
+TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
+    device_with(pt::vulkan::gpu_like_policy());
+    pt::DeviceFilm film(device(), width, height, 30'000);
+    pt::PartUse parts;
+    parts.extend({0, 200});
+    const std::vector<ResolvedPixel> pixels(std::size_t{width} * height, ResolvedPixel{{{{}, 100}, {{}, 100}}});
+    pt::PixelSums sums = film_of(pixels);
+    sums.plane(1, pt::gpu::FILM_ACCEPTED)[7] = 99;
+    pt::DeviceFilm::NewSums on_device(device(), film);
+    on_device.write(0, sums);
+    on_device.replace(parts);
+    pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, pixels.size() * 12, "test");
+    const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
+    const pt::ImageQuery query{{0, 0, width, height}, false, 1.0, {100, 100}};
+    const pt::ImageQuery of_one{{0, 0, 1, 1}, false, 1.0, {100, 100}};
+    pt::BufferWriter writer(device(), pipelines(), film, pt::BufferWriter::piece_limits(device().limits()));
+    const char *const lost = "the driver lost samples of 1 pixels";
+    EXPECT_STREQ(error_of([&] { writer.write(query, {buffer.handle(), 0, width * 12, {}}); }).what(), lost);
+    writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
+    writer.write(query, {buffer.handle(), 0, width * 12, {.wait = {}, .signal = *semaphore}});
+    const pt::Error error = error_of([&] { writer.write(of_one, {buffer.handle(), 0, width * 12, {}}); });
+    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+    EXPECT_STREQ(error.what(), lost);
+    writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
 TEST_F(Resolve, LostSamplesAreAnError) {
@@ -298,16 +422,16 @@ TEST_F(Resolve, LostSamplesAreAnError) {
     parts.extend({0, 200});
     const std::vector<ResolvedPixel> pixels(std::size_t{width} * height, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
-    const auto read = [&] {
+    const auto read_sums = [&] {
         pt::DeviceFilm::NewSums on_device(device(), film);
         on_device.write(0, sums);
         on_device.replace(parts);
-        pt::ImageReader(device(), pipeline(), film).read({{0, 0, width, height}, false, 1.0, {100, 100}}, [](auto) {});
+        read(film, {{0, 0, width, height}, false, 1.0, {100, 100}});
     };
-    read();
+    read_sums();
     sums.plane(1, pt::gpu::FILM_ACCEPTED)[5] = 99;
     sums.plane(0, pt::gpu::FILM_REJECTED)[99'999] = 1;
-    const pt::Error error = error_of(read);
+    const pt::Error error = error_of(read_sums);
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver lost samples of 2 pixels");
 }

@@ -1,6 +1,7 @@
 // The caller's rounding mode: it changes no bit, and is as before after every call.
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>
 
@@ -36,7 +37,7 @@ protected:
         const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0};
         EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
         Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};
-        const pt_image image{sizeof image, 0, outcome.image.data(), outcome.image.size() * sizeof(float), 0};
+        const pt_image image = image_target(outcome.image);
         EXPECT_EQ(pt_readback(on, &image), PT_OK) << pt_last_error(on);
         pt_stats stats{};
         stats.struct_size = sizeof stats;

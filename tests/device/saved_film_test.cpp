@@ -2,6 +2,7 @@
 #include "lib/base/digest.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 #include "tests/support/shared_context.h"
 
 #include <pt/film.h>
@@ -82,7 +83,7 @@ protected:
         Picture picture;
         const auto read = [&](std::vector<float> &values, uint32_t quantity) {
             values.resize(std::size_t{3} * film_width * rows);
-            const pt_image image{sizeof image, quantity, values.data(), values.size() * sizeof(float), 0};
+            const pt_image image = image_target(values, quantity);
             EXPECT_EQ(pt_readback(context, &image), PT_OK) << pt_last_error(context);
         };
         read(picture.radiance, PT_QUANTITY_RADIANCE);

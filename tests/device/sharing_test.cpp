@@ -1,6 +1,7 @@
 // The work of a context shared by several devices, and an image rendered in pieces: neither changes a bit.
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 #include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ protected:
 
     static Image image_of(pt_context *on, uint32_t rows = shared_height, uint32_t quantity = PT_QUANTITY_RADIANCE) {
         Image image(std::size_t{shared_width} * rows * 3);
-        const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+        const pt_image target = image_target(image, quantity);
         EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
         return image;
     }

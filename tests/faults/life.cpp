@@ -3,6 +3,7 @@
 
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
+#include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 #include "tests/support/shared_context.h"
 
@@ -246,7 +247,7 @@ void Life::accumulate_to(const std::string &step, uint32_t sample_count, double 
 
 void Life::readback(const std::string &step, uint32_t quantity) {
     Image image(std::size_t{width} * rows_ * 3);
-    const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+    const pt_image target = image_target(image, quantity);
     call(step, [&] { return pt_readback(context_, &target); });
     const auto &images = quantity == PT_QUANTITY_RADIANCE ? expected_.radiance : expected_.standard_error;
     EXPECT_EQ(image, images.at(state().sample_count)) << step;
@@ -314,7 +315,7 @@ void Life::expect_image(const std::string &step, uint32_t sample_count) {
     if (!context_ || sample_count == 0)
         return;
     Image image(std::size_t{width} * rows_ * 3);
-    const pt_image target{sizeof target, PT_QUANTITY_RADIANCE, image.data(), image.size() * sizeof(float), 0};
+    const pt_image target = image_target(image);
     ASSERT_EQ(pt_readback(context_, &target), PT_OK) << step << ": " << pt_last_error(context_);
     const Image &whole = expected_.radiance.at(sample_count);
     EXPECT_TRUE(std::equal(image.begin(), image.end(), whole.begin())) << step << ": another image";
@@ -348,7 +349,7 @@ ExpectedImages undisturbed_images() {
         EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
         for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
             Image image(std::size_t{width} * height * 3);
-            const pt_image target{sizeof target, quantity, image.data(), image.size() * sizeof(float), 0};
+            const pt_image target = image_target(image, quantity);
             EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
             (quantity == PT_QUANTITY_RADIANCE ? images.radiance : images.standard_error)[count] = image;
         }

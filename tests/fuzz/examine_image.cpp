@@ -7,6 +7,7 @@
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
+#include "tests/support/image_target.h"
 
 #include <pt/pt.h>
 #include <pt/stats.h>
@@ -109,7 +110,7 @@ using Pixels = std::array<float, 3 * 64>;
 
 Pixels read_pixels(std::uint32_t quantity) {
     Pixels pixels{};
-    const pt_image image{sizeof image, quantity, pixels.data(), sizeof pixels, 0};
+    const pt_image image = image_target(pixels, quantity);
     require_done(pt_readback(context(), &image));
     return pixels;
 }

@@ -2,6 +2,7 @@
 // follows the lines of the context's identity, which differ from device to device.
 #include "tests/fuzz/film_input.h"
 #include "tests/fuzz/require.h"
+#include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
 
 #include "lib/film/film_bytes.h"
@@ -85,7 +86,7 @@ public:
 
     bool shows_numbers() {
         std::array<float, std::size_t{3} * width * height> pixels{};
-        const pt_image image{sizeof image, PT_QUANTITY_RADIANCE, pixels.data(), sizeof pixels, 0};
+        const pt_image image = image_target(pixels);
         done(pt_readback(context_, &image));
         return std::ranges::all_of(pixels, [](float x) { return x >= 0.0F && std::isfinite(x); });
     }

@@ -1,6 +1,7 @@
 // The rules of an image in the caller's memory.
 #include "lib/api/image.h"
 #include "lib/base/error.h"
+#include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,16 @@ constexpr std::uint32_t height = 3;
 alignas(16) float memory[256];
 
 pt_image valid_image() {
-    return {sizeof(pt_image), 0, memory, height * width * 12, 0};
+    pt_image image = image_target(memory);
+    image.size_bytes = height * width * 12;
+    return image;
 }
 
 // The message of the error, or "accepted".
-std::string message(const pt_image &image) {
+template <typename Source>
+std::string message(const Source &image, std::uint32_t image_height = height) {
     try {
-        pt::validated_image(image, width, height);
+        pt::validated_image(image, width, image_height);
     } catch (const pt::Error &error) {
         EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
         return error.what();
@@ -30,16 +34,17 @@ std::string message(const pt_image &image) {
 
 TEST(Image, IsTightByDefault) {
     const pt::Image image = pt::validated_image(valid_image(), width, height);
-    EXPECT_EQ(image.data, memory);
-    EXPECT_EQ(image.row_floats, width * 3);
-    EXPECT_EQ(image.quantity, uint32_t{PT_QUANTITY_RADIANCE});
+    EXPECT_EQ(image.data, reinterpret_cast<std::byte *>(memory));
+    EXPECT_EQ(image.layout.row_bytes, width * 12);
+    EXPECT_EQ(image.layout.quantity, uint32_t{PT_QUANTITY_RADIANCE});
+    EXPECT_EQ(image.layout.pixels, (pt::Rectangle{0, 0, width, height}));
 }
 
 TEST(Image, MayHaveGapsBetweenRows) {
     pt_image source = valid_image();
     source.row_bytes = 64;
     source.size_bytes = 2 * 64 + 60; // the last row needs no gap
-    EXPECT_EQ(pt::validated_image(source, width, height).row_floats, 16U);
+    EXPECT_EQ(pt::validated_image(source, width, height).layout.row_bytes, 64U);
     --source.size_bytes;
     EXPECT_EQ(message(source),
               "image.size_bytes = 187: must be >= (height - 1) * row_bytes + width * 12 (2 * 64 + 60)");
@@ -61,7 +66,7 @@ TEST(Image, NeedsAlignedData) {
 TEST(Image, NeedsAKnownQuantity) {
     pt_image image = valid_image();
     image.quantity = PT_QUANTITY_STANDARD_ERROR;
-    EXPECT_EQ(pt::validated_image(image, width, height).quantity, uint32_t{PT_QUANTITY_STANDARD_ERROR});
+    EXPECT_EQ(pt::validated_image(image, width, height).layout.quantity, uint32_t{PT_QUANTITY_STANDARD_ERROR});
     image.quantity = 2;
     EXPECT_EQ(message(image), "image.quantity = 2: must be a PT_QUANTITY_* of pt.h");
 }
@@ -99,7 +104,111 @@ TEST(Image, OfOneRowMayHaveAnyDistance) {
     pt_image image = valid_image();
     image.size_bytes = 60;
     image.row_bytes = std::uint64_t{1} << 63;
-    EXPECT_EQ(pt::validated_image(image, width, 1).data, memory);
+    EXPECT_EQ(message(image, 1), "accepted");
+}
+
+// x, y, width, height
+pt_image part(std::uint32_t x, std::uint32_t y, std::uint32_t part_width, std::uint32_t part_height) {
+    pt_image image = valid_image();
+    image.x = x;
+    image.y = y;
+    image.width = part_width;
+    image.height = part_height;
+    return image;
+}
+
+TEST(Image, MayBeARectangle) {
+    const pt::ImageLayout layout = pt::validated_image(part(1, 2, 4, 1), width, height).layout;
+    EXPECT_EQ(layout.pixels, (pt::Rectangle{1, 2, 4, 1}));
+    EXPECT_EQ(layout.row_bytes, 48U);
+    pt_image image = part(4, 0, 1, 3);
+    image.size_bytes = 36;
+    EXPECT_EQ(message(image), "accepted");
+    image.size_bytes = 35;
+    EXPECT_EQ(message(image), "image.size_bytes = 35: must be >= (height - 1) * row_bytes + width * 12 (2 * 12 + 12)");
+}
+
+TEST(Image, RectanglesHavePixelsOfTheImageAlone) {
+    const std::string none = ": must be >= 1, but where x, y, width and height are all 0";
+    EXPECT_EQ(message(part(0, 0, 0, 1)), "image.width = 0" + none);
+    EXPECT_EQ(message(part(0, 0, 1, 0)), "image.height = 0" + none);
+    EXPECT_EQ(message(part(1, 1, 0, 0)), "image.width = 0" + none + "\nimage.height = 0" + none);
+    EXPECT_EQ(message(part(1, 0, 5, 1)), "image.x + width = 6: must be <= 5");
+    EXPECT_EQ(message(part(0, 1, 1, 3)), "image.y + height = 4: must be <= 3");
+    EXPECT_EQ(message(part(UINT32_MAX, 0, 2, 1)), "image.x + width = 4294967297: must be <= 5");
+    EXPECT_EQ(message(part(0, UINT32_MAX, 1, UINT32_MAX)), "image.y + height = 8589934590: must be <= 3");
+}
+
+TEST(Image, NeedsAKnownFormat) {
+    pt_image image = valid_image();
+    image.format = 3;
+    image.reserved = 1;
+    EXPECT_EQ(message(image), "image.format = 3: must be a PT_FORMAT_* of pt.h\nimage.reserved = 1: must be 0");
+}
+
+TEST(Image, HasPixelsOfItsFormat) {
+    pt_image image = valid_image();
+    image.format = PT_FORMAT_RGBA32F;
+    EXPECT_EQ(message(image), "image.size_bytes = 180: must be >= (height - 1) * row_bytes + width * 16 (2 * 80 + 80)");
+    image.format = PT_FORMAT_RGBA16F;
+    image.size_bytes = 120;
+    EXPECT_EQ(pt::validated_image(image, width, height).layout.row_bytes, 40U);
+    image.size_bytes = 2 * 42 + 40;
+    image.row_bytes = 42;
+    image.data = reinterpret_cast<char *>(memory) + 2;
+    EXPECT_EQ(message(image), "accepted");
+    image.row_bytes = 41;
+    EXPECT_EQ(message(image), "image.row_bytes = 41: must be a multiple of 2");
+}
+
+pt_buffer_image valid_buffer() {
+    pt_buffer_image image{};
+    image.struct_size = sizeof image;
+    image.buffer = 77;
+    image.offset_bytes = 20;
+    image.size_bytes = 200;
+    return image;
+}
+
+TEST(BufferImage, IsWhatItSays) {
+    pt_buffer_image source = valid_buffer();
+    source.size_bytes = UINT64_MAX;
+    source.row_bytes = 100;
+    source.wait_semaphore = 5;
+    source.signal_semaphore = 6;
+    source.format = PT_FORMAT_RGBA16F;
+    const pt::BufferImage image = pt::validated_image(source, width, height);
+    EXPECT_EQ(image.buffer, 77U);
+    EXPECT_EQ(image.offset_bytes, 20U);
+    EXPECT_EQ(image.layout.row_bytes, 100U);
+    EXPECT_EQ(image.layout.format, std::uint32_t{PT_FORMAT_RGBA16F});
+    EXPECT_EQ(image.wait_semaphore, 5U);
+    EXPECT_EQ(image.signal_semaphore, 6U);
+    EXPECT_EQ(message(valid_buffer()), "accepted");
+}
+
+TEST(BufferImage, HasABuffer) {
+    pt_buffer_image image = valid_buffer();
+    image.buffer = 0;
+    EXPECT_EQ(message(image), "image.buffer = 0: must be a VkBuffer");
+}
+
+TEST(BufferImage, IsMadeOfWords) {
+    pt_buffer_image image = valid_buffer();
+    image.offset_bytes = 18;
+    image.row_bytes = 62;
+    image.size_bytes = 1000;
+    EXPECT_EQ(message(image),
+              "image.offset_bytes = 18: must be a multiple of 4\nimage.row_bytes = 62: must be a multiple of 4");
+}
+
+TEST(BufferImage, LiesWithinTheBuffer) {
+    pt_buffer_image image = valid_buffer();
+    --image.size_bytes;
+    EXPECT_EQ(message(image), "image.size_bytes = 199: must be >= offset_bytes + (height - 1) * row_bytes + width * 12 "
+                              "(20 + 2 * 60 + 60)");
+    image.offset_bytes = UINT64_MAX - 3; // with which sums would wrap around
+    EXPECT_NE(message(image), "accepted");
 }
 
 } // namespace

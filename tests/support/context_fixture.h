@@ -3,6 +3,8 @@
 // set, contexts are made without the layer, for leak checks.
 #pragma once
 
+#include "tests/support/image_target.h"
+
 #include <pt/pt.h>
 #include <pt/stats.h>
 
@@ -61,7 +63,7 @@ protected:
 
     // Fills image, which has the image's size.
     void readback(std::vector<float> &image) {
-        const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+        const pt_image target = image_target(image);
         ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
     }
 

@@ -1,6 +1,8 @@
 // A scene through pt.h to its image, in one call. Used by the tests that compare whole images bit by bit.
 #pragma once
 
+#include "tests/support/image_target.h"
+
 #include <pt/pt.h>
 
 #include <gtest/gtest.h>
@@ -13,7 +15,7 @@ inline std::vector<float> render_image(pt_context *context, const pt_scene &scen
                                        const pt_render &render, std::uint32_t samples) {
     const pt_accumulate_info count{sizeof count, samples, nullptr, nullptr, 0};
     std::vector<float> image(std::size_t{3} * render.width * render.height);
-    const pt_image target{sizeof target, 0, image.data(), image.size() * sizeof(float), 0};
+    const pt_image target = image_target(image);
     EXPECT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);

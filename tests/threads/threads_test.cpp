@@ -1,6 +1,7 @@
 // Two contexts in two threads at a time, and a call that is stopped from another thread. The preset thread runs this
 // with ThreadSanitizer.
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>
 #include <pt/pt.h>
@@ -59,7 +60,7 @@ pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *
     EXPECT_GE(result, PT_OK) << pt_last_error(context);
     if (image) {
         image->resize(std::size_t{width} * height * 3);
-        const pt_image target{sizeof target, 0, image->data(), image->size() * sizeof(float), 0};
+        const pt_image target = image_target(*image);
         EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
     }
     pt_destroy(context);

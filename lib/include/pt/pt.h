@@ -215,13 +215,29 @@ enum {
     PT_QUANTITY_STANDARD_ERROR = 1
 };
 
-/** Memory of the caller's that receives an image. */
+/** Values of pt_image.format: what a pixel is. Components follow each other in the machine's byte order; A is 1. */
+enum {
+    PT_FORMAT_RGB32F = 0,  /**< R, G, B as float32: 12 bytes */
+    PT_FORMAT_RGBA32F = 1, /**< R, G, B, A as float32: 16 bytes */
+    /** R, G, B, A as float16: 8 bytes. The numbers of the others, rounded to nearest, ties to even; from 65520 on they
+     * are infinity. */
+    PT_FORMAT_RGBA16F = 2
+};
+
+/** Memory of the caller's that receives an image, or a rectangle of it. The numbers of a pixel do not depend on what is
+ * read besides it. */
 typedef struct pt_image {
     uint32_t struct_size; /**< sizeof(pt_image) */
     uint32_t quantity;    /**< PT_QUANTITY_* */
-    float *data;          /**< receives R, G, B of each pixel, row by row from the top; aligned to 4 bytes */
-    uint64_t size_bytes;  /**< of data; at least (height - 1) * row_bytes + width * 12, of the rows that are rendered */
-    uint64_t row_bytes;   /**< distance between rows, a multiple of 4, >= width * 12; default width * 12 */
+    void *data;           /**< receives the pixels, row by row from the top; aligned to a component, 4 or 2 bytes */
+    uint64_t size_bytes;  /**< of data; at least (height - 1) * row_bytes + width * bytes of a pixel, of what is read */
+    uint64_t row_bytes;   /**< distance between rows, whole components, >= width * bytes of a pixel, the default */
+    uint32_t x;           /**< first column that is read */
+    uint32_t y;           /**< first row, counted from the first that is rendered (pt_render.first_row) */
+    uint32_t width;       /**< columns, >= 1 and within the image; x, y, width and height all 0: the whole image */
+    uint32_t height;      /**< rows, likewise */
+    uint32_t format;      /**< PT_FORMAT_* */
+    uint32_t reserved;    /**< 0 */
 } pt_image;
 
 /* ---- Context ---------------------------------------------------------------------------------------------------- */
@@ -371,7 +387,7 @@ PT_API pt_result pt_prepare(pt_context *context);
  * pt_stats.sample_count says how many: none where several devices had begun samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/** Writes the mean radiance of the samples so far, or its standard error.
+/** Writes the mean radiance of the samples so far, or its standard error, of all pixels or of a rectangle.
  *
  * What the image's data holds after a failure is undefined. One thread at a time per context.
  * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule.

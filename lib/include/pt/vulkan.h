@@ -28,7 +28,7 @@ typedef void (*pt_queue_fn)(void *user);
  *            all users of the queue lock, other contexts included. Without them nobody else may use the queue during a
  *            call on this context, vkDeviceWaitIdle included. All else that the context does needs no lock: Vulkan lets
  *            threads share a device.
- * Order      the context uses its own buffers alone. Its pipeline barriers are for compute and transfers, and may delay
+ * Order      the context uses its own buffers alone, and those that pt_readback_to_buffer names. Its pipeline barriers are for compute and transfers, and may delay
  *            commands of others in the queue, never change them.
  * Time       work of others that is before the context's in the queue must not wait for the calling thread. It counts
  *            as time of the context's submissions: it makes them smaller, and on a GPU a submission that has not ended
@@ -54,6 +54,52 @@ struct pt_vulkan {
     pt_queue_fn unlock_queue; /**< called by the thread that called lock_queue */
     void *queue_user;         /**< handed to both */
 };
+
+/** A buffer of the lent device that receives an image, or a rectangle of it, by a kernel: no pixel passes the host.
+ *
+ * Memory     the buffer has VK_BUFFER_USAGE_STORAGE_BUFFER_BIT and memory of any type, and belongs to pt_vulkan's queue
+ *            family unless it is VK_SHARING_MODE_CONCURRENT. Between the rows, and before and behind the image, nothing
+ *            is written. Into a VkImage it goes by vkCmdCopyBufferToImage.
+ * Before     earlier accesses of the caller's to the memory must have ended, as one sees by a fence, or
+ *            wait_semaphore is signalled after them: the kernel's writes wait for it in
+ *            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Its signal operation must have been submitted
+ *            already. (Mesa's lavapipe holds the call until the work before that has ended.)
+ * After      the writes are VK_ACCESS_SHADER_WRITE_BIT in VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT. Without
+ *            signal_semaphore the call returns when they have ended and are available, also to the host
+ *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
+ *            device see them after a barrier with that source. With signal_semaphore the call returns once the work is
+ *            submitted, and commands that wait for the semaphore see them without a barrier, in the stages that wait.
+ * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited for.
+ *            The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it that
+ *            change what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next
+ *            pt_readback_to_buffer wait for it. */
+typedef struct pt_buffer_image {
+    uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
+    uint32_t quantity;         /**< PT_QUANTITY_* */
+    uint64_t buffer;           /**< VkBuffer, cast: (uint64_t)buffer in C where handles are pointers, never 0 */
+    uint64_t offset_bytes;     /**< of the first pixel in the buffer, a multiple of 4 */
+    uint64_t size_bytes;       /**< of the buffer; at least offset_bytes and, as in pt_image, what the rows take */
+    uint64_t row_bytes;        /**< distance between rows, a multiple of 4; default width * bytes of a pixel */
+    uint32_t x;                /**< the rectangle, as in pt_image: all 0, or within the image */
+    uint32_t y;                /**< see x */
+    uint32_t width;            /**< see x */
+    uint32_t height;           /**< see x */
+    uint32_t format;           /**< PT_FORMAT_* */
+    uint32_t reserved;         /**< 0 */
+    uint64_t wait_semaphore;   /**< binary VkSemaphore to wait for, cast, or 0: none */
+    uint64_t signal_semaphore; /**< binary VkSemaphore to signal, cast, or 0: the call waits for the device */
+} pt_buffer_image;
+
+/** Writes what pt_readback writes, the same bits, into a buffer of the device that pt_create_info.vulkan lent.
+ *
+ * Where the driver has lost samples, a call without signal_semaphore fails with PT_ERROR_INTERNAL after it has written;
+ * what a call with one has lost is reported by the next pt_readback_to_buffer, which does nothing else then. A call that
+ * fails otherwise has left buffer and semaphores alone, unless the device was lost.
+ *
+ * One thread at a time per context. PT_ERROR_INVALID_STATE: the context has a device of its own, or there is no sample.
+ * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,
+ * PT_ERROR_DEVICE_LOST: the driver said so. */
+PT_API pt_result pt_readback_to_buffer(pt_context *context, const pt_buffer_image *image);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,30 @@
+// The formats of images, PT_FORMAT_*: pixels as the host writes them, with the bytes that the kernel writes
+// (shaders/resolve.comp).
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace pt {
+
+constexpr std::uint32_t format_count = PT_FORMAT_RGBA16F + 1;
+
+constexpr std::uint32_t component_bytes(std::uint32_t format) {
+    return format == PT_FORMAT_RGBA16F ? 2 : 4;
+}
+
+constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
+    return (format == PT_FORMAT_RGB32F ? 3 : 4) * component_bytes(format);
+}
+
+// The float16 that is nearest to a number >= 0, of two the even one; infinity from 65520 on. By whole numbers, as in
+// shaders/half.glsl.
+std::uint16_t half_bits(float value);
+
+// Writes pixels, of which R, G and B are given.
+void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to);
+
+} // namespace pt

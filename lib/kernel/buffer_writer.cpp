@@ -1,0 +1,117 @@
+#include "lib/kernel/buffer_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace pt {
+
+namespace {
+
+constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
+constexpr std::uint64_t word_bytes = sizeof(std::uint32_t);
+constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
+
+} // namespace
+
+// A binding begins at a multiple of the alignment, up to as many bytes before the piece.
+BufferWriter::PieceLimits BufferWriter::piece_limits(const vulkan::Limits &limits) {
+    const std::uint64_t bytes = limits.max_storage_buffer_range - limits.storage_buffer_alignment;
+    const std::uint64_t dispatched = std::uint64_t{limits.max_workgroup_count} * gpu::WORKGROUP_SIZE;
+    return {std::min({dispatched, bytes / most_pixel_bytes, std::uint64_t{UINT32_MAX}}), bytes};
+}
+
+BufferWriter::BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film,
+                           const PieceLimits &limits) :
+    device_(device),
+    pipelines_(pipelines),
+    film_(film),
+    limits_(limits),
+    findings_(device, vulkan::BufferUse::Storage, findings_bytes, "findings"),
+    host_findings_(device, vulkan::BufferUse::HostRead, findings_bytes, "findings") {}
+
+BufferWriter::~BufferWriter() {
+    try {
+        if (under_way_ && !device_.hangs())
+            device_.finish(*under_way_);
+    } catch (...) { // the device is lost, and nobody is left to be told
+    }
+}
+
+void BufferWriter::write(const ImageQuery &query, const BufferTarget &target) {
+    finish();
+    const vulkan::ComputePipeline &pipeline = pipelines_.of(query.format);
+    const std::vector<Piece> pieces = this->pieces(query, target);
+    sets_.clear();
+    for (const Piece &piece : pieces)
+        for (const DeviceFilm::Strip &strip : film_.strips()) {
+            std::array<vulkan::BufferRange, 5> ranges;
+            ranges[gpu::BINDING_FILM] = vulkan::BufferRange(strip.words);
+            ranges[gpu::BINDING_RESOLVED] = piece.range;
+            ranges[gpu::BINDING_FINDINGS] = vulkan::BufferRange(findings_);
+            sets_.push_back(pipeline.bind(ranges));
+        }
+    gpu::ResolveConstants constants = resolve_constants(query, film_);
+    const auto record = [&](const vk::raii::CommandBuffer &commands) {
+        findings_.clear(commands, 0, findings_bytes);
+        vulkan::barrier_between_commands(commands);
+        std::span<const vulkan::DescriptorSet> sets = sets_;
+        for (const Piece &piece : pieces) {
+            constants.first_pixel = piece.pixels.y * film_.width() + piece.pixels.x;
+            constants.width = piece.pixels.width;
+            constants.pixel_count = static_cast<std::uint32_t>(piece.pixels.pixel_count());
+            constants.first_word = piece.first_word;
+            constants.row_words = piece.row_words;
+            resolve(commands, pipeline, film_, sets.first(film_.strips().size()), constants);
+            sets = sets.subspan(film_.strips().size());
+        }
+        vulkan::barrier_between_commands(commands);
+        host_findings_.copy(commands, findings_, findings_bytes);
+    };
+    under_way_ = device_.start(record, target.semaphores);
+    if (!target.semaphores.signal)
+        finish();
+}
+
+// Row by row of pieces, of which a long row may have several.
+std::vector<BufferWriter::Piece> BufferWriter::pieces(const ImageQuery &query, const BufferTarget &target) const {
+    const Rectangle &all = query.pixels;
+    const auto width = static_cast<std::uint32_t>(std::min<std::uint64_t>(all.width, limits_.pixels));
+    const std::uint64_t rows_that_fit = std::min(limits_.pixels / width, limits_.bytes / target.row_bytes);
+    const auto height = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(rows_that_fit, 1, all.height));
+    std::vector<Piece> pieces;
+    for (std::uint32_t y = 0; y < all.height; y += std::min(height, all.height - y))
+        for (std::uint32_t x = 0; x < all.width; x += std::min(width, all.width - x))
+            pieces.push_back(
+                piece({all.x + x, all.y + y, std::min(width, all.width - x), std::min(height, all.height - y)}, query,
+                      target));
+    return pieces;
+}
+
+BufferWriter::Piece BufferWriter::piece(const Rectangle &pixels, const ImageQuery &query,
+                                        const BufferTarget &target) const {
+    const std::uint64_t bytes_of_pixel = pixel_bytes(query.format);
+    const std::uint64_t begin =
+        target.offset + (pixels.y - query.pixels.y) * target.row_bytes + (pixels.x - query.pixels.x) * bytes_of_pixel;
+    const std::uint64_t end = begin + (pixels.height - 1) * target.row_bytes + pixels.width * bytes_of_pixel;
+    const std::uint64_t bound =
+        begin / device_.limits().storage_buffer_alignment * device_.limits().storage_buffer_alignment;
+    const std::uint64_t row_words = pixels.height > 1 ? target.row_bytes / word_bytes : 0; // may be large
+    return {pixels,
+            {target.buffer, bound, end - bound},
+            static_cast<std::uint32_t>((begin - bound) / word_bytes),
+            static_cast<std::uint32_t>(row_words)};
+}
+
+void BufferWriter::finish() {
+    if (!under_way_)
+        return;
+    const vulkan::Device::Ticket ticket = *under_way_;
+    under_way_.reset();
+    device_.finish(ticket);
+    std::uint32_t lost_pixels = 0;
+    std::memcpy(&lost_pixels, host_findings_.host_bytes().data(), sizeof lost_pixels);
+    require_no_loss(lost_pixels);
+}
+
+} // namespace pt

@@ -1,0 +1,66 @@
+// Resolves a film into a buffer of the caller's, on the device: no pixel passes the host. Owned by RenderDevice; bound to
+// its film.
+#pragma once
+
+#include "lib/kernel/resolve.h"
+#include "lib/vulkan/buffer.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pt {
+
+// Where the pixels go. Offset and distance of rows are multiples of 4.
+struct BufferTarget {
+    vk::Buffer buffer;
+    std::uint64_t offset;    // of the first pixel, in bytes
+    std::uint64_t row_bytes; // distance between rows
+    vulkan::Semaphores semaphores;
+};
+
+class BufferWriter {
+public:
+    // As much of an image as is resolved in one dispatch.
+    struct PieceLimits {
+        std::uint64_t pixels; // at least one, and whatever their format, they fit the bytes
+        std::uint64_t bytes;  // of the buffer, gaps between rows included
+    };
+    static PieceLimits piece_limits(const vulkan::Limits &limits);
+
+    // All must outlive it.
+    BufferWriter(vulkan::Device &device, ResolvePipelines &pipelines, DeviceFilm &film, const PieceLimits &limits);
+    // Waits for what is under way.
+    ~BufferWriter();
+    BufferWriter(const BufferWriter &) = delete;
+    BufferWriter &operator=(const BufferWriter &) = delete;
+
+    // Returns when the device has written the pixels or, with a semaphore to signal, when it has been told to. What is
+    // under way of the call before is waited for first. Throws PT_ERROR_INTERNAL if a driver lost work, in a call that
+    // has not waited too: then it has written nothing.
+    void write(const ImageQuery &query, const BufferTarget &target);
+
+private:
+    // A rectangle of the image, and where it is in a binding.
+    struct Piece {
+        Rectangle pixels; // of the film
+        vulkan::BufferRange range;
+        std::uint32_t first_word; // in the range
+        std::uint32_t row_words;
+    };
+
+    std::vector<Piece> pieces(const ImageQuery &query, const BufferTarget &target) const;
+    Piece piece(const Rectangle &pixels, const ImageQuery &query, const BufferTarget &target) const;
+    void finish();
+
+    vulkan::Device &device_;
+    ResolvePipelines &pipelines_;
+    DeviceFilm &film_;
+    PieceLimits limits_;
+    vulkan::Buffer findings_;
+    vulkan::Buffer host_findings_;
+    std::vector<vulkan::DescriptorSet> sets_; // of the work under way: those of each strip, piece by piece
+    std::optional<vulkan::Device::Ticket> under_way_;
+};
+
+} // namespace pt

@@ -1,0 +1,48 @@
+#include "lib/kernel/resolve.h"
+
+#include "lib/base/error.h"
+
+#include <cmath>
+#include <string>
+
+namespace pt {
+
+const vulkan::ComputePipeline &ResolvePipelines::of(std::uint32_t format) {
+    constexpr std::array bindings = {vulkan::no_binding, vulkan::no_binding, vk::DescriptorType::eStorageBuffer,
+                                     vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer};
+    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3 && gpu::BINDING_FINDINGS == 4);
+    std::optional<vulkan::ComputePipeline> &pipeline = pipelines_.at(format);
+    if (!pipeline)
+        pipeline.emplace(device_, code_, bindings, sizeof(gpu::ResolveConstants), std::array{format});
+    return *pipeline;
+}
+
+gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film) {
+    gpu::ResolveConstants constants{};
+    constants.sample_counts = {static_cast<std::uint32_t>(query.samples[older_part]),
+                               static_cast<std::uint32_t>(query.samples[newer_part])};
+    constants.older_part = film.parts().older();
+    constants.exponent = std::ilogb(query.unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
+    constants.standard_error = query.standard_error ? 1 : 0;
+    constants.film_width = film.width();
+    constants.width = query.pixels.width;
+    return constants;
+}
+
+void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
+             std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants) {
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const DeviceFilm::Strip &strip = film.strips()[i];
+        constants.strip_first_pixel = strip.first_pixel;
+        constants.strip_pixel_count = strip.pixel_count;
+        const std::uint32_t groups = (constants.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
+        pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&constants, 1)), groups);
+    }
+}
+
+void require_no_loss(std::uint32_t lost_pixels) {
+    if (lost_pixels > 0)
+        throw Error(PT_ERROR_INTERNAL, "the driver lost samples of " + std::to_string(lost_pixels) + " pixels");
+}
+
+} // namespace pt

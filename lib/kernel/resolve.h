@@ -1,0 +1,53 @@
+// The kernel that makes images of films (shaders/resolve.comp): its pipelines, one for each format of pixels, and its
+// dispatches. Owned by RenderDevice; used by ImageReader and BufferWriter.
+#pragma once
+
+#include "lib/film/device_film.h"
+#include "lib/film/film_header.h"
+#include "lib/film/pixel_format.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device.h"
+#include "shaders/gpu_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// What is read of the pixels of a film.
+struct ImageQuery {
+    Rectangle pixels;                        // of the film, at least one
+    bool standard_error;                     // of the mean, instead of the mean
+    double unit;                             // of the film, a power of two, in radiance
+    PartCounts samples;                      // that every pixel has
+    std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
+};
+
+class ResolvePipelines {
+public:
+    // Both must outlive it.
+    ResolvePipelines(vulkan::Device &device, std::span<const std::uint32_t> code) : device_(device), code_(code) {}
+
+    // Built when it is first asked for. Buffers that are bound to one may be used with all: their layouts are the same.
+    const vulkan::ComputePipeline &of(std::uint32_t format);
+
+private:
+    vulkan::Device &device_;
+    std::span<const std::uint32_t> code_;
+    std::array<std::optional<vulkan::ComputePipeline>, format_count> pipelines_;
+};
+
+// But for the strip and for where the image is.
+gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film);
+
+// Records that the pixels which the constants name are resolved. sets: the buffers of each strip of the film.
+void resolve(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, DeviceFilm &film,
+             std::span<const vulkan::DescriptorSet> sets, gpu::ResolveConstants constants);
+
+// Throws PT_ERROR_INTERNAL if a driver lost samples of some pixels.
+void require_no_loss(std::uint32_t lost_pixels);
+
+} // namespace pt

@@ -1,0 +1,106 @@
+// Rectangles and formats of pt_readback: parts of the whole image, bit for bit, whether host or device make it.
+#include "lib/film/pixel_format.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
+#include "tests/support/render_image.h"
+#include "tests/support/shared_context.h"
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+
+namespace {
+
+constexpr std::uint32_t whole_width = 61;
+constexpr std::uint32_t first_row = 7;
+constexpr std::uint32_t whole_height = 40; // rows that are rendered
+constexpr std::byte untouched{0xa5};
+
+class ReadbackTest : public ContextFixture {
+protected:
+    // With samples in both parts of the film, so that standard errors are numbers.
+    static void render(pt_context *context) {
+        const CourseworkScene coursework;
+        pt_render settings = render_of(whole_width, whole_height + 2 * first_row, 3);
+        settings.first_row = first_row;
+        settings.row_count = whole_height;
+        render_image(context, coursework.scene(), CourseworkScene::camera(), settings, 17);
+    }
+
+    // Each path: sums become pixels on the host, on the device, and on the host where devices share the work.
+    template <typename Test>
+    void on_each_path(const Test &test) {
+        for (const auto &[devices, like_gpus] : {std::tuple(1U, false), {1U, true}, {2U, true}}) {
+            SCOPED_TRACE("devices: " + std::to_string(devices) + ", used as GPUs: " + std::to_string(like_gpus));
+            const Context context = create_context([](pt_create_info &) {},
+                                                   [&, count = devices, gpus = like_gpus](auto *info, auto **made) {
+                                                       return create_shared(count, *info, made, gpus);
+                                                   });
+            ASSERT_TRUE(context);
+            render(context.get());
+            test(context.get());
+        }
+    }
+
+    static std::vector<float> whole(pt_context *context, std::uint32_t quantity) {
+        std::vector<float> values(std::size_t{3} * whole_width * whole_height);
+        const pt_image target = image_target(values, quantity);
+        EXPECT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
+        return values;
+    }
+};
+
+TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
+    on_each_path([](pt_context *context) {
+        for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
+            const std::vector<float> all = whole(context, quantity);
+            ASSERT_GT(*std::ranges::max_element(all), 0.0F);
+            for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
+                for (const auto &[x, y, width, height, gap] : {std::tuple(0U, 0U, 0U, 0U, 0U),
+                                                               {0U, 0U, whole_width, whole_height, 4U},
+                                                               {60U, 39U, 1U, 1U, 0U},
+                                                               {13U, 5U, 30U, 20U, 12U},
+                                                               {0U, 10U, whole_width, 3U, 0U},
+                                                               {2U, 0U, 1U, whole_height, 0U}}) {
+                    const std::uint32_t columns = width == 0 ? whole_width : width;
+                    const std::uint32_t rows = height == 0 ? whole_height : height;
+                    const std::size_t row = std::size_t{columns} * pt::pixel_bytes(format);
+                    std::vector<std::byte> expected(rows * (row + gap) - gap, untouched);
+                    std::vector<std::byte> found = expected;
+                    for (std::uint32_t i = 0; i < rows; ++i)
+                        pt::write_pixels(std::span(all).subspan(3 * ((y + i) * whole_width + x), 3 * columns), format,
+                                         &expected[i * (row + gap)]);
+                    pt_image target{};
+                    target.struct_size = sizeof target;
+                    target.quantity = quantity;
+                    target.data = found.data();
+                    target.size_bytes = found.size();
+                    target.row_bytes = row + gap;
+                    target.x = x;
+                    target.y = y;
+                    target.width = width;
+                    target.height = height;
+                    target.format = format;
+                    ASSERT_EQ(pt_readback(context, &target), PT_OK) << pt_last_error(context);
+                    ASSERT_TRUE(found == expected)
+                        << "format " << format << ", " << width << "x" << height << " at " << x << ", " << y;
+                }
+        }
+    });
+}
+
+TEST_F(ReadbackTest, RectanglesMustLieWithinWhatIsRendered) {
+    render(context());
+    std::vector<float> pixels(std::size_t{3} * whole_width * whole_height);
+    pt_image target = image_target(pixels);
+    target.y = whole_height - 1; // of rows that are rendered, not of the image
+    target.width = 1;
+    target.height = 1;
+    EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+    target.y = whole_height;
+    EXPECT_EQ(pt_readback(context(), &target), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(pt_last_error(context()), "image.y + height = 41: must be <= 40");
+}
+
+} // namespace

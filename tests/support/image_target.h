@@ -1,0 +1,17 @@
+// A pt_image of floats, without gaps unless it is told of them. Used by the tests that read images.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstdint>
+#include <span>
+
+inline pt_image image_target(std::span<float> values, uint32_t quantity = PT_QUANTITY_RADIANCE, uint64_t row_bytes = 0) {
+    pt_image image{};
+    image.struct_size = sizeof image;
+    image.quantity = quantity;
+    image.data = values.data();
+    image.size_bytes = values.size_bytes();
+    image.row_bytes = row_bytes;
+    return image;
+}
