@@ -18,13 +18,17 @@ Accumulation::Accumulation(const Devices &devices, const SampleSet &samples, std
         dealt_.add(pass);
 }
 
-// Where the time is over, what has ended by now is taken in before anything is dealt: so a call comes to an end however
-// short the slices are.
+// Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
+// next call: so a call comes to an end however short the slices are, and one that finds nothing under way waits for
+// nothing.
 bool Accumulation::run(std::uint64_t count, Clock::time_point until) {
     count_ = count;
+    const bool begins = !is_under_way();
     for (const auto &device : devices_)
         device->look();
     deal();
+    if (begins && Clock::now() >= until)
+        return !is_under_way();
     while (RenderDevice *const device = next_to_finish(until)) {
         finish_slice(*device);
         if (Clock::now() < until)

@@ -1,6 +1,6 @@
-// Samples on their way into the films of a context's devices: dealt out in slices, in ascending order, none left out once
-// it is begun. Whoever calls run() deals; between its calls what has been dealt goes on on the devices alone. One per
-// call of pt_accumulate or pt_start, owned by Renderer.
+// Samples on their way into the films of a context's devices: dealt out in slices, in ascending order, none left out
+// once it is begun. Whoever calls run() deals; between its calls what has been dealt goes on on the devices alone. One
+// per call of pt_accumulate or pt_start, owned by Renderer.
 #pragma once
 
 #include "lib/film/sample_set.h"
@@ -48,8 +48,8 @@ public:
     void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
-    // After run() has thrown: completes what has been begun, so that the films hold whole samples. False where that fails
-    // too; then they are void, and nothing is under way.
+    // After run() has thrown: completes what has been begun, so that the films hold whole samples. False where that
+    // fails too; then they are void, and nothing is under way.
     bool complete() noexcept;
 
     // The whole samples that the films hold. Nothing may be under way.

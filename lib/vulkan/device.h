@@ -102,8 +102,8 @@ public:
     // Whether finish() would not wait, having waited for that until a time.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Looks which submissions have ended while nobody waited for them. Their ends are only known to lie between the last
-    // look at them and this one.
+    // Looks which submissions have ended while nobody waited for them. Their ends are only known to lie between the
+    // last look at them and this one.
     void look();
 
     // Waits and returns the seconds from submission, or from the end of the one before if that was later, to

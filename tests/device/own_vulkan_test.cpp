@@ -5,9 +5,12 @@
 #include "tests/support/coursework_scene.h"
 #include "tests/support/render_image.h"
 
+#include <pt/async.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <functional>
 #include <mutex>
@@ -97,6 +100,32 @@ protected:
         EXPECT_EQ(event.getStatus(), vk::Result::eEventSet);
     }
 };
+
+// A submission that had ended long before somebody looked is taken to be as long as was expected, no longer than a
+// submission should be: else programs that poll now and then would get shorter and shorter ones.
+TEST_F(OwnVulkanTest, WhatEndsBetweenPollsIsNotTakenForSlow) {
+    const Context borrowing = context_on(caller().handles());
+    pt_context *const context = borrowing.get();
+    const CourseworkScene coursework;
+    const pt_scene scene = coursework.scene();
+    const pt_camera camera = CourseworkScene::camera();
+    const pt_render settings = render_of(8, 8, 3);
+    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_render(context, &settings), PT_OK) << pt_last_error(context);
+    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0};
+    ASSERT_EQ(pt_start(context, &one), PT_PENDING) << "what is started is left to a poll";
+    caller().device().waitIdle();
+    std::this_thread::sleep_for(std::chrono::milliseconds{60});
+    double fraction = 0.0;
+    ASSERT_EQ(pt_poll(context, 0, &fraction), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(fraction, 1.0);
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    ASSERT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
+    EXPECT_EQ(stats.submit_count, 1U);
+    EXPECT_LE(stats.device_seconds, 0.05);
+}
 
 TEST_F(OwnVulkanTest, GivesTheBitsOfADeviceOfItsOwn) {
     const Context borrowing = context_on(caller().handles());
