@@ -42,10 +42,6 @@ double margin(std::uint32_t sampler) {
     return sampler == PT_SAMPLER_HALTON ? 1.2 : 1.0;
 }
 
-double squared(double value) {
-    return value * value;
-}
-
 // How many pixels with equal errors would make a sum as uncertain: their squares are each a share of 1 / n of the sum,
 // and the sum of the squares of the shares is 1 / n.
 double pixel_count(const ErrorSquares &squares) {

@@ -8,10 +8,6 @@ namespace pt {
 
 namespace {
 
-double squared(double value) {
-    return value * value;
-}
-
 // Values of which one asks for the mean of the others.
 class ValueSet {
 public:

@@ -16,6 +16,10 @@ inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
 // Keeps black pixels from counting without bound.
 inline constexpr double relative_offset = 0.01;
 
+inline double squared(double value) {
+    return value * value;
+}
+
 // One channel of the pixels of a region, row by row; at the right and bottom edges of an image regions are smaller.
 struct RegionChannel {
     std::size_t width;

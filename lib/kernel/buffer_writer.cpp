@@ -8,7 +8,6 @@ namespace pt {
 
 namespace {
 
-constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
 constexpr std::uint64_t word_bytes = sizeof(std::uint32_t);
 constexpr std::uint64_t most_pixel_bytes = pixel_bytes(PT_FORMAT_RGBA32F);
 

@@ -11,8 +11,6 @@ namespace {
 // Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
-constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
-
 } // namespace
 
 // The device resolves a piece, and copies it, while the host takes the one before.

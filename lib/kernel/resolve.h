@@ -26,6 +26,9 @@ struct ImageQuery {
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
 
+// What the kernel counts: the pixels whose samples a driver lost.
+inline constexpr std::uint64_t findings_bytes = sizeof(std::uint32_t);
+
 class ResolvePipelines {
 public:
     // Both must outlive it.

@@ -126,7 +126,7 @@ class RealDevice(CommandLineTest):
         self.expect(0, *arguments, "-o", "b.exr", "--spp", str(stats["spp"]))
         self.assertEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])
-        step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 8
+        step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 4
         self.assertEqual(self.run_pt(*arguments, "-o", "b.exr", "--error", "10%", "--spp", str(stats["spp"] - step)), 7)
         self.assertFalse(json.loads(self.read("s.json"))["target_reached"])
 

@@ -18,7 +18,7 @@ TEST(SampleForecast, FallsWithTheRootOfTheNumber) {
 
 TEST(SampleForecast, IsBeyondTheNextLookUnlessThatIsTheLast) {
     EXPECT_EQ(cli::forecast_sample_count(0, 0.01, 0.01, most), 17U);
-    EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, most), 73U);
+    EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, most), 81U);
     EXPECT_EQ(cli::forecast_sample_count(64, 0.01, 0.01, 70), 70U);
 }
 

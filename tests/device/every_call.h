@@ -58,7 +58,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 
 // That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 11U);
+    EXPECT_EQ(outcomes.size(), 12U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }

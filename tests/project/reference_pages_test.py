@@ -40,7 +40,7 @@ def check_the_check(doxygen, settings, headers):
     header = headers["pt.h"]
     for old, new, wanted in (
         ("PT_API uint32_t pt_version(void);", "PT_API uint32_t pt_version(void);\nPT_API int pt_new(int x);", "pt_new"),
-        ("uint32_t width;", "uint32_t more; uint32_t width;", "more"),
+        ("uint32_t max_path_length;", "uint32_t more; uint32_t max_path_length;", "more"),
         ("/** Makes a context.", "/** @param nothing Makes a context.", "nothing"),
     ):
         if header.count(old) != 1:

@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <span>
 
-inline pt_image image_target(std::span<float> values, uint32_t quantity = PT_QUANTITY_RADIANCE, uint64_t row_bytes = 0) {
+inline pt_image image_target(std::span<float> values, uint32_t quantity = PT_QUANTITY_RADIANCE,
+                             uint64_t row_bytes = 0) {
     pt_image image{};
     image.struct_size = sizeof image;
     image.quantity = quantity;
