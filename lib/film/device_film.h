@@ -41,7 +41,8 @@ public:
     // takes samples.
     void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);
 
-    // Makes room for split passes, if there is none. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. Before the first one it has to be cleared.
+    // Makes room for split passes, if there is none. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. Before the first one it has
+    // to be cleared.
     void make_pass(vulkan::Device &device);
     bool has_pass() const { return strips_.back().pass.has_value(); }
 

@@ -14,7 +14,8 @@ struct Number {
     WideSum high;      // multiples of 2^32
     std::uint32_t low; // the rest
 
-    auto operator<=>(const Number &) const = default;
+    bool operator==(const Number &) const = default;
+    bool operator<(const Number &other) const { return high < other.high || (high == other.high && low < other.low); }
 };
 
 Number product(WideSum sum, std::uint32_t count) {

@@ -55,7 +55,8 @@ ErrorSquares squares_of(const gpu::ErrorSquares &found, double factor) {
 // The sum of the squares of pieces of so many pixels, the last of which may be shorter.
 double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
     const double rest = pixels % piece;
-    return static_cast<double>(pixels / piece) * piece * piece + rest * rest;
+    const std::uint32_t whole = pixels / piece;
+    return static_cast<double>(whole) * piece * piece + rest * rest;
 }
 
 RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::uint32_t height, double unit,

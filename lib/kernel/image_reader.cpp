@@ -11,6 +11,41 @@ namespace {
 // Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
+struct Piece {
+    std::size_t slot;
+    vulkan::Device::Ticket ticket;
+    std::uint32_t pixel_count;
+};
+
+// Submissions in the order of their starts. Whatever fails, all are waited for at the end.
+class PiecesUnderWay {
+public:
+    PiecesUnderWay(vulkan::Device &device, std::size_t most) : device_(device) { pieces_.reserve(most); }
+    PiecesUnderWay(const PiecesUnderWay &) = delete;
+    PiecesUnderWay &operator=(const PiecesUnderWay &) = delete;
+    ~PiecesUnderWay() {
+        try {
+            while (!pieces_.empty())
+                finish_first();
+        } catch (...) { // the device is lost, and whoever failed tells of it
+        }
+    }
+
+    std::size_t count() const { return pieces_.size(); }
+    void add(const Piece &piece) { pieces_.push_back(piece); }
+
+    Piece finish_first() {
+        const Piece piece = pieces_.front();
+        pieces_.erase(pieces_.begin());
+        device_.finish(piece.ticket);
+        return piece;
+    }
+
+private:
+    vulkan::Device &device_;
+    std::vector<Piece> pieces_;
+};
+
 } // namespace
 
 // The device resolves a piece, and copies it, while the host takes the one before.
@@ -23,29 +58,21 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
     for (std::size_t i = 0; i < slot_count; ++i)
         slot(i, most * bytes_of_pixel, query.format);
 
-    struct Piece {
-        std::size_t slot;
-        vulkan::Device::Ticket ticket;
-        std::uint32_t pixel_count;
-    };
     gpu::ResolveConstants constants = resolve_constants(query, film_);
     constants.row_words = static_cast<std::uint32_t>(query.pixels.width * bytes_of_pixel / sizeof(std::uint32_t));
-    std::vector<Piece> under_way;
-    under_way.reserve(slot_count);
+    PiecesUnderWay under_way(device_, slot_count);
     std::uint64_t started = 0;
-    for (std::size_t next_slot = 0; started < total || !under_way.empty();) {
-        if (started < total && under_way.size() < slot_count) {
+    for (std::size_t next_slot = 0; started < total || under_way.count() > 0;) {
+        if (started < total && under_way.count() < slot_count) {
             const std::uint64_t row = query.pixels.y + started / query.pixels.width;
             constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
             constants.pixel_count = static_cast<std::uint32_t>(std::min(most, total - started));
-            under_way.push_back({next_slot, start(slots_[next_slot], query.format, constants), constants.pixel_count});
+            under_way.add({next_slot, start(slots_[next_slot], query.format, constants), constants.pixel_count});
             started += constants.pixel_count;
             next_slot = (next_slot + 1) % slot_count;
             continue;
         }
-        const Piece piece = under_way.front();
-        under_way.erase(under_way.begin());
-        device_.finish(piece.ticket);
+        const Piece piece = under_way.finish_first();
         const std::span<const std::byte> bytes = slots_[piece.slot].host.host_bytes();
         std::uint32_t lost_pixels = 0;
         std::memcpy(&lost_pixels, bytes.data(), sizeof lost_pixels);

@@ -27,7 +27,8 @@ RenderDevice::RenderDevice(vulkan::Instance &instance, const vk::raii::PhysicalD
     device_(instance, physical_device, std::move(logical_device), policy),
     code_(code),
     pipelines_(std::make_unique<TracePipelines>(device_, code)),
-    target_seconds_(target_seconds) {
+    target_seconds_(target_seconds),
+    tests_per_second_(device_.policy().tests_per_second) {
     under_way_.reserve(device_.policy().queue_depth);
 }
 
@@ -54,14 +55,14 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 }
 
 void RenderDevice::set_film(DeviceFilm film) {
-    kernel_.reset(); // their descriptor sets name the old film
+    drop_kernel(); // their descriptor sets name the old film
     image_reader_.reset();
     buffer_writer_.reset();
     error_reader_.reset();
     film_ = std::move(film);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
-    limits.first_slice_paths = target_seconds_ * device_.policy().tests_per_second * film_pixels_per_test;
+    limits.first_slice_paths = target_seconds_ * tests_per_second_ * film_pixels_per_test;
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     film_schedule_.emplace(film_->pixel_count(), limits);
     discard_samples();
@@ -78,6 +79,15 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
     if (kernel_)
         kernel_->build(*pipelines);
     return pipelines;
+}
+
+void RenderDevice::drop_kernel() noexcept {
+    if (kernel_) {
+        const auto tests_per_path = static_cast<double>(surface_tests_per_path(kernel_->features()));
+        const double learnt = schedule_->budget() * tests_per_path / target_seconds_;
+        tests_per_second_ = std::max(tests_per_second_, learnt * share_assumed_of_learnt);
+    }
+    kernel_.reset();
 }
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
@@ -110,18 +120,12 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
         kernel_->show(scene, settings);
         return;
     }
-    double tests_per_second = device_.policy().tests_per_second;
-    if (kernel_) {
-        const auto tests_per_path = static_cast<double>(surface_tests_per_path(kernel_->features()));
-        const double learnt = schedule_->budget() * tests_per_path / target_seconds_;
-        tests_per_second = std::max(tests_per_second, learnt * share_assumed_of_learnt);
-    }
-    kernel_.reset(); // before the new one takes memory
+    drop_kernel(); // before the new one takes memory
     kernel_.emplace(device_, *pipelines_, *film_, scene, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =
-        target_seconds_ * tests_per_second / static_cast<double>(surface_tests_per_path(kernel_->features()));
+        target_seconds_ * tests_per_second_ / static_cast<double>(surface_tests_per_path(kernel_->features()));
     limits.max_samples = kernel_->max_samples();
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     schedule_.emplace(film_->pixel_count(), limits);

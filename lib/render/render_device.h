@@ -89,8 +89,9 @@ public:
     bool film_is_behind() const { return uncleared_pixels_ + uncommitted_pixels_ > 0; }
 
     // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
-    // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and others have begun before. Returns how many samples the slice
-    // has begun: 0 for the film and within a pass. has_room() must hold.
+    // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and
+    // others have begun before. Returns how many samples the slice has begun: 0 for the film and within a pass.
+    // has_room() must hold.
     std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
 
     // Whether finish() would not wait, having waited for that until a time. Not idle.
@@ -119,6 +120,7 @@ private:
 
     bool can_clear_at_once() const;
     ResolvePipelines &resolve_pipelines();
+    void drop_kernel() noexcept;
     void start_film_work();
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 
@@ -126,6 +128,7 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
+    double tests_per_second_; // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_;         // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
     std::optional<DeviceFilm> film_;

@@ -38,8 +38,8 @@ inline constexpr auto no_binding = static_cast<vk::DescriptorType>(VK_DESCRIPTOR
 
 class ComputePipeline {
 public:
-    // bindings[i] is the type of binding i of set 0, or no_binding; constants[i] are the bits of the specialization constant with id
-    // i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // bindings[i] is the type of binding i of set 0, or no_binding; constants[i] are the bits of the specialization
+    // constant with id i. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     ComputePipeline(Device &device, std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> bindings,
                     std::uint32_t push_constant_bytes, std::span<const std::uint32_t> constants);
 

@@ -222,7 +222,9 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCountAfterCancellations) {
             }
         }
         ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(on.get());
-        EXPECT_GT(cancelled, 2);
+        pt_device_info info_of_device{};
+        ASSERT_EQ(pt_get_context_device(on.get(), &info_of_device), PT_OK);
+        EXPECT_TRUE(cancelled > 2 || info_of_device.kind != PT_DEVICE_CPU) << "others may be faster than polls";
         EXPECT_EQ(stats_of(on.get()).sample_count, stats_of(waits.get()).sample_count);
         EXPECT_EQ(image_of(on.get()), image_of(waits.get()));
     }

@@ -415,25 +415,32 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     writer.write(of_one, {buffer.handle(), 0, width * 12, {}});
 }
 
+// In the first of several pieces, while the next is under way: whatever that comes to, the device can go on.
 TEST_F(Resolve, LostSamplesAreAnError) {
     device_with(pt::vulkan::gpu_like_policy());
-    pt::DeviceFilm film(device(), width, height, 30'000);
+    constexpr std::uint32_t high = 1200;
+    pt::DeviceFilm film(device(), width, high, 500'000);
     pt::PartUse parts;
     parts.extend({0, 200});
-    const std::vector<ResolvedPixel> pixels(std::size_t{width} * height, ResolvedPixel{{{{}, 100}, {{}, 100}}});
+    const std::vector<ResolvedPixel> pixels(std::size_t{width} * high, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
     const auto read_sums = [&] {
         pt::DeviceFilm::NewSums on_device(device(), film);
         on_device.write(0, sums);
         on_device.replace(parts);
-        read(film, {{0, 0, width, height}, false, 1.0, {100, 100}});
+        read(film, {{0, 0, width, high}, false, 1.0, {100, 100}});
     };
     read_sums();
+    const pt::PixelSums whole = sums;
     sums.plane(1, pt::gpu::FILM_ACCEPTED)[5] = 99;
     sums.plane(0, pt::gpu::FILM_REJECTED)[99'999] = 1;
-    const pt::Error error = error_of(read_sums);
-    EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
-    EXPECT_STREQ(error.what(), "the driver lost samples of 2 pixels");
+    for (int again = 0; again < 3; ++again) {
+        const pt::Error error = error_of(read_sums);
+        EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
+        EXPECT_STREQ(error.what(), "the driver lost samples of 2 pixels");
+    }
+    sums = whole;
+    read_sums();
 }
 
 } // namespace

@@ -3,7 +3,8 @@
  *
  * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
  * What only some programs need stands beside it: pt/async.h (samples that are taken while the program goes on),
- * pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as data), pt/devices.h (which devices there are), pt/vulkan.h (a device of the caller's own), pt/shaders.h
+ * pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as data), pt/devices.h (which devices
+ * there are), pt/film.h (films that are saved and added), pt/vulkan.h (a device of the caller's own), pt/shaders.h
  * (changed kernels) and pt/accuracy.h (how well a device computes).
  *
  * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Colour is
@@ -293,8 +294,8 @@ typedef struct pt_create_info {
     const char *shader_dir;
     /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes start
      * sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built
-     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders), also of those that fail. Drivers that have a
-     * cache of their own, as Mesa's lavapipe, give next to nothing. */
+     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders; on GPUs pt_readback and pt_get_stats too), also of those
+     * that fail. Drivers that have a cache of their own, as Mesa's lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< handed to both; the library does not look at it */

@@ -28,8 +28,8 @@ typedef void (*pt_queue_fn)(void *user);
  *            all users of the queue lock, other contexts included. Without them nobody else may use the queue during a
  *            call on this context, vkDeviceWaitIdle included. All else that the context does needs no lock: Vulkan lets
  *            threads share a device.
- * Order      the context uses its own buffers alone, and those that pt_readback_to_buffer names. Its pipeline barriers are for compute and transfers, and may delay
- *            commands of others in the queue, never change them.
+ * Order      the context uses its own buffers alone, and those that pt_readback_to_buffer names. Its pipeline barriers
+ *            are for compute and transfers, and may delay commands of others in the queue, never change them.
  * Time       work of others that is before the context's in the queue must not wait for the calling thread. It counts
  *            as time of the context's submissions: it makes them smaller, and on a GPU a submission that has not ended
  *            after 10 seconds means that the device is lost.
