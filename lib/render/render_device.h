@@ -128,8 +128,8 @@ private:
     KernelCode code_;
     std::unique_ptr<TracePipelines> pipelines_; // never NULL
     double target_seconds_;
-    double tests_per_second_; // that it is taken to manage with a kernel that has not been measured
-    std::optional<ResolvePipelines> resolve_;         // of the code, once an image was read
+    double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
+    std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
