@@ -65,14 +65,10 @@ Shown shown_in(uint channel, uint pixel_in_strip, Counts counts)
 {
     uvec4 sum_a = part_sum(estimate.older_part, channel, pixel_in_strip, estimate.strip_pixel_count);
     uvec4 sum_b = part_sum(1u - estimate.older_part, channel, pixel_in_strip, estimate.strip_pixel_count);
-    uint product_a[NUMBER_WORDS] = product(sum_a, counts.b);
-    uint product_b[NUMBER_WORDS] = product(sum_b, counts.a);
-    uint borrow, unused;
-    uint words[NUMBER_WORDS] = difference(product_a, product_b, borrow);
-    if (borrow == 1u)
-        words = difference(product_b, product_a, unused);
+    bool first_is_less;
+    uint words[NUMBER_WORDS] = weighted_difference(sum_a, counts.a, sum_b, counts.b, first_is_less);
     return Shown(as_float(add_with_carry(sum_a, sum_b)) / float(counts.a + counts.b), as_float(words) * counts.scale,
-                 borrow == 1u ? as_float(sum_a) / float(counts.a) : as_float(sum_b) / float(counts.b));
+                 first_is_less ? as_float(sum_a) / float(counts.a) : as_float(sum_b) / float(counts.b));
 }
 
 void count_in_tile(uint tile, PartCount older, PartCount newer)

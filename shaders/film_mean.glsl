@@ -65,23 +65,27 @@ uint[NUMBER_WORDS] difference(uint a[NUMBER_WORDS], uint b[NUMBER_WORDS], out ui
     return words;
 }
 
-// What one channel of a pixel with samples in both parts shows: the sums A of a samples and B of b.
-struct PartDifference {
-    uint standard_error; // bits of a float
-    bool first_is_less;  // A / a < B / b
-};
-
-// The standard error is s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)), times 2^exponent
-// (README.md, section 11). The numerator is exact; the root is cut to 32 bits and so is the denominator, each by less than
-// a 2^31th: the rounded result is within .52 of its last place.
-PartDifference part_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, int exponent)
+// |A b - B a| of the sums A of a samples and B of b. first_is_less: A / a < B / b.
+uint[NUMBER_WORDS] weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, out bool first_is_less)
 {
     uint borrow, unused;
     uint product_a[NUMBER_WORDS] = product(sum_a, b);
     uint product_b[NUMBER_WORDS] = product(sum_b, a);
     uint words[NUMBER_WORDS] = difference(product_a, product_b, borrow);
-    if (borrow == 1u)
+    first_is_less = borrow == 1u;
+    if (first_is_less)
         words = difference(product_b, product_a, unused);
+    return words;
+}
+
+// The bits of the standard error of the mean of both parts, each of one sample at least:
+// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)), times 2^exponent (README.md, section 11).
+// The numerator is exact; the root is cut to 32 bits and so is the denominator, each by less than a 2^31th: the rounded
+// result is within .52 of its last place.
+uint standard_error_bits(uvec4 sum_a, uint a, uvec4 sum_b, uint b, int exponent)
+{
+    bool unused;
+    uint words[NUMBER_WORDS] = weighted_difference(sum_a, a, sum_b, b, unused);
 
     // The root of a b 2^(2 shift), of which one of the top two bits is set.
     uint square_high, square_low;
@@ -99,7 +103,7 @@ PartDifference part_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, int exp
     umulExtended(a + b, root, denominator_high, denominator_low);
     int bits = 31 - findMSB(denominator_high);
     uint denominator = shifted_left(denominator_high, denominator_low, bits);
-    return PartDifference(quotient_bits(leading_bits(words), denominator, exponent + shift + bits - 32), borrow == 1u);
+    return quotient_bits(leading_bits(words), denominator, exponent + shift + bits - 32);
 }
 
 #endif

@@ -31,7 +31,7 @@ uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newe
         return mean_bits(add_with_carry(sum_older, sum_newer), older.accepted + newer.accepted, resolve.exponent);
     if (!knows_error(older, newer))
         return INFINITY_BITS;
-    return part_difference(sum_older, older.accepted, sum_newer, newer.accepted, resolve.exponent).standard_error;
+    return standard_error_bits(sum_older, older.accepted, sum_newer, newer.accepted, resolve.exponent);
 }
 
 void main()

@@ -1,13 +1,12 @@
 #include "lib/kernel/error_reader.h"
 
-#include "lib/base/error.h"
+#include "lib/kernel/resolve.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace pt {
 
@@ -61,8 +60,7 @@ double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
 
 RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::uint32_t height, double unit,
                        const RelativeUnits &units) {
-    if (found.lost_pixels > 0)
-        throw Error(PT_ERROR_INTERNAL, "the driver lost samples of " + std::to_string(found.lost_pixels) + " pixels");
+    require_no_loss(found.lost_pixels);
     const double scale = static_cast<double>(units.scale);
     RegionErrors errors;
     errors.value_count = 3.0 * width * height;

@@ -55,10 +55,7 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 }
 
 void RenderDevice::set_film(DeviceFilm film) {
-    drop_kernel(); // their descriptor sets name the old film
-    image_reader_.reset();
-    buffer_writer_.reset();
-    error_reader_.reset();
+    drop_bound(); // to the old film
     film_ = std::move(film);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
@@ -90,11 +87,15 @@ void RenderDevice::drop_kernel() noexcept {
     kernel_.reset();
 }
 
-void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
-    kernel_.reset(); // they use the old ones
+void RenderDevice::drop_bound() noexcept {
+    drop_kernel();
     image_reader_.reset();
     buffer_writer_.reset();
     error_reader_.reset();
+}
+
+void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
+    drop_bound(); // it uses the old ones
     resolve_.reset();
     estimate_.reset();
     pipelines_ = std::move(pipelines);

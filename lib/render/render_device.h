@@ -48,6 +48,7 @@ public:
 
     // What reads errors of other films.
     const vulkan::ComputePipeline &estimate_pipeline();
+
     // Takes over kernels that the caller has kept, and hands over those that are built.
     void keep_kernels(const vulkan::KernelStore &store);
     void save_kernels() noexcept;
@@ -121,6 +122,7 @@ private:
     bool can_clear_at_once() const;
     ResolvePipelines &resolve_pipelines();
     void drop_kernel() noexcept;
+    void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
     void start_film_work();
     std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
 

@@ -100,9 +100,7 @@ void Renderer::require_alive() const {
 void Renderer::discard_samples() noexcept {
     for (const auto &device : devices_)
         device->discard_samples();
-    samples_ = {};
-    error_.reset();
-    rejected_samples_.reset();
+    take_over({});
 }
 
 void Renderer::set_scene(Scene scene) {

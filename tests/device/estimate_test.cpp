@@ -89,9 +89,7 @@ protected:
         EXPECT_TRUE(film.has_whole_regions());
         pt::PartUse parts;
         parts.extend({0, 2 * part_samples});
-        pt::DeviceFilm::NewSums all(device(), film);
-        all.write(0, sums);
-        all.replace(parts);
+        film.write(sums, parts);
         pt::ErrorEstimator estimator(conditions(size.width));
         pt::ErrorReader(device(), pipeline, film).read(unit, {part_samples, part_samples}, [&](const auto &tile) {
             estimator.add(tile);

@@ -152,9 +152,7 @@ TEST_F(PollingTest, CancellingKeepsWholeSamplesAndTheContextGoesOn) {
                 ++done;
             }
         }
-        pt_device_info info{};
-        ASSERT_EQ(pt_get_context_device(on.get(), &info), PT_OK);
-        EXPECT_TRUE(cancelled > 1 || info.kind != PT_DEVICE_CPU) << "to others these samples are one submission";
+        EXPECT_TRUE(cancelled > 1 || !is_on_cpu(on.get())) << cancelled;
     }
 }
 
@@ -222,9 +220,7 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCountAfterCancellations) {
             }
         }
         ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(on.get());
-        pt_device_info info_of_device{};
-        ASSERT_EQ(pt_get_context_device(on.get(), &info_of_device), PT_OK);
-        EXPECT_TRUE(cancelled > 2 || info_of_device.kind != PT_DEVICE_CPU) << "others may be faster than polls";
+        EXPECT_TRUE(cancelled > 2 || !is_on_cpu(on.get())) << cancelled;
         EXPECT_EQ(stats_of(on.get()).sample_count, stats_of(waits.get()).sample_count);
         EXPECT_EQ(image_of(on.get()), image_of(waits.get()));
     }

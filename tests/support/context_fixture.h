@@ -5,6 +5,7 @@
 
 #include "tests/support/image_target.h"
 
+#include <pt/devices.h>
 #include <pt/pt.h>
 #include <pt/stats.h>
 
@@ -72,6 +73,13 @@ protected:
         stats.struct_size = sizeof stats;
         EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
         return stats;
+    }
+
+    // Where a few samples are several submissions; to GPUs they may be one.
+    static bool is_on_cpu(pt_context *on) {
+        pt_device_info info{};
+        EXPECT_EQ(pt_get_context_device(on, &info), PT_OK) << pt_last_error(on);
+        return info.kind == PT_DEVICE_CPU;
     }
 
 private:
