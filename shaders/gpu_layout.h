@@ -10,6 +10,7 @@
 namespace pt::gpu {
 using uint = std::uint32_t;
 using uvec2 = glm::uvec2;
+using ivec3 = glm::ivec3;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 #define PT_CONSTANT constexpr uint
@@ -43,7 +44,9 @@ PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tel
 PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
 PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
 PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of the pinhole
-PT_CONSTANT CONSTANT_COUNT = 23;
+PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
+PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
+PT_CONSTANT CONSTANT_COUNT = 25;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -109,6 +112,7 @@ PT_CONSTANT BINDING_SCENE_STORAGE = 1;
 PT_CONSTANT BINDING_FILM = 2;
 PT_CONSTANT BINDING_PASS = 3;
 PT_CONSTANT BINDING_POINTS = 4;
+PT_CONSTANT BINDING_TREE = 5;
 // Of resolve.comp and estimate.comp, beside BINDING_FILM.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
@@ -137,10 +141,44 @@ PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 //   motion[spheres]
 //   curvature[planes]
 //   index[S]          four to a word: MATERIAL_INDEX_BITS + the surface's place in the table, as the bits of a float
+//   tree[4]           with TREE: TreeFrame
 //   table             for each material its word of diffuse and, with GLOSS, that of specular
 // Emission is not in the table, as the many lamps of such a scene are asked for it one after the other.
 // The bits of 1.0: any index below 2^30 makes a finite number of them, and none that a device may flush to 0.
 PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
+
+// ---- Tree buffer: an array of uvec4, the spheres that are not in the scene buffer -------------------------------------
+// Places are on an integer grid, so that neither spheres nor boxes change with the camera (lib/tree/grid.h). Surfaces are
+// numbered as the scene buffer has them, and then the spheres of the tree by place, which is an order of the tree.
+//   node[nodes][3]    the root first. x, y, z of the low corner of its box; five bits each: the exponents of its steps
+//                     along x, y and z, as powers of two, then a bit, and from bit 16 on the number of children, and from
+//                     bit 20 on of those that are nodes
+//                     first of these, and place of the first of the others, which are spheres: both consecutive; the
+//                     low sides of the children's boxes in steps from the corner, a byte a child, along x and y
+//                     low sides along z, high sides along x, y and z
+//   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float
+//   motion[places]    way of the centre in a unit of time, as bits of floats; 0 (only if some sphere moves)
+//   surface[places]   four to a word: the place of the material in the table, or TREE_LAMP_BIT + the number of a lamp
+//   lamp[tree lamps]  place; place of the material in the table; 0; 0
+PT_CONSTANT TREE_WIDTH = 4;
+PT_CONSTANT TREE_STACK_SIZE = 27; // nodes from the root to the deepest, at most (lib/tree/sphere_order.h)
+PT_CONSTANT TREE_NODE_WORDS = 3;
+PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
+
+// Of the tree as a camera sees it: a place p of the grid is at (p - camera) step + shift from it.
+struct TreeFrame {
+    ivec3 camera;       // as a place of the grid
+    uint first_sphere;  // word of the tree buffer
+    vec3 shift;
+    float step;         // a power of two
+    uint first_motion;  // words of the tree buffer
+    uint first_surface;
+    uint first_lamp;
+    float reach;        // the farthest that a box of the tree is from the camera, along any axis, in steps
+    float shutter_open; // in units of time of motion
+    float shutter_time; // while the shutter is open
+    uvec2 reserved;
+};
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
 // Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.
@@ -242,6 +280,7 @@ static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConsta
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
+static_assert(sizeof(TreeFrame) == 64 && offsetof(TreeFrame, shift) == 16 && offsetof(TreeFrame, reach) == 44);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 } // namespace pt::gpu

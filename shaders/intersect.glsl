@@ -1,135 +1,9 @@
-// Rays against spheres and planes, without epsilons: a ray carries the surface that it leaves.
+// What rays meet first, and what blocks them: walks over the surfaces of a scene.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
-#include "scene.glsl"
-
-// Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
-const float NO_HIT = 3.0e38;
-
-// Surfaces are opaque, so that a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES
-// the side is taken from the camera. Taken from the place of a vertex it would be wrong for surfaces that the vertex
-// nearly touches: rounding may put the vertex behind a surface that stands just behind its own, and the path would end
-// there, or leak out of a room.
-
-// How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
-struct Start {
-    vec3 origin;
-    uint surface; // NO_SURFACE for rays from the camera
-    bool inside;
-};
-
-// Distance along the unit vector direction to a sphere, or NO_HIT. to_centre = centre - origin; leaving: the ray
-// starts on it. With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+
-// sqrt(r^2 - l^2). Taking l by subtraction of vectors, not of squares, keeps small far spheres in place (Haines et
-// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the
-// sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The side is
-// known: for small far spheres and grazing directions the sign of b would tell it wrongly.
-// Whether there is a hit is told by the side and the direction: from outside, a line that meets the sphere does so
-// ahead if it leads inwards, b > 0; and no direction leads out of a sphere but through its surface. It is not told by
-// the sign of the distance, which rounding may turn, by as little as it rounds, for rays that start near the sphere.
-// If the camera is outside all spheres, no path ever gets inside. outside: of this one, for rays that start elsewhere.
-float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
-{
-    float b = dot(to_centre, direction);
-    vec3 across = to_centre - b * direction;
-    float squared_half_chord = radius * radius - dot(across, across);
-    if (INSIDE == 0) {
-        float nearer = b - sqrt(squared_half_chord); // any value, where there is no root
-        return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
-    }
-    float half_chord = sqrt(max(squared_half_chord, 0.0));
-    float distance = outside ? b - half_chord : b + half_chord;
-    bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);
-    distance = leaving ? abs(2.0 * b) : distance;
-    met = leaving ? inside : met;
-    return met ? distance : NO_HIT;
-}
-
-// Whether the sphere blocks a shadow ray that comes from outside all spheres and ends at a distance: whether the nearer
-// root is less, b - sqrt(r^2 - l^2) < distance, told without the root. at_end: the ray starts or ends on it.
-bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
-{
-    float b = dot(to_centre, direction);
-    vec3 across = to_centre - b * direction;
-    float beyond = max(b - distance, 0.0);
-    bool met_before = dot(across, across) + beyond * beyond < radius * radius;
-    return !at_end && b > 0.0 && met_before;
-}
-
-// Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
-// ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of k / 2
-// t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
-// cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
-// wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0. Far
-// above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the ray:
-// the squared length of the gradient is 1 + 2 k h. side: the height of the camera, above a plane that is flat. Where it
-// tells the side, a ray that leads towards the surface meets it, at a negative distance if rounding has put the ray's
-// origin behind it.
-float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
-{
-    float slope = dot(level.gradient, direction);
-    if (CURVATURE == 0) {
-        float distance = -level.height / slope;
-        bool towards = KNOWN_SIDES == 1 ? slope < 0.0 : distance > 0.0;
-        return !leaving && towards ? distance : NO_HIT;
-    }
-    float height = leaving ? 0.0 : level.height;
-    bool below = leaving ? inside : height < 0.0 || (height == 0.0 && slope < 0.0);
-    if (KNOWN_SIDES == 1) {
-        below = side < 0.0;
-        height = below ? min(height, 0.0) : max(height, 0.0);
-    }
-    float rise = 2.0 * level.curvature * height;
-    vec3 across = level.gradient - slope * direction;
-    float discriminant = rise > 1.0 ? 1.0 - dot(across, across) : slope * slope - rise;
-    float q = abs(slope) + sqrt(max(discriminant, 0.0));
-    bool near = !leaving && discriminant >= 0.0 && below == (slope > 0.0);
-    bool far = !near && below && level.curvature > 0.0;
-    float distance = (far ? q : 2.0 * abs(height)) / (far ? level.curvature : q);
-    return (near || far) && (distance > 0.0 || KNOWN_SIDES == 1) ? distance : NO_HIT;
-}
-
-struct Hit {
-    float distance; // NO_HIT if there is none; less than 0, by rounding, where the ray starts beyond the surface
-    uint surface;   // NO_SURFACE if there is none
-};
-
-void keep_closer(inout Hit hit, float distance, uint surface)
-{
-    bool closer = distance < hit.distance;
-    hit.distance = closer ? distance : hit.distance;
-    hit.surface = closer ? surface : hit.surface;
-}
-
-// A ray towards a lamp: it is blocked by what it meets before the lamp.
-struct ShadowRay {
-    vec3 direction;
-    float distance; // to the lamp; 0 where there is no lamp to look for
-    uint lamp;      // never blocks itself
-};
-
-// The tests that the walks below share. A walk fetches a surface once for all its rays, so they take what was fetched.
-float distance_to_sphere(Start start, vec3 direction, uint sphere, vec4 centre_radius)
-{
-    bool leaving = sphere == start.surface;
-    vec3 to_centre = centre_radius.xyz - start.origin;
-    vec3 from_side = KNOWN_SIDES == 1 ? centre_radius.xyz : to_centre;
-    bool outside = dot(from_side, from_side) > centre_radius.w * centre_radius.w;
-    return sphere_distance(to_centre, centre_radius.w, direction, leaving, start.inside, outside);
-}
-
-float distance_to_plane(Start start, vec3 direction, uint plane, Level level, float time)
-{
-    return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
-}
-
-// Whether a surface at a distance along a shadow ray blocks it. Of surfaces at equal distances the first is seen.
-bool blocks(ShadowRay shadow, float distance, uint surface)
-{
-    bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
-    return before && surface != shadow.lamp;
-}
+#include "ray_tests.glsl"
+#include "tree_walk.glsl"
 
 void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float time)
 {
@@ -151,37 +25,11 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, origin, direction, sphere, time));
     FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, origin, direction, plane, time));
+    if (TREE == 1u) {
+        bool blocked = false;
+        walk_tree(hit, blocked, Start(origin, NO_SURFACE, false), direction, true, NO_SHADOW_RAY, time);
+    }
     return hit;
-}
-
-void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere, vec4 centre_radius)
-{
-    if (INSIDE == 1 || CLOSE_LAMPS == 1) {
-        blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
-        return;
-    }
-    bool at_end = sphere == start.surface || (sphere < LAMP_COUNT && sphere == shadow.lamp);
-    vec3 to_centre = centre_radius.xyz - start.origin;
-    bool between = sphere_blocks(to_centre, centre_radius.w, shadow.direction, at_end, shadow.distance);
-    blocked = blocked || between;
-}
-
-void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, Level level, float time)
-{
-    blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
-}
-
-// Where a lamp all but coincides with another sphere, a ray towards it ends where the ray itself meets the lamp, as it
-// would meet the other: of two distances by one formula just one is less, whatever their rounding, so that light which
-// both send is counted once. A lamp that the ray misses by rounding is where it was sampled.
-ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
-{
-    if (CLOSE_LAMPS == 1 && shadow.distance > 0.0) {
-        vec4 lamp = sphere_among(LAMP_COUNT, shadow.lamp, time);
-        float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp);
-        shadow.distance = distance < NO_HIT ? distance : shadow.distance;
-    }
-    return shadow;
 }
 
 // Whether a shadow ray is blocked.
@@ -193,6 +41,10 @@ bool is_blocked(Start start, float time, ShadowRay towards_lamp)
     if (PLANES_BLOCK == 1)
         FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
                  shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin, time), time));
+    if (TREE == 1u) {
+        Hit hit = Hit(NO_HIT, NO_SURFACE);
+        walk_tree(hit, blocked, start, shadow.direction, false, shadow, time);
+    }
     return blocked;
 }
 
@@ -213,15 +65,18 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
-// shadow ray is blocked.
-Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay towards_lamp, out bool blocked)
+// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, if it carries any
+// light, and whether the shadow ray is blocked.
+Hit closest_hit_and_shadow(Start start, float time, vec3 direction, bool carries_light, ShadowRay towards_lamp,
+                           out bool blocked)
 {
     ShadowRay shadow = ended_as_met(towards_lamp, start, time);
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));
     FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane, time));
+    if (TREE == 1u)
+        walk_tree(hit, blocked, start, direction, carries_light, shadow, time);
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u) // along a plane a little height is a long way back
         hit.distance = max(hit.distance, 0.0);
     return hit;

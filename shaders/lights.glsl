@@ -23,7 +23,7 @@ struct LampView {
 // sampled; directions find it instead.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
-    vec4 sphere = sphere_among(LAMP_COUNT, lamp, time);
+    vec4 sphere = sphere_of_lamp(lamp, time);
     LampView view;
     view.to_centre = sphere.xyz - vertex.position;
     view.squared_radius = sphere.w * sphere.w;
@@ -31,7 +31,7 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     view.inverse_distance = inversesqrt(view.squared_distance);
     view.squared_sine = min(view.squared_radius / view.squared_distance, 1.0);
     float highest_cosine = min(1.0, (dot(vertex.normal, view.to_centre) + sphere.w) * view.inverse_distance);
-    bool sampled = view.squared_sine < 1.0 && highest_cosine > 0.0 && lamp != vertex.surface;
+    bool sampled = view.squared_sine < 1.0 && highest_cosine > 0.0 && surface_of_lamp(lamp) != vertex.surface;
     view.weight = sampled ? emission_of_lamp(lamp).a * view.squared_sine * highest_cosine : 0.0;
     return view;
 }
@@ -155,7 +155,7 @@ LampSample sample_lamp(LampChoice choice, vec2 u)
     float half_chord = sqrt(max(view.squared_radius - view.squared_distance * (h * (2.0 - h)), 0.0));
     float distance = view.squared_distance * view.inverse_distance * (1.0 - h) - half_chord;
     float density = cone_density(view);
-    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, choice.lamp), density);
+    return LampSample(ShadowRay(direction, density > 0.0 ? distance : 0.0, surface_of_lamp(choice.lamp)), density);
 }
 
 #endif

@@ -47,7 +47,7 @@ struct LampLight {
 
 LampLight no_lamp_light()
 {
-    return LampLight(ShadowRay(vec3(0.0), 0.0, NO_SURFACE), vec3(0.0), 0.0);
+    return LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
 }
 
 // Light of a lamp, of which the vertex takes a number of samples, while a number of directions leave the same vertex.
@@ -77,6 +77,19 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     return light_of_lamp(throughput, vertex, material, choice, numbers.xy, samples, directions);
 }
 
+// Whether a direction leads to a surface that emits, behind others or not. The last direction of a path finds nothing
+// but emission, and where a walk takes long, a few tests that spare it are worth it.
+bool may_meet_light(Start start, vec3 direction, float time)
+{
+    const uint few_lamps = 16u;
+    if (PLANES_EMIT == 1u || SKY_COUNT > 0u || LAMP_COUNT > few_lamps)
+        return true;
+    bool met = false;
+    FOR_EACH(lamp, 0u, LAMP_COUNT,
+             met = met || distance_to_sphere(start, direction, surface_of_lamp(lamp), sphere_of_lamp(lamp, time)) < NO_HIT);
+    return met;
+}
+
 // Takes the path from a vertex to the next in one of the directions in which it is left, with the light of a lamp.
 void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, bool every_lamp, float time,
            vec4 numbers, float directions)
@@ -90,16 +103,20 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     // Its ray and the lamp's at once; the lamp's light arrives if nothing is in between.
     bool blocked;
     Start start = Start(vertex.position, vertex.surface, vertex.inside);
-    Hit hit = closest_hit_and_shadow(start, time, direction, lamp.shadow, blocked);
+    float strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
+    bool carries_light = !(strongest <= 0.0); // what is not a number goes on, to be rejected
+    if (TREE == 1u && path.vertex_count + 1u == MAX_PATH_LENGTH)
+        carries_light = carries_light && may_meet_light(start, direction, time);
+    Hit hit = closest_hit_and_shadow(start, time, direction, carries_light, lamp.shadow, blocked);
     path.radiance += lamp.light * (blocked ? 0.0 : lamp.weight);
 
     // What the next vertex emits, weighted against lamp sampling if that could have found it too.
-    float strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
-    path.alive = hit.surface != NO_SURFACE && !(strongest <= 0.0); // what is not a number goes on, to be rejected
+    path.alive = hit.surface != NO_SURFACE && carries_light;
     if (path.alive && may_emit(hit.surface)) {
         float weight = 1.0;
-        if (SAMPLE_LAMPS && hit.surface < LAMP_COUNT) {
-            LampChoice choice = choice_of(lamps, hit.surface);
+        uint hit_lamp = lamp_of(hit.surface);
+        if (SAMPLE_LAMPS && hit_lamp < LAMP_COUNT) {
+            LampChoice choice = choice_of(lamps, hit_lamp);
             float samples = lamp_samples(choice, every_lamp, directions);
             weight = direction_weight_against(density, cone_density(choice.view) * samples);
         }

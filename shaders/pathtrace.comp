@@ -36,12 +36,13 @@ void main()
     do {
         SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done * row_length);
         value = path_radiance(frame, pixel, key) * frame.film_scale;
-        film_add(gathered, value);
+        if (TREE == 0u || !walk_was_cut)
+            film_add(gathered, value);
         ++done;
     } while (done < end);
 
     if (frame.split_pass == 1u)
-        split_pass.samples[pixel_in_strip] = vec4(value, 1.0);
+        split_pass.samples[pixel_in_strip] = vec4(value, TREE == 1u && walk_was_cut ? 0.0 : 1.0);
     else
         film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u);
 }

@@ -30,6 +30,8 @@ layout(constant_id = ID_CLOSE_LAMPS) const uint CLOSE_LAMPS = 1;
 layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
 layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
+layout(constant_id = ID_TREE) const uint TREE = 0;
+layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
@@ -39,7 +41,7 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// A surface is its index: spheres first, then planes.
+// A surface is its index: spheres first, then planes, then with TREE the spheres of the tree.
 const uint NO_SURFACE = 0xffffffffu;
 
 // Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled, which
@@ -100,19 +102,45 @@ const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLA
 const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 // ... and those of the storage buffer alone.
 const uint INDICES = CURVATURES + CURVATURE * PLANE_COUNT;
-const uint TABLE = INDICES + (SURFACE_COUNT + 3u) / 4u;
+const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
+const uint TABLE = TREE_FRAME + 4u * TREE;
+
+#include "tree.glsl"
 
 // Where the words of a surface's material begin in the storage buffer.
 uint material_words(uint surface)
 {
+    if (TREE == 1u && surface >= SURFACE_COUNT)
+        return TABLE + (1u + GLOSS) * tree_material(surface - SURFACE_COUNT);
     uint bits = floatBitsToUint(scene_storage.words[INDICES + surface / 4u][surface % 4u]);
     return TABLE + (1u + GLOSS) * (bits - MATERIAL_INDEX_BITS);
+}
+
+// Lamps have numbers of their own: first come those that are not in the tree, of which each is also the surface.
+const uint WALKED_LAMPS = LAMP_COUNT - TREE_LAMPS;
+
+// The lamp that a surface is, or no less than LAMP_COUNT.
+uint lamp_of(uint surface)
+{
+    if (TREE_LAMPS == 0u)
+        return surface;
+    uint lamp = surface < SURFACE_COUNT ? NO_SURFACE : tree_lamp(surface - SURFACE_COUNT);
+    return surface < WALKED_LAMPS ? surface : lamp < TREE_LAMPS ? WALKED_LAMPS + lamp : NO_SURFACE;
+}
+
+uint surface_of_lamp(uint lamp)
+{
+    if (TREE_LAMPS == 0u || lamp < WALKED_LAMPS)
+        return lamp;
+    return SURFACE_COUNT + tree_lamp_place(lamp - WALKED_LAMPS);
 }
 
 // Whether a surface may emit: lamps and skies do, other spheres do not.
 bool may_emit(uint surface)
 {
-    return surface < EMITTING_SPHERES || (PLANES_EMIT == 1u && surface >= SPHERE_COUNT);
+    bool is_lamp = TREE_LAMPS > 0u && surface >= SURFACE_COUNT && lamp_of(surface) < LAMP_COUNT;
+    bool is_plane = surface >= SPHERE_COUNT && (TREE == 0u || surface < SURFACE_COUNT);
+    return surface < WALKED_LAMPS + SKY_COUNT || (PLANES_EMIT == 1u && is_plane) || is_lamp;
 }
 
 // Radiance and its mean, of a surface that may emit.
@@ -120,7 +148,10 @@ vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
         return scene_word_among(EMISSION, SURFACE_COUNT, surface);
-    return scene_word(EMISSION + (surface < SPHERE_COUNT ? surface : surface - SPHERE_COUNT + EMITTING_SPHERES));
+    if (TREE_LAMPS > 0u && (surface < WALKED_LAMPS || surface >= SURFACE_COUNT))
+        return scene_word(EMISSION + lamp_of(surface));
+    return scene_word(EMISSION + (surface < SPHERE_COUNT ? surface + TREE_LAMPS
+                                                         : surface - SPHERE_COUNT + EMITTING_SPHERES));
 }
 
 vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT, lamp); }
@@ -156,6 +187,40 @@ vec4 sphere_among(uint count, uint sphere, float time)
     if (MOTION == 1)
         centre_radius.xyz += time * scene_word_among(MOTIONS, count, sphere).xyz;
     return centre_radius;
+}
+
+bool is_sphere(uint surface)
+{
+    return surface < SPHERE_COUNT || (TREE == 1u && surface >= SURFACE_COUNT);
+}
+
+// Of any sphere, ...
+vec4 sphere_of(uint surface, float time)
+{
+    if (TREE == 1u && surface >= SURFACE_COUNT)
+        return tree_sphere(surface - SURFACE_COUNT, time);
+    return sphere_among(SPHERE_COUNT, surface, time);
+}
+
+// ... and of any lamp, by its number and by its surface.
+vec4 sphere_of_lamp(uint lamp, float time)
+{
+    if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
+        return tree_sphere(tree_lamp_place(lamp - WALKED_LAMPS), time);
+    return sphere_among(WALKED_LAMPS, lamp, time);
+}
+
+vec4 sphere_of_lamp_surface(uint surface, float time)
+{
+    if (TREE_LAMPS > 0u && surface >= SURFACE_COUNT)
+        return tree_sphere(surface - SURFACE_COUNT, time);
+    return sphere_among(WALKED_LAMPS, surface, time);
+}
+
+// Of a surface that is a loop's index, whether the numbers alone leave it open that it is a lamp.
+bool may_be_lamp(uint surface)
+{
+    return surface < WALKED_LAMPS || (TREE_LAMPS > 0u && surface >= SURFACE_COUNT);
 }
 
 // Where a point lies with respect to a plane.

@@ -28,8 +28,8 @@ Vertex vertex_at(Arrival arrival, float time)
     vec3 direction = arrival.direction;
     vec3 position = arrival.point;
     vec3 normal;
-    if (surface < SPHERE_COUNT) {
-        vec4 sphere = sphere_among(SPHERE_COUNT, surface, time);
+    if (is_sphere(surface)) {
+        vec4 sphere = sphere_of(surface, time);
         normal = normalize(position - sphere.xyz);
         position = sphere.xyz + sphere.w * normal;
     } else {

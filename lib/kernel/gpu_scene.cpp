@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -40,9 +41,8 @@ public:
         blocks_(features) {}
 
     void emission(std::uint32_t surface, const Material &material) {
-        // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
         if (features_.scene_in_uniform || may_emit(surface))
-            words_[emission_word(surface)] = glm::vec4(material.emission + 0.0F, mean(material.emission));
+            write_emission(emission_word(surface), material);
     }
 
     // Of a surface, or of a material of the table.
@@ -75,14 +75,30 @@ public:
                 glm::vec4(static_cast<float>(plane.curvature), glm::vec3(plane.way));
     }
 
+    void tree(const SphereTree &tree, const Camera &camera, const std::vector<Material> &materials) {
+        const gpu::TreeFrame frame = tree.frame(camera);
+        std::memcpy(&words_[blocks_.tree], &frame, sizeof frame);
+        std::uint64_t word = blocks_.emission + features_.walked_lamps();
+        for (const std::uint32_t material : tree.lamp_materials())
+            write_emission(word++, materials[material]);
+    }
+
 private:
+    // 0 may be given as -0, which the film would take for a negative number: adding 0 makes it +0.
+    void write_emission(std::uint64_t word, const Material &material) {
+        words_[word] = glm::vec4(material.emission + 0.0F, mean(material.emission));
+    }
+
     bool may_emit(std::uint32_t surface) const {
-        return surface < features_.emitting_spheres() || (features_.planes_emit && surface >= features_.sphere_count);
+        return surface < features_.walked_lamps() + features_.sky_count ||
+               (features_.planes_emit && surface >= features_.sphere_count);
     }
 
     std::uint64_t emission_word(std::uint32_t surface) const {
-        if (features_.scene_in_uniform || surface < features_.sphere_count)
+        if (features_.scene_in_uniform || surface < features_.walked_lamps())
             return blocks_.emission + surface;
+        if (surface < features_.sphere_count)
+            return blocks_.emission + features_.tree_lamps + surface;
         return blocks_.emission + features_.emitting_spheres() + surface - features_.sphere_count;
     }
 
@@ -91,7 +107,8 @@ private:
     const SceneBlocks blocks_;
 };
 
-std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Features &features) {
+std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera,
+                                const Features &features) {
     std::vector<glm::vec4> words(SceneBlocks(features).word_count);
     Writer writer(words, features);
     std::uint32_t surface = 0;
@@ -112,7 +129,19 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     }
     for (std::uint32_t i = 0; i < features.table_materials; ++i)
         writer.reflection(i, scene.used_materials[i]);
+    if (scene.tree)
+        writer.tree(*scene.tree, camera, scene.scene.materials);
     return words;
+}
+
+// With the ball about the tree, if there is one: nothing in it is nearer.
+SeenScene with_tree_as_ball(SeenScene seen, const PreparedScene &scene, const Camera &camera) {
+    if (scene.tree) {
+        const PointBox box = scene.tree->bounds();
+        const Sphere ball{0.5 * (box.low + box.high), 0.5 * glm::length(box.high - box.low), glm::dvec3(0.0), 0};
+        seen.spheres.emplace_back(ball, Material{}, camera);
+    }
+    return seen;
 }
 
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
@@ -132,11 +161,12 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
 } // namespace
 
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    SeenScene seen = seen_scene(scene.scene, camera);
-    require_held_motions(seen, scene.scene);
-    const Camera start = starting_ahead(seen, camera, settings);
+    const Scene &held = scene.without_tree();
+    SeenScene seen = seen_scene(held, camera);
+    require_held_motions(seen, held);
+    const Camera start = starting_ahead(with_tree_as_ball(seen, scene, camera), camera, settings);
     if (start.start_distance > 0.0)
-        seen = seen_scene(scene.scene, start);
+        seen = seen_scene(held, start);
     return gpu_scene(without_twins(std::move(seen), scene.sphere_order), scene, start, settings);
 }
 
@@ -144,8 +174,8 @@ GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, co
                    const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen);
     const Features features = features_of(distinct, surfaces, scene, start, settings);
-    return {features, words_of(surfaces, scene, features), frame_constants(start, settings, scene.film_unit),
-            scene.film_unit};
+    return {features, words_of(surfaces, scene, start, features), frame_constants(start, settings, scene.film_unit),
+            scene.film_unit, scene.tree};
 }
 
 } // namespace pt

@@ -8,6 +8,7 @@
 #include "lib/scene/camera.h"
 #include "shaders/gpu_layout.h"
 
+#include <memory>
 #include <vector>
 
 namespace pt {
@@ -19,6 +20,7 @@ struct GpuScene {
     std::vector<glm::vec4> words;
     gpu::FrameConstants frame; // what does not change from slice to slice
     double film_unit;
+    std::shared_ptr<const SphereTree> tree; // NULL without
 };
 
 // Throws PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for it.

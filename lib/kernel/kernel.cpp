@@ -53,7 +53,7 @@ std::uint32_t sharers_of_pixel(const vulkan::Device &device, std::uint32_t pixel
 
 } // namespace
 
-Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film,
+Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, vulkan::Buffer *tree,
                std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) :
     device_(device),
     pipelines_(pipelines),
@@ -70,19 +70,21 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
+    tree_(tree ? *tree : scene_),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice") {
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     for (DeviceFilm::Strip &strip : film_.strips()) {
         // No kernel touches the pass before there is one.
-        const std::array buffers = {&scene_, &scene_, &strip.words, &strip.words, &points_};
+        const std::array buffers = {&scene_, &scene_, &strip.words, &strip.words, &points_, &tree_};
         sets_.push_back(trace.bind(buffers));
     }
 }
 
 bool Kernel::can_show(const GpuScene &scene) const {
-    return scene.features == features_ && scene.words.size() == gpu_scene_->words.size();
+    return scene.features == features_ && scene.words.size() == gpu_scene_->words.size() &&
+           scene.tree == gpu_scene_->tree;
 }
 
 void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings) {
@@ -251,7 +253,7 @@ void Kernel::prepare_pass() {
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     std::vector<vulkan::DescriptorSet> sets;
     for (DeviceFilm::Strip &strip : film_.strips()) {
-        const std::array buffers = {&scene_, &scene_, &strip.words, &*strip.pass, &points_};
+        const std::array buffers = {&scene_, &scene_, &strip.words, &*strip.pass, &points_, &tree_};
         sets.push_back(trace.bind(buffers));
     }
     pass_sets_ = std::move(sets);

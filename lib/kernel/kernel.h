@@ -23,9 +23,10 @@ namespace pt {
 
 class Kernel {
 public:
-    // device, pipelines and film must outlive the kernel. Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
-    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, std::shared_ptr<const GpuScene> scene,
-           const RenderSettings &settings);
+    // device, pipelines, film and tree must outlive the kernel. tree: the buffer of the scene's, NULL if it has none.
+    // Throws PT_ERROR_UNSUPPORTED for scenes beyond the device.
+    Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &film, vulkan::Buffer *tree,
+           std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
     const Features &features() const { return features_; }
 
@@ -91,6 +92,7 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
+    vulkan::Buffer &tree_;                         // any, where there is none
     vulkan::Buffer points_;                        // tables of the slices under way
     std::vector<vulkan::DescriptorSet> sets_;      // one per strip of the film
     std::vector<vulkan::DescriptorSet> pass_sets_; // likewise with the pass, if there has been one

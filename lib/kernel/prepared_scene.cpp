@@ -3,6 +3,7 @@
 
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
+#include "lib/tree/outlying.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,7 @@ double film_unit(const std::vector<Material> &materials) {
 
 } // namespace
 
-PreparedScene::PreparedScene(Scene of) : scene(std::move(of)), sphere_order(order_along_line(scene.spheres)) {
+PreparedScene::PreparedScene(Scene of, std::uint32_t tree_from) : scene(std::move(of)) {
     const std::vector<bool> used = is_used(scene);
     for (std::size_t i = 0; i < used.size(); ++i) {
         used_indices.push_back(static_cast<std::uint32_t>(used_materials.size()));
@@ -46,6 +47,22 @@ PreparedScene::PreparedScene(Scene of) : scene(std::move(of)), sphere_order(orde
     film_unit = pt::film_unit(used_materials);
     gloss = std::ranges::any_of(used_materials, is_glossy);
     moves = std::ranges::any_of(scene.spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); });
+    if (scene.spheres.size() >= tree_from)
+        plant_tree();
+    sphere_order = order_along_line(without_tree().spheres);
+}
+
+void PreparedScene::plant_tree() {
+    const std::vector<std::uint32_t> outlying = outlying_spheres(scene.spheres);
+    std::vector<Sphere> inside;
+    inside.reserve(scene.spheres.size() - outlying.size());
+    rest_.emplace(Scene{scene.materials, {}, scene.planes});
+    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i)
+        (std::ranges::binary_search(outlying, i) ? rest_->spheres : inside).push_back(scene.spheres[i]);
+    std::vector<TreeMaterial> materials;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        materials.push_back({used_indices[i], emits(scene.materials[i])});
+    tree = std::make_shared<const SphereTree>(inside, materials, [](double) {});
 }
 
 const std::string &PreparedScene::digest() const {

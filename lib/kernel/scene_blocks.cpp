@@ -18,7 +18,8 @@ SceneBlocks::SceneBlocks(const Features &features) {
         reflection_step = 1;
         word_count = index;
     } else {
-        diffuse = index + (surfaces + 3) / 4;
+        tree = index + (surfaces + 3) / 4;
+        diffuse = tree + (features.tree ? sizeof(gpu::TreeFrame) / sizeof(glm::vec4) : 0);
         specular = diffuse + 1;
         reflection_step = 1 + gloss;
         word_count = diffuse + reflection_step * features.table_materials;

@@ -36,6 +36,14 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphe
     });
 }
 
+// Whether all of a box does, of points of the scene.
+bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, const Camera &camera) {
+    return std::ranges::all_of(planes, [&](const CurvedPlane &plane) {
+        const glm::dvec3 nearest = glm::mix(box.low, box.high, glm::lessThan(plane.normal, glm::dvec3(0.0)));
+        return plane.offset > 0.0 && glm::dot(plane.normal, nearest - camera.position) + plane.offset > 0.0;
+    });
+}
+
 // Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
 // line both ends tell.
 bool holds_camera(const SeenSphere &sphere) {
@@ -48,9 +56,17 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
+// Trips of a walk over the surfaces, and over the tree for two rays. Where invocations go in step it takes as many as
+// any of them: in scenes of 10^6 spheres about 100 on average. Those that take more in all are lost, which is told
+// (tree_walk.glsl).
+std::uint64_t trips_per_walk(const Features &features) {
+    constexpr std::uint64_t tree_trips = 200;
+    return features.surface_count() + (features.tree ? tree_trips : 0);
+}
+
 // Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
-    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
+    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + trips_per_walk(features);
     return (features.max_path_length - 1) * vertex;
 }
 
@@ -82,30 +98,37 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
     const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
     const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
+    const SphereTree *const tree = scene.tree.get();
+    const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
 
     Features features{};
     features.sphere_count = static_cast<std::uint32_t>(surfaces.spheres.size());
     features.plane_count = static_cast<std::uint32_t>(surfaces.planes.size());
-    features.lamp_count = surfaces.lamp_count;
+    features.tree = tree != nullptr;
+    features.tree_lamps = tree_lamps;
+    features.lamp_count = surfaces.lamp_count + tree_lamps;
     features.sky_count = surfaces.sky_count;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.inside = std::ranges::any_of(surfaces.spheres, is_at_or_in);
+    features.inside = std::ranges::any_of(surfaces.spheres, is_at_or_in) || (tree && tree->may_hold(camera));
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
-    features.planes_block = features.curvature || std::ranges::any_of(lamps, is_behind_a_plane);
+    features.planes_block = features.curvature || std::ranges::any_of(lamps, is_behind_a_plane) ||
+                            (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
     features.known_sides = (features.inside || features.curvature || distinct.close_planes) &&
                            std::ranges::all_of(surfaces.planes, has_known_side);
-    features.close_lamps = features.lamp_count > 0 && distinct.close_lamps;
+    features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
     features.starts_ahead = camera.start_distance > 0.0;
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
     features.gloss = scene.gloss;
-    features.motion = scene.moves && camera.shutter_close > camera.shutter_open;
-    features.scene_in_uniform = true;
-    if (SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
+    // Of those in the tree the places are kept as they are at time 0.
+    const bool tree_is_late = tree && tree->moves() && camera.shutter_open > 0.0;
+    features.motion = scene.moves && (camera.shutter_close > camera.shutter_open || tree_is_late);
+    features.scene_in_uniform = !features.tree;
+    if (features.tree || SceneBlocks(features).word_count > gpu::UNIFORM_SCENE_WORDS) {
         features.scene_in_uniform = false;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
@@ -174,6 +197,8 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
+    constants[gpu::ID_TREE] = features.tree ? 1 : 0;
+    constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
@@ -181,11 +206,11 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 std::uint64_t loop_trips_per_sample(const Features &features) {
     // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
     // first vertex, two walks over the lamps to choose among them, and the branches.
-    const std::uint64_t surfaces = features.surface_count();
+    const std::uint64_t walk = trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex =
-        further_lamps(features, branches) * (1 + surfaces) + 2 * std::uint64_t{features.lamp_count};
-    return 1 + surfaces + first_vertex + branches * loop_trips_per_branch(features);
+        further_lamps(features, branches) * (1 + walk) + 2 * std::uint64_t{features.lamp_count};
+    return 1 + walk + first_vertex + branches * loop_trips_per_branch(features);
 }
 
 std::uint64_t surface_tests_per_path(const Features &features) {
@@ -193,7 +218,8 @@ std::uint64_t surface_tests_per_path(const Features &features) {
     // and one to a lamp; an empty scene still costs something.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
-    return std::max<std::uint64_t>(1, features.surface_count()) *
+    constexpr std::uint64_t tree_tests = 100; // a node takes as long as a few surfaces
+    return std::max<std::uint64_t>(1, features.surface_count() + (features.tree ? tree_tests : 0)) *
            (1 + further_lamps(features, branches) + 2 * vertices);
 }
 
@@ -203,6 +229,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.gloss ? PT_FEATURE_GLOSS : 0;
     bits |= features.motion ? PT_FEATURE_MOTION : 0;
     bits |= features.scene_in_uniform ? 0 : PT_FEATURE_LARGE;
+    bits |= features.tree ? PT_FEATURE_TREE : 0;
     return bits;
 }
 

@@ -21,7 +21,7 @@ namespace pt {
 struct Features {
     std::uint32_t sphere_count; // spheres held by centre and radius
     std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
-    std::uint32_t lamp_count;   // emitting ones of sphere_count that can be sampled
+    std::uint32_t lamp_count;   // emitting ones of sphere_count, and of the tree, that can be sampled
     std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
     std::uint32_t max_path_length;
     std::uint32_t estimator;
@@ -38,11 +38,14 @@ struct Features {
     bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
     bool scene_in_uniform; // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share
+    bool tree;                     // most spheres are in a tree, and not among sphere_count
+    std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
 
     bool operator==(const Features &) const = default;
 
     std::uint32_t surface_count() const { return sphere_count + plane_count; }
     std::uint32_t emitting_spheres() const { return lamp_count + sky_count; }
+    std::uint32_t walked_lamps() const { return lamp_count - tree_lamps; }
 };
 
 // A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in the

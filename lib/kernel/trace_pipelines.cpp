@@ -15,9 +15,9 @@ namespace pt {
 
 namespace {
 
-constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eUniformBufferDynamic};
+constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,        vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer,        vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
                                                  std::uint32_t sharers) {
@@ -89,7 +89,7 @@ void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, doubl
 const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,
                                                      std::span<const glm::vec4> words, double seconds) {
     std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
-    if (device_.policy().scene_in_constants && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
+    if (device_.policy().scene_in_constants && features.scene_in_uniform && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
         note_own(own, seconds);
         if (const vulkan::ComputePipeline *const kept = find(own))

@@ -122,7 +122,8 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
         return;
     }
     drop_kernel(); // before the new one takes memory
-    kernel_.emplace(device_, *pipelines_, *film_, scene, settings);
+    plant(scene->tree);
+    kernel_.emplace(device_, *pipelines_, *film_, tree_buffer_ ? &*tree_buffer_ : nullptr, scene, settings);
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =
@@ -130,6 +131,28 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     limits.max_samples = kernel_->max_samples();
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     schedule_.emplace(film_->pixel_count(), limits);
+}
+
+// A tree is uploaded once, whatever kernels come to use it.
+void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
+    if (tree == tree_)
+        return;
+    tree_.reset();
+    tree_buffer_.reset();
+    if (tree) {
+        const auto words = std::as_bytes(std::span(tree->words()));
+        const std::uint64_t limit = device_.limits().max_storage_buffer_range;
+        if (words.size() > limit)
+            throw Error(PT_ERROR_UNSUPPORTED,
+                        BrokenRule{.subject = "scene",
+                                   .member = "sphere_count",
+                                   .value = std::to_string(tree->sphere_count()),
+                                   .rule = "the tree over these spheres takes " + std::to_string(words.size()) +
+                                           " bytes, and this device can bind " + std::to_string(limit)});
+        tree_buffer_.emplace(device_, vulkan::BufferUse::Storage, words.size(), "tree");
+        tree_buffer_->upload(words, 0);
+    }
+    tree_ = tree;
 }
 
 void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {

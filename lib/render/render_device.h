@@ -121,6 +121,7 @@ private:
 
     bool can_clear_at_once() const;
     ResolvePipelines &resolve_pipelines();
+    void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
     void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
     void start_film_work();
@@ -137,6 +138,8 @@ private:
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
+    std::shared_ptr<const SphereTree> tree_; // that is in the buffer
+    std::optional<vulkan::Buffer> tree_buffer_;
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel
     std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path

@@ -105,7 +105,7 @@ void Renderer::discard_samples() noexcept {
 
 void Renderer::set_scene(Scene scene) {
     require_alive();
-    PreparedScene prepared(std::move(scene));
+    PreparedScene prepared(std::move(scene), devices_.front()->device().policy().tree_from);
     discard_samples();
     gpu_scene_.reset();
     scene_ = std::move(prepared);

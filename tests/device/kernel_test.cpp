@@ -30,7 +30,7 @@ protected:
         pt::DeviceFilm film(device, kernel_width, kernel_height, pt::max_strip_pixels(device.limits()));
         device.submit([&](const vk::raii::CommandBuffer &commands) { film.clear(commands, 0, film.pixel_count()); });
         const pt::RenderSettings settings = pt::validated_render(render_of(kernel_width, kernel_height, 3));
-        pt::Kernel kernel(device, pipelines, film, coursework_gpu_scene(settings), settings);
+        pt::Kernel kernel(device, pipelines, film, nullptr, coursework_gpu_scene(settings), settings);
         kernel.finish(kernel.start({0, film.pixel_count(), sample_count, true}, 5, {}, false));
         pt::PixelSums sums;
         sums.resize(film.pixel_count());

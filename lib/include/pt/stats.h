@@ -15,7 +15,8 @@ enum {
     PT_FEATURE_LAMPS = 1,  /**< emitting spheres, sampled directly */
     PT_FEATURE_GLOSS = 2,  /**< specular lobes */
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
-    PT_FEATURE_LARGE = 8   /**< more surfaces than a uniform buffer holds */
+    PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
+    PT_FEATURE_TREE = 16   /**< so many spheres that they are in a tree */
 };
 
 /** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further

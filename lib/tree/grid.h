@@ -1,0 +1,53 @@
+// The integer grid on which a tree holds places: differences of places are exact in it, whatever the camera, so that
+// nothing is made anew when the camera moves.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace pt {
+
+struct Grid {
+    // Coordinates that boxes have at most, in steps: a camera may be as far away again, and differences are still 32-bit
+    // numbers.
+    static constexpr double reach = 0x1p29;
+
+    glm::dvec3 middle; // of the grid, in the scene's units
+    double step;       // a power of two, in the scene's units
+
+    // The finest grid that reaches a distance from its middle, along each axis.
+    Grid(const glm::dvec3 &middle_of, double distance);
+
+    // The place next to a point that it reaches.
+    glm::ivec3 place(const glm::dvec3 &point) const;
+
+    // Where a place is.
+    glm::dvec3 point(const glm::ivec3 &at) const { return middle + step * glm::dvec3(at); }
+};
+
+// A box of places, both ends included; none holds nothing.
+struct GridBox {
+    glm::ivec3 low{INT32_MAX};
+    glm::ivec3 high{INT32_MIN};
+
+    void add(const glm::ivec3 &at) {
+        low = glm::min(low, at);
+        high = glm::max(high, at);
+    }
+
+    void add(const GridBox &other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+
+    bool operator==(const GridBox &) const = default;
+
+    glm::vec3 extent() const { return glm::vec3(high) - glm::vec3(low); }
+};
+
+inline bool meet(const GridBox &a, const GridBox &b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+} // namespace pt

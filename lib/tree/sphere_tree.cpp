@@ -1,0 +1,239 @@
+// Builds and writes the tree; see sphere_tree.h.
+#include "lib/tree/sphere_tree.h"
+
+#include "lib/tree/tree_node.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+
+namespace pt {
+
+namespace {
+
+// Nearer to a surface than this share of the radius, float32 may take the camera to be on the other side.
+constexpr double margin = 0x1p-16;
+
+// As in twins.cpp.
+constexpr double two_spheres = 0.25;
+
+// The box of what spheres take up at any time.
+struct Extent {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const Sphere &sphere) {
+        const glm::dvec3 end = sphere.center + sphere.motion;
+        low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
+        high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
+    }
+};
+
+Grid grid_for(std::span<const Sphere> spheres) {
+    Extent extent;
+    for (const Sphere &sphere : spheres)
+        extent.add(sphere);
+    const glm::dvec3 half = 0.5 * extent.high - 0.5 * extent.low;
+    // A step more than needed on either side, for rounding to places.
+    return {0.5 * extent.low + 0.5 * extent.high, std::max({half.x, half.y, half.z}) * (1.0 + 0x1p-28)};
+}
+
+std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
+    const glm::vec3 centre((sphere.center + 0.5 * sphere.motion - grid.middle) / grid.step);
+    const double radius = sphere.radius + 0.5 * glm::length(sphere.motion);
+    return {centre.x, centre.y, centre.z, static_cast<float>(radius / grid.step)};
+}
+
+std::vector<TreeItem> items_of(std::span<const Sphere> spheres, const Grid &grid) {
+    std::vector<TreeItem> items;
+    items.reserve(spheres.size());
+    for (const Sphere &sphere : spheres)
+        items.push_back({ball_of(sphere, grid), static_cast<std::uint32_t>(items.size())});
+    return items;
+}
+
+glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
+    return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
+}
+
+glm::uvec4 motion_word(const Sphere &sphere) {
+    const glm::vec3 way(sphere.motion);
+    return {std::bit_cast<std::uint32_t>(way.x), std::bit_cast<std::uint32_t>(way.y),
+            std::bit_cast<std::uint32_t>(way.z), 0};
+}
+
+glm::ivec3 centre_of(const glm::uvec4 &word) {
+    return {std::bit_cast<int>(word.x), std::bit_cast<int>(word.y), std::bit_cast<int>(word.z)};
+}
+
+glm::dvec3 way_of(const glm::uvec4 &word) {
+    return {std::bit_cast<float>(word.x), std::bit_cast<float>(word.y), std::bit_cast<float>(word.z)};
+}
+
+} // namespace
+
+SphereTree::SphereTree(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
+                       const std::function<void(double)> &progress) :
+    grid_(grid_for(spheres)),
+    moves_(std::ranges::any_of(spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); })) {
+    const auto are_twins = [&](std::uint32_t a, std::uint32_t b) {
+        return sphere_word(spheres[a], grid_) == sphere_word(spheres[b], grid_) &&
+               motion_word(spheres[a]) == motion_word(spheres[b]);
+    };
+    const TreeShape shape = tree_shape(items_of(spheres, grid_), {are_twins, progress});
+    depth_ = shape.depth;
+    write_spheres(spheres, materials, shape);
+    write_nodes(shape);
+    close_lamps_ = finds_close_lamps();
+}
+
+// All blocks but the nodes'.
+void SphereTree::write_spheres(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
+                               const TreeShape &shape) {
+    // Lamps are numbered as in the scene, of which places are no order.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> lamps; // sphere and place
+    for (std::uint32_t place = 0; place < shape.spheres.size(); ++place)
+        if (materials[spheres[shape.spheres[place]].material].emits)
+            lamps.emplace_back(shape.spheres[place], place);
+    std::ranges::sort(lamps);
+
+    sphere_count_ = static_cast<std::uint32_t>(shape.spheres.size());
+    first_sphere_ = static_cast<std::uint32_t>(shape.nodes.size()) * gpu::TREE_NODE_WORDS;
+    first_motion_ = first_sphere_ + sphere_count_;
+    first_surface_ = first_motion_ + (moves_ ? sphere_count_ : 0);
+    first_lamp_ = first_surface_ + (sphere_count_ + 3) / 4;
+    words_.resize(std::size_t{first_lamp_} + lamps.size());
+
+    for (std::uint32_t place = 0; place < sphere_count_; ++place) {
+        const Sphere &sphere = spheres[shape.spheres[place]];
+        words_[first_sphere_ + place] = sphere_word(sphere, grid_);
+        if (moves_)
+            words_[first_motion_ + place] = motion_word(sphere);
+        words_[first_surface_ + place / 4][static_cast<int>(place % 4)] = materials[sphere.material].index;
+    }
+    for (const auto &[sphere, place] : lamps) {
+        const auto number = static_cast<std::uint32_t>(lamp_materials_.size());
+        const std::uint32_t material = spheres[sphere].material;
+        words_[first_surface_ + place / 4][static_cast<int>(place % 4)] = gpu::TREE_LAMP_BIT + number;
+        words_[first_lamp_ + number] = {place, materials[material].index, 0, 0};
+        lamp_materials_.push_back(material);
+    }
+}
+
+// Boxes come from what is below them, which the order of nodes puts behind them.
+void SphereTree::write_nodes(const TreeShape &shape) {
+    std::vector<GridBox> boxes(shape.nodes.size());
+    for (std::size_t node = shape.nodes.size(); node-- > 0;) {
+        const TreeLinks &links = shape.nodes[node];
+        TreeNode written(links);
+        for (std::uint32_t child = 0; child < links.child_count; ++child)
+            written.set_box(child, child < links.inner_count
+                                       ? boxes[links.first_child + child]
+                                       : box_of_place(links.first_place + child - links.inner_count));
+        boxes[node] = written.box();
+        const auto words = written.words();
+        std::ranges::copy(words, words_.begin() + static_cast<std::ptrdiff_t>(node * gpu::TREE_NODE_WORDS));
+    }
+    box_ = boxes.front();
+}
+
+SphereTree::TreeSphere SphereTree::sphere_at(std::uint32_t place) const {
+    const glm::uvec4 &word = words_[first_sphere_ + place];
+    return {grid_.point(centre_of(word)), moves_ ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
+            std::bit_cast<float>(word.w)};
+}
+
+bool SphereTree::is_far(const Camera &camera) const {
+    const glm::dvec3 steps = glm::abs(camera.position - grid_.middle) / grid_.step;
+    return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
+}
+
+// Of the sphere as the kernel has it, at any time: what rounding adds there is the kernel's margin.
+GridBox SphereTree::box_of_place(std::uint32_t place) const {
+    const glm::uvec4 &word = words_[first_sphere_ + place];
+    const auto radius = static_cast<int>(std::ceil(double{std::bit_cast<float>(word.w)} / grid_.step));
+    const glm::ivec3 centre = centre_of(word);
+    GridBox box{centre - radius, centre + radius};
+    if (moves_) {
+        const glm::dvec3 way = way_of(words_[first_motion_ + place]) / grid_.step;
+        box.low += glm::ivec3(glm::floor(glm::min(way, 0.0)));
+        box.high += glm::ivec3(glm::ceil(glm::max(way, 0.0)));
+    }
+    return box;
+}
+
+// Whether a property holds of some place whose box, or what rounding has made of it, meets a box.
+template <typename Property>
+bool SphereTree::any_in(const GridBox &box, Property &&property) const {
+    std::vector<std::uint32_t> nodes{0};
+    while (!nodes.empty()) {
+        const TreeNodeView node(
+            std::span<const glm::uvec4>(words_).subspan(std::size_t{nodes.back()} * gpu::TREE_NODE_WORDS));
+        nodes.pop_back();
+        for (std::uint32_t child = 0; child < node.child_count(); ++child) {
+            if (!meet(node.box(child), box))
+                continue;
+            if (child < node.inner_count())
+                nodes.push_back(node.first_child() + child);
+            else if (property(node.first_place() + child - node.inner_count()))
+                return true;
+        }
+    }
+    return false;
+}
+
+bool SphereTree::may_hold(const Camera &camera) const {
+    const gpu::TreeFrame seen = frame(camera);
+    const double nearly = margin * static_cast<double>(std::max({box_.extent().x, box_.extent().y, box_.extent().z}));
+    const auto around = static_cast<int>(nearly) + 1;
+    if (!meet(box_, {seen.camera - around, seen.camera + around}) || is_far(camera))
+        return false;
+    return any_in({seen.camera - around, seen.camera + around}, [&](std::uint32_t place) {
+        const TreeSphere sphere = sphere_at(place);
+        const glm::dvec3 open = sphere.centre + camera.shutter_open * sphere.way - camera.position;
+        const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.way;
+        const double length = glm::dot(way, way);
+        const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;
+        return glm::length(open + nearest * way) <= sphere.radius * (1.0 + margin) + grid_.step;
+    });
+}
+
+bool SphereTree::finds_close_lamps() const {
+    for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
+        const std::uint32_t place = words_[first_lamp_ + lamp].x;
+        const TreeSphere sphere = sphere_at(place);
+        const auto is_close = [&](std::uint32_t other_place) {
+            const TreeSphere other = sphere_at(other_place);
+            const double apart = std::max(glm::length(sphere.centre - other.centre),
+                                          glm::length(sphere.centre + sphere.way - other.centre - other.way));
+            const double difference = apart + std::abs(sphere.radius - other.radius);
+            return other_place != place && difference < two_spheres * std::min(sphere.radius, other.radius);
+        };
+        if (any_in(box_of_place(place), is_close))
+            return true;
+    }
+    return false;
+}
+
+// A camera within twice the grid's reach is a place of the grid, and differences from it are exact. For others the
+// middle of the grid is, and what is rounded is small against the distance.
+gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
+    const glm::dvec3 steps = (camera.position - grid_.middle) / grid_.step;
+    gpu::TreeFrame frame{};
+    frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);
+    frame.shift = glm::vec3(grid_.point(frame.camera) - camera.position);
+    frame.step = static_cast<float>(grid_.step);
+    frame.first_sphere = first_sphere_;
+    frame.first_motion = first_motion_;
+    frame.first_surface = first_surface_;
+    frame.first_lamp = first_lamp_;
+    const glm::dvec3 farthest =
+        glm::max(glm::abs(glm::dvec3(box_.low) - steps), glm::abs(glm::dvec3(box_.high) - steps));
+    frame.reach = static_cast<float>(std::max({farthest.x, farthest.y, farthest.z}));
+    frame.shutter_open = static_cast<float>(camera.shutter_open);
+    frame.shutter_time = static_cast<float>(camera.shutter_close - camera.shutter_open);
+    return frame;
+}
+
+} // namespace pt

@@ -1,0 +1,92 @@
+// A tree over spheres as the kernel reads it, for scenes of so many that testing each would take too long. It does not
+// depend on where the camera is. Made by PreparedScene, shared by the kernels of all devices.
+#pragma once
+
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+#include "lib/tree/grid.h"
+#include "lib/tree/sphere_order.h"
+#include "shaders/gpu_layout.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// What the tree has to know of a material.
+struct TreeMaterial {
+    std::uint32_t index; // in the table of those in use
+    bool emits;
+};
+
+// In the scene's coordinates.
+struct PointBox {
+    glm::dvec3 low;
+    glm::dvec3 high;
+};
+
+class SphereTree {
+public:
+    // At least one sphere. materials: those of the scene, by index. progress is called now and then with the share that
+    // is done; what it throws ends the work.
+    SphereTree(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
+               const std::function<void(double)> &progress);
+
+    // The tree buffer of gpu_layout.h.
+    const std::vector<glm::uvec4> &words() const { return words_; }
+
+    // The tree as a camera sees it.
+    gpu::TreeFrame frame(const Camera &camera) const;
+
+    // Spheres in it, without twins, and how deep it is.
+    std::uint32_t sphere_count() const { return sphere_count_; }
+    std::uint32_t depth() const { return depth_; }
+    bool moves() const { return moves_; }
+
+    // Materials of the lamps by number, which is their order in the scene.
+    const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
+
+    // Whether a camera is in a sphere at any time, or so near to it that float32 cannot tell.
+    bool may_hold(const Camera &camera) const;
+
+    // Of all spheres at any time.
+    PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
+
+    // Whether some lamp and another sphere nearly coincide (twins.h).
+    bool has_close_lamps() const { return close_lamps_; }
+
+private:
+    // A sphere as the kernel has it.
+    struct TreeSphere {
+        glm::dvec3 centre; // at time 0
+        glm::dvec3 way;
+        double radius;
+    };
+
+    void write_spheres(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
+                       const TreeShape &shape);
+    void write_nodes(const TreeShape &shape);
+    TreeSphere sphere_at(std::uint32_t place) const;
+    GridBox box_of_place(std::uint32_t place) const;
+    bool is_far(const Camera &camera) const;
+    bool finds_close_lamps() const;
+    template <typename Property>
+    bool any_in(const GridBox &box, Property &&property) const;
+
+    Grid grid_;
+    bool moves_;
+    std::uint32_t depth_ = 0;
+    std::uint32_t sphere_count_ = 0;
+    std::uint32_t first_sphere_ = 0; // words of the buffer, each the end of the block before
+    std::uint32_t first_motion_ = 0;
+    std::uint32_t first_surface_ = 0;
+    std::uint32_t first_lamp_ = 0;
+    bool close_lamps_ = false;
+    GridBox box_;
+    std::vector<std::uint32_t> lamp_materials_;
+    std::vector<glm::uvec4> words_;
+};
+
+} // namespace pt

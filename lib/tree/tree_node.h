@@ -1,0 +1,52 @@
+// A node of a tree as the kernel reads it (gpu_layout.h): links, and the boxes of its children in bytes.
+#pragma once
+
+#include "lib/tree/grid.h"
+#include "lib/tree/sphere_order.h"
+#include "shaders/gpu_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace pt {
+
+class TreeNode {
+public:
+    explicit TreeNode(const TreeLinks &links) : links_(links) {}
+
+    void set_box(std::uint32_t child, const GridBox &box) {
+        boxes_[child] = box;
+        box_.add(box);
+    }
+
+    // Of all children, before they are rounded.
+    const GridBox &box() const { return box_; }
+
+    // The children's boxes are rounded outwards.
+    std::array<glm::uvec4, gpu::TREE_NODE_WORDS> words() const;
+
+private:
+    TreeLinks links_;
+    GridBox box_;
+    std::array<GridBox, tree_width> boxes_{};
+};
+
+// Reads what TreeNode has written, in the words from that of a node on.
+class TreeNodeView {
+public:
+    explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}
+
+    std::uint32_t child_count() const { return words_[0].w >> 16 & 7; }
+    std::uint32_t inner_count() const { return words_[0].w >> 20 & 7; }
+    std::uint32_t first_child() const { return words_[1].x; }
+    std::uint32_t first_place() const { return words_[1].y; }
+
+    // Of a child, as rounded.
+    GridBox box(std::uint32_t child) const;
+
+private:
+    std::span<const glm::uvec4> words_;
+};
+
+} // namespace pt

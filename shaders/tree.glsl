@@ -1,0 +1,57 @@
+// Access to the tree buffer as gpu_layout.h describes it. Part of scene.glsl.
+#ifndef TREE_GLSL
+#define TREE_GLSL
+
+layout(set = 0, binding = BINDING_TREE) readonly buffer TreeStorage { uvec4 words[]; } tree;
+
+// The scene buffer's words as they are where they are no floats.
+layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uvec4 words[]; } scene_bits;
+
+// Of TreeFrame.
+ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
+vec3 tree_shift() { return scene_storage.words[TREE_FRAME + 1u].xyz; }
+float tree_step() { return scene_storage.words[TREE_FRAME + 1u].w; }
+float tree_reach() { return scene_storage.words[TREE_FRAME + 2u].w; }
+float tree_time(float time)
+{
+    vec4 word = scene_storage.words[TREE_FRAME + 3u];
+    return word.x + time * word.y;
+}
+uint tree_first_sphere() { return scene_bits.words[TREE_FRAME].w; }
+uint tree_first_motion() { return scene_bits.words[TREE_FRAME + 2u].x; }
+uint tree_first_surface() { return scene_bits.words[TREE_FRAME + 2u].y; }
+uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 2u].z; }
+
+// Centre and radius of the sphere at a place, at a time.
+vec4 tree_sphere(uint place, float time)
+{
+    uvec4 word = tree.words[tree_first_sphere() + place];
+    vec3 centre = vec3(ivec3(word.xyz) - tree_camera()) * tree_step() + tree_shift();
+    if (MOTION == 1)
+        centre += tree_time(time) * uintBitsToFloat(tree.words[tree_first_motion() + place].xyz);
+    return vec4(centre, uintBitsToFloat(word.w));
+}
+
+uint tree_surface(uint place)
+{
+    return tree.words[tree_first_surface() + place / 4u][place % 4u];
+}
+
+// The number among the tree's lamps, or no less than TREE_LAMPS.
+uint tree_lamp(uint place)
+{
+    uint word = tree_surface(place);
+    return (word & TREE_LAMP_BIT) != 0u ? word - TREE_LAMP_BIT : NO_SURFACE;
+}
+
+uint tree_lamp_place(uint lamp) { return tree.words[tree_first_lamp() + lamp].x; }
+
+// The place of a sphere's material in the table.
+uint tree_material(uint place)
+{
+    uint word = tree_surface(place);
+    bool is_lamp = TREE_LAMPS > 0u && (word & TREE_LAMP_BIT) != 0u;
+    return is_lamp ? tree.words[tree_first_lamp() + (word - TREE_LAMP_BIT)].y : word;
+}
+
+#endif

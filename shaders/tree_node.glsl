@@ -1,0 +1,123 @@
+// A node of the tree over spheres, as gpu_layout.h lays it out, and which of its children a ray enters.
+#ifndef TREE_NODE_GLSL
+#define TREE_NODE_GLSL
+
+#include "scene.glsl"
+
+// What a walk needs of a ray, in steps of the grid, with places relative to the camera's.
+struct GridRay {
+    vec3 origin;
+    float margin; // by which boxes are taken to be larger
+};
+
+// Boxes hold the spheres exactly, but a hit is computed with rounding: as if the sphere's centre were elsewhere by at
+// most 2^-21 of |origin| + |centre|, which sums a rounding of the centre, one of its difference from the origin, and
+// four of the dot products; the distances of a box's sides are off by less. Twice that covers both.
+GridRay grid_ray(vec3 origin)
+{
+    vec3 from = (origin - tree_shift()) / tree_step();
+    vec3 far = abs(from);
+    return GridRay(from, 1.9073486e-6 * (max(far.x, max(far.y, far.z)) + tree_reach())); // 2^-19
+}
+
+// 1 / direction, per step of the grid, and finite: a component that is nearly 0 moves the ray by less than the margin.
+vec3 inverse_of(vec3 direction)
+{
+    const float least = 8.6736174e-19; // 2^-60
+    vec3 sides = vec3(direction.x < 0.0 ? -least : least, direction.y < 0.0 ? -least : least,
+                      direction.z < 0.0 ? -least : least);
+    return tree_step() / mix(direction, sides, lessThan(abs(direction), vec3(least)));
+}
+
+// Children of a node that a ray has yet to enter, nearest first: places in the node of two bits each.
+struct Group {
+    uint first_child;
+    uint places;
+    uint count;
+};
+
+// In a word, for the stack: up to three places, the last of which is repeated where there are fewer.
+uint packed_group(Group group)
+{
+    uint a = group.places & 3u;
+    uint b = group.count > 1u ? (group.places >> 2) & 3u : a;
+    uint c = group.count > 2u ? (group.places >> 4) & 3u : b;
+    return (group.first_child << 6) | (c << 4) | (b << 2) | a;
+}
+
+Group unpacked_group(uint word)
+{
+    uint a = word & 3u;
+    uint b = (word >> 2) & 3u;
+    uint c = (word >> 4) & 3u;
+    return Group(word >> 6, word & 63u, a == b ? 1u : b == c ? 2u : 3u);
+}
+
+// Byte i of a word as 1 + byte / 256, made of bits.
+float byte_as_float(uint word, uint i)
+{
+    uint bits = i == 0u ? word << 15 : i == 1u ? word << 7 : i == 2u ? word >> 1 : word >> 9;
+    return uintBitsToFloat((bits & 0x7f8000u) | 0x3f800000u);
+}
+
+// What a ray enters of a node before a distance: the inner children, nearest first, and, as bits, which of its spheres'
+// boxes. Distances are compared as the integers that their bits are: of those that are not negative that is the order,
+// and those that are negative lose against 0, as they should.
+struct Entered {
+    Group inner;
+    uint first_place; // of the node's spheres
+    uint spheres;     // bit i: of the sphere at first_place + i
+};
+
+Entered enter_node(uint node, GridRay ray, vec3 inverse, float before)
+{
+    uvec4 head = tree.words[3u * node];
+    uvec4 links = tree.words[3u * node + 1u];
+    uvec4 sides = tree.words[3u * node + 2u];
+    uvec3 low = uvec3(links.z, links.w, sides.x);
+    uvec3 high = sides.yzw;
+    bvec3 backwards = lessThan(inverse, vec3(0.0));
+    uvec3 nearer = uvec3(backwards.x ? high.x : low.x, backwards.y ? high.y : low.y, backwards.z ? high.z : low.z);
+    uvec3 farther = uvec3(backwards.x ? low.x : high.x, backwards.y ? low.y : high.y, backwards.z ? low.z : high.z);
+
+    // Along the ray: 256 of the node's own steps, and the node's corner less as much, for what byte_as_float adds.
+    uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
+    vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
+    vec3 corner = (vec3(ivec3(head.xyz) - tree_camera()) - ray.origin) * inverse - width;
+    vec3 margin = ray.margin * abs(inverse);
+    vec3 nearer_corner = corner - margin;
+    vec3 farther_corner = corner + margin;
+    int latest = max(floatBitsToInt(before), 0);
+
+    uint inner_count = (head.w >> 20) & 7u;
+    uint child_count = (head.w >> 16) & 7u;
+    uint keys[TREE_WIDTH]; // of an inner child that is entered: the distance, but for two bits that tell which it is
+    uint entered = 0u;
+    uint i = 0u;
+    [[unroll]] do {
+        vec3 low_side = vec3(byte_as_float(nearer.x, i), byte_as_float(nearer.y, i), byte_as_float(nearer.z, i));
+        vec3 high_side = vec3(byte_as_float(farther.x, i), byte_as_float(farther.y, i), byte_as_float(farther.z, i));
+        ivec3 begins = floatBitsToInt(low_side * width + nearer_corner);
+        ivec3 ends = floatBitsToInt(high_side * width + farther_corner);
+        int begin = max(max(begins.x, begins.y), max(begins.z, 0));
+        int end = min(min(ends.x, ends.y), min(ends.z, latest));
+        entered |= begin <= end ? 1u << i : 0u;
+        keys[i] = begin <= end && i < inner_count ? (uint(begin) & ~3u) | i : ~0u;
+        ++i;
+    } while (i < TREE_WIDTH);
+    entered &= (1u << child_count) - 1u;
+
+    // The four keys in order, by a sorting network.
+    uint a = min(keys[0], keys[1]);
+    uint b = max(keys[0], keys[1]);
+    uint c = min(keys[2], keys[3]);
+    uint d = max(keys[2], keys[3]);
+    uint lower = max(a, c);
+    uint upper = min(b, d);
+    uint places = (min(a, c) & 3u) | ((min(lower, upper) & 3u) << 2) | ((max(lower, upper) & 3u) << 4) |
+                  ((max(b, d) & 3u) << 6);
+    uint inner = uint(bitCount(entered & ((1u << inner_count) - 1u)));
+    return Entered(Group(links.x, places, inner), links.y, entered >> inner_count);
+}
+
+#endif
