@@ -43,6 +43,7 @@ struct CreateSettings {
     vulkan::KernelStore kernel_store;
     std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
     bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
+    std::optional<std::uint32_t> tree_from; // DevicePolicy's: for tests of trees over few spheres
 };
 
 // All Vulkan devices of this machine.

@@ -40,8 +40,9 @@ public:
     // The tree as a camera sees it.
     gpu::TreeFrame frame(const Camera &camera) const;
 
-    // Spheres in it, without twins, and how deep it is.
+    // Spheres in it, without twins, and nodes, of which so many are on the way to the deepest.
     std::uint32_t sphere_count() const { return sphere_count_; }
+    std::uint32_t node_count() const { return first_sphere_ / gpu::TREE_NODE_WORDS; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
 

@@ -4,6 +4,7 @@
 
 #include "lib/film/pixel_sums.h"
 #include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/specialised_code.h"
 #include "pathtrace.spv.h"
 #include "tests/device/film_words.h"
 #include "tests/device/probe.h"
@@ -24,16 +25,21 @@ public:
 
     static constexpr std::uint32_t width = 16;
     static constexpr std::uint32_t height = 12;
-    static constexpr std::uint32_t sample_count = 16;
+    static constexpr std::uint32_t most_samples = 16;
     static constexpr std::uint64_t seed = 7;
 
     KernelRender(const pt::Scene &scene, const pt::Camera &camera, std::uint32_t max_path_length = 4) :
         KernelRender(pt::gpu_scene(pt::PreparedScene(scene), camera, settings(max_path_length))) {}
 
     explicit KernelRender(pt::GpuScene scene) : scene_(std::move(scene)), frame_(scene_.frame) {
+        if (scene_.tree)
+            tree_ = scene_.tree->words();
         frame_.strip_pixel_count = frame_.pixel_count = width * height;
-        frame_.sample_count = sample_count;
+        frame_.sample_count = most_samples;
     }
+
+    // Fewer samples of a pixel.
+    void take(std::uint32_t samples) { frame_.sample_count = samples; }
 
     static pt::RenderSettings settings(std::uint32_t max_path_length) {
         return {width, height, max_path_length, seed, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_SOBOL, 0, height};
@@ -53,22 +59,39 @@ public:
                              const std::vector<glm::vec4> &words) const {
         Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
         set_scene_for(probe, source, words);
-        std::vector<std::uint32_t> indices(sample_count);
+        return film_by(probe);
+    }
+
+    // The kernel with the scene that has a tree: films by it are those of the tree as it is then.
+    Probe probe_of_tree() const {
+        const auto constants = with_scene_source(this->constants(), pt::gpu::SCENE_IN_STORAGE, words());
+        Probe probe(pt::specialised_code(pathtrace_spirv, constants), sizeof frame_, constants);
+        probe.set_scene(words());
+        return probe;
+    }
+
+    FilmWords film_by(Probe &probe) const {
+        probe.set_tree(tree_);
+        std::vector<std::uint32_t> indices(most_samples);
         std::iota(indices.begin(), indices.end(), 0U);
         probe.set_points(pt::point_table(PT_SAMPLER_SOBOL, seed, indices, pt::point_layout(scene_.features)));
         return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height,
                                         frame_, width * height);
     }
 
+    // The words of the tree, if the scene has one, for a test to change.
+    std::vector<glm::uvec4> &tree() { return tree_; }
+
     // What the film shows. Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
-        sums.require_samples({sample_count, 0});
+        sums.require_samples({frame_.sample_count, 0});
         return sums.estimates(scene_.film_unit, false).radiance;
     }
 
 private:
     pt::GpuScene scene_;
+    std::vector<glm::uvec4> tree_;
     pt::gpu::FrameConstants frame_;
 };
 

@@ -21,7 +21,7 @@ using FilmWords = KernelRender::FilmWords;
 
 constexpr std::uint32_t source_width = KernelRender::width;
 constexpr std::uint32_t source_height = KernelRender::height;
-constexpr std::uint32_t sample_count = KernelRender::sample_count;
+constexpr std::uint32_t sample_count = KernelRender::most_samples;
 
 // Whether the kernel makes the same film of the words of the scene, where source says that it finds them, as of the
 // scene.

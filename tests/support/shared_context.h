@@ -1,4 +1,4 @@
-// pt_create where the work is to be shared by several devices and there may be one alone: it is taken more than once.
+// pt_create with settings that only tests have.
 #pragma once
 
 #include "lib/api/context.h"
@@ -6,13 +6,22 @@
 #include <cstdint>
 #include <memory>
 
-// like_gpus: CPUs are used as GPUs are.
+// Where the work is to be shared by several devices and there may be one alone, it is taken more than once. like_gpus: CPUs are used as GPUs are.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
                                bool like_gpus = false) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(info);
         settings.devices_of_each = devices_of_each;
         settings.like_gpus = like_gpus;
+        *context = std::make_unique<pt_context>(settings).release();
+    });
+}
+
+// Spheres are in a tree, however few they are.
+inline pt_result create_with_tree(const pt_create_info *info, pt_context **context) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::CreateSettings settings = pt::validated_create(*info);
+        settings.tree_from = 1;
         *context = std::make_unique<pt_context>(settings).release();
     });
 }

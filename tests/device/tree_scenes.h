@@ -1,0 +1,99 @@
+// Random scenes of many spheres, each of some kind that is hard for a tree. Used by the tests of trees.
+#pragma once
+
+#include "lib/scene/camera.h"
+#include "lib/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+
+class TreeScenes {
+public:
+    explicit TreeScenes(std::uint32_t seed) : engine_(seed) {}
+
+    // Of 1 to most spheres, of a kind that goes round.
+    pt::Scene next(std::size_t most) {
+        const auto count = static_cast<std::size_t>(std::exp(uniform(0.0, std::log(static_cast<double>(most) + 0.99))));
+        kind_ = (kind_ + 1) % kind_count;
+        pt::Scene scene;
+        scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
+                           {glm::vec3(0.7F, 0.4F, 0.2F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F},
+                           {glm::vec3(0.1F), glm::vec3(0.8F), glm::vec3(0.0F), 300.0F}};
+        if (uniform(0.0, 1.0) < 0.5)
+            scene.planes.push_back({{0, 1, 0}, 2.5, 1});
+        for (std::size_t i = 0; i < count; ++i)
+            scene.spheres.push_back(sphere(i, count));
+        scene.spheres[count / 2].material = 0;
+        return scene;
+    }
+
+    // Towards the middle of the scene; of some scenes from a sphere.
+    pt::Camera camera(const pt::Scene &scene) {
+        pt::Camera camera{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+        camera.position =
+            uniform(0.0, 1.0) < 0.2 ? scene.spheres[scene.spheres.size() / 3].center : glm::dvec3(0.1, 0.2, 6);
+        return camera;
+    }
+
+    std::string kind() const {
+        constexpr const char *names[kind_count] = {"uniform", "clustered", "nested", "overlapping",
+                                                   "lattice", "far",       "huge",   "moving"};
+        return names[kind_];
+    }
+
+    double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+
+private:
+    static constexpr int kind_count = 8;
+
+    glm::dvec3 point(double reach) { return {uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach)}; }
+
+    pt::Sphere sphere(std::size_t i, std::size_t count) {
+        const double spacing = 4.0 / std::cbrt(static_cast<double>(count));
+        const auto material = static_cast<std::uint32_t>(i % 50 == 7 ? 0 : 1 + i % 2);
+        pt::Sphere sphere{point(2.0), 0.4 * spacing * uniform(0.3, 1.0), glm::dvec3(0.0), material};
+        switch (kind_) {
+        case 1: // one in three at a place of its own, the others within a thousandth
+            sphere.center = i % 3 == 0 ? point(2.0) : glm::dvec3(0.5, -0.3, 1.0) + 1e-3 * point(1.0);
+            sphere.radius *= i % 3 == 0 ? 1.0 : 1e-3;
+            break;
+        case 2: // one in the other, by less than a hundredth
+            sphere.center = glm::dvec3(0.0);
+            sphere.radius = 0.5 + 1.5 * static_cast<double>(i) / static_cast<double>(count);
+            break;
+        case 3:
+            sphere.radius = uniform(0.5, 1.0);
+            break;
+        case 4: { // touching, on whole numbers of halves
+            const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(count))));
+            sphere.center = 0.5 * glm::dvec3(static_cast<double>(i % side), static_cast<double>(i / side % side),
+                                             static_cast<double>(i / side / side)) -
+                            1.0;
+            sphere.radius = 0.25;
+            break;
+        }
+        case 5: // from the middle
+            sphere.center *= std::pow(10.0, uniform(0.0, 3.0));
+            break;
+        case 6: // radii over six decades
+            if (i % 10 == 0) {
+                sphere.radius = std::pow(10.0, uniform(0.0, 6.0));
+                sphere.center = glm::dvec3(0, -2.5 - sphere.radius, 0);
+            }
+            break;
+        case 7:
+            sphere.motion = i % 2 == 0 ? point(1.0) : glm::dvec3(0.0);
+            break;
+        default:
+            break;
+        }
+        return sphere;
+    }
+
+    std::mt19937 engine_;
+    int kind_ = kind_count - 1;
+};

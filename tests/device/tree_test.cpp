@@ -1,0 +1,100 @@
+// Walks through a tree against tests of every sphere: all bits of films. Run alone with --gtest_filter=Tree*;
+// PT_TEST_TREE_SCENES asks for more scenes than the few of a test run.
+#include "tests/device/kernel_render.h"
+#include "tests/device/tree_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace {
+
+using FilmWords = KernelRender::FilmWords;
+
+std::size_t scene_count() {
+    const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
+    return wanted ? std::stoul(wanted) : 24;
+}
+
+std::size_t most_spheres() {
+    return scene_count() > 100 ? 2000 : 600;
+}
+
+constexpr std::uint32_t word_of_sides[6][2] = {{1, 2}, {1, 3}, {2, 0}, {2, 1}, {2, 2}, {2, 3}}; // low x, y, z, high
+
+// Nodes of the same tree with other boxes: head and sides, of the low and the high ones, as change makes them.
+template <typename Change>
+void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Change &&change) {
+    for (std::uint32_t node = 0; node < node_count; ++node) {
+        glm::uvec4 *const words = &tree[std::size_t{node} * pt::gpu::TREE_NODE_WORDS];
+        std::uint32_t *sides[6];
+        for (int i = 0; i < 6; ++i)
+            sides[i] = &words[word_of_sides[i][0]][static_cast<int>(word_of_sides[i][1])];
+        change(words[0], sides);
+    }
+}
+
+// Every box holds all places of the grid, so that a walk tests every sphere.
+void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
+    change_boxes(tree, node_count, [](glm::uvec4 &head, std::uint32_t *const sides[6]) {
+        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps
+        head = {0xc0000000U, 0xc0000000U, 0xc0000000U, (head.w & ~0x7fffU) | exponents};
+        for (int i = 0; i < 6; ++i)
+            *sides[i] = i < 3 ? 0U : 0xffffffffU;
+    });
+}
+
+// Every box lacks a share of its width: 8 of up to 255 on each side.
+void shrink_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
+    change_boxes(tree, node_count, [](const glm::uvec4 &, std::uint32_t *const sides[6]) {
+        for (int i = 0; i < 6; ++i)
+            for (int shift = 0; shift < 32; shift += 8) {
+                const std::uint32_t side = *sides[i] >> shift & 255;
+                const std::uint32_t moved = i < 3 ? std::min(side + 8, 255U) : std::max(side, 8U) - 8;
+                *sides[i] = (*sides[i] & ~(255U << shift)) | moved << shift;
+            }
+    });
+}
+
+// Whether films of a walk are those of testing every sphere, with boxes as they are and with boxes that are too small.
+struct Compared {
+    bool same;
+    bool shrunk_same;
+};
+
+Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
+    const pt::PreparedScene prepared(scene, 1);
+    // Testing every sphere takes loop trips, of which some drivers allow 65,535.
+    const std::size_t spheres = scene.spheres.size();
+    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));
+    render.take(spheres > 400 ? 2 : spheres > 40 ? 4 : 8);
+    Probe probe = render.probe_of_tree();
+    const FilmWords walked = render.film_by(probe);
+    render.radiance(walked); // no sample is lost
+    shrink_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords shrunk = render.film_by(probe);
+    open_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords tested = render.film_by(probe);
+    render.radiance(tested);
+    return {walked == tested, shrunk == tested};
+}
+
+TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
+    TreeScenes scenes(1);
+    std::size_t caught = 0;
+    for (std::size_t i = 0; i < scene_count(); ++i) {
+        const pt::Scene scene = scenes.next(most_spheres());
+        const pt::Camera camera = scenes.camera(scene);
+        SCOPED_TRACE("scene " + std::to_string(i) + ": " + scenes.kind() + ", " + std::to_string(scene.spheres.size()));
+        const Compared compared = compare(scene, camera);
+        EXPECT_TRUE(compared.same);
+        caught += compared.shrunk_same ? 0 : 1;
+    }
+    EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
+}
+
+} // namespace
