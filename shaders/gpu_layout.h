@@ -167,18 +167,18 @@ PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
 
 // Of the tree as a camera sees it: a place p of the grid is at (p - camera) step + shift from it.
 struct TreeFrame {
-    ivec3 camera;       // as a place of the grid
+    ivec3 camera;       // a place of the grid
     uint first_sphere;  // word of the tree buffer
     vec3 shift;
     float step;         // a power of two
+    vec3 middle;        // of the grid
+    float shutter_open; // in units of time of motion
     uint first_motion;  // words of the tree buffer
     uint first_surface;
     uint first_lamp;
-    float reach;        // the farthest that a box of the tree is from the camera, along any axis, in steps
-    float shutter_open; // in units of time of motion
     float shutter_time; // while the shutter is open
-    uvec2 reserved;
 };
+PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
 // Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.
@@ -280,7 +280,7 @@ static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConsta
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
-static_assert(sizeof(TreeFrame) == 64 && offsetof(TreeFrame, shift) == 16 && offsetof(TreeFrame, reach) == 44);
+static_assert(sizeof(TreeFrame) == 64 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 } // namespace pt::gpu

@@ -36,6 +36,8 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
 bool is_blocked(Start start, float time, ShadowRay towards_lamp)
 {
     ShadowRay shadow = ended_as_met(towards_lamp, start, time);
+    if (TREE == 1u)
+        shadow = ended_as_met_in_tree(shadow, start, time);
     bool blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
     if (PLANES_BLOCK == 1)
@@ -71,6 +73,8 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, bool carries
                            out bool blocked)
 {
     ShadowRay shadow = ended_as_met(towards_lamp, start, time);
+    if (TREE == 1u)
+        shadow = ended_as_met_in_tree(shadow, start, time);
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));

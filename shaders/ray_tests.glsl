@@ -139,7 +139,7 @@ void shade_sphere(inout bool blocked, Start start, ShadowRay shadow, uint sphere
         blocked = blocked || blocks(shadow, distance_to_sphere(start, shadow.direction, sphere, centre_radius), sphere);
         return;
     }
-    bool at_end = sphere == start.surface || (may_be_lamp(sphere) && sphere == shadow.lamp);
+    bool at_end = sphere == start.surface || (sphere < WALKED_LAMPS && sphere == shadow.lamp);
     vec3 to_centre = centre_radius.xyz - start.origin;
     bool between = sphere_blocks(to_centre, centre_radius.w, shadow.direction, at_end, shadow.distance);
     blocked = blocked || between;
@@ -155,8 +155,8 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
 // both send is counted once. A lamp that the ray misses by rounding is where it was sampled.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
-    if (CLOSE_LAMPS == 1 && shadow.distance > 0.0) {
-        vec4 lamp = sphere_of_lamp_surface(shadow.lamp, time);
+    if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {
+        vec4 lamp = sphere_among(WALKED_LAMPS, shadow.lamp, time);
         float distance = distance_to_sphere(start, shadow.direction, shadow.lamp, lamp);
         shadow.distance = distance < NO_HIT ? distance : shadow.distance;
     }

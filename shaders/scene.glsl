@@ -202,7 +202,7 @@ vec4 sphere_of(uint surface, float time)
     return sphere_among(SPHERE_COUNT, surface, time);
 }
 
-// ... and of any lamp, by its number and by its surface.
+// ... and of any lamp, by its number.
 vec4 sphere_of_lamp(uint lamp, float time)
 {
     if (TREE_LAMPS > 0u && lamp >= WALKED_LAMPS)
@@ -210,18 +210,8 @@ vec4 sphere_of_lamp(uint lamp, float time)
     return sphere_among(WALKED_LAMPS, lamp, time);
 }
 
-vec4 sphere_of_lamp_surface(uint surface, float time)
-{
-    if (TREE_LAMPS > 0u && surface >= SURFACE_COUNT)
-        return tree_sphere(surface - SURFACE_COUNT, time);
-    return sphere_among(WALKED_LAMPS, surface, time);
-}
-
-// Of a surface that is a loop's index, whether the numbers alone leave it open that it is a lamp.
-bool may_be_lamp(uint surface)
-{
-    return surface < WALKED_LAMPS || (TREE_LAMPS > 0u && surface >= SURFACE_COUNT);
-}
+// Whether the scene buffer has a lamp, by its surface.
+bool is_walked_lamp(uint surface) { return TREE_LAMPS == 0u || surface < WALKED_LAMPS; }
 
 // Where a point lies with respect to a plane.
 struct Level {

@@ -9,27 +9,32 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uve
 
 // Of TreeFrame.
 ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
+uint tree_first_sphere() { return scene_bits.words[TREE_FRAME].w; }
 vec3 tree_shift() { return scene_storage.words[TREE_FRAME + 1u].xyz; }
 float tree_step() { return scene_storage.words[TREE_FRAME + 1u].w; }
-float tree_reach() { return scene_storage.words[TREE_FRAME + 2u].w; }
-float tree_time(float time)
-{
-    vec4 word = scene_storage.words[TREE_FRAME + 3u];
-    return word.x + time * word.y;
-}
-uint tree_first_sphere() { return scene_bits.words[TREE_FRAME].w; }
-uint tree_first_motion() { return scene_bits.words[TREE_FRAME + 2u].x; }
-uint tree_first_surface() { return scene_bits.words[TREE_FRAME + 2u].y; }
-uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 2u].z; }
+vec3 tree_middle() { return scene_storage.words[TREE_FRAME + 2u].xyz; }
+float tree_shutter_open() { return scene_storage.words[TREE_FRAME + 2u].w; }
+uint tree_first_motion() { return scene_bits.words[TREE_FRAME + 3u].x; }
+uint tree_first_surface() { return scene_bits.words[TREE_FRAME + 3u].y; }
+uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].z; }
+float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 3u].w; }
 
-// Centre and radius of the sphere at a place, at a time.
-vec4 tree_sphere(uint place, float time)
+// Centre and radius of the sphere at a place and a time, as seen from a place of the grid and so many steps from there.
+vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
 {
     uvec4 word = tree.words[tree_first_sphere() + place];
-    vec3 centre = vec3(ivec3(word.xyz) - tree_camera()) * tree_step() + tree_shift();
-    if (MOTION == 1)
-        centre += tree_time(time) * uintBitsToFloat(tree.words[tree_first_motion() + place].xyz);
+    vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
+    if (MOTION == 1) {
+        vec3 way = uintBitsToFloat(tree.words[tree_first_motion() + place].xyz);
+        centre += (tree_shutter_open() + time * tree_shutter_time()) * way;
+    }
     return vec4(centre, uintBitsToFloat(word.w));
+}
+
+// The same as seen from the camera.
+vec4 tree_sphere(uint place, float time) 
+{
+    return tree_sphere_from(tree_camera(), -tree_shift() / tree_step(), place, time);
 }
 
 uint tree_surface(uint place)

@@ -4,20 +4,46 @@
 
 #include "scene.glsl"
 
-// What a walk needs of a ray, in steps of the grid, with places relative to the camera's.
+// A ray on the grid: of which differences from places are exact, so that what is computed of a sphere is as precise as it
+// is near, wherever the camera is.
 struct GridRay {
-    vec3 origin;
-    float margin; // by which boxes are taken to be larger
+    ivec3 base;    // the place next to the ray's start
+    vec3 rest;     // from there to the start, in steps
+    float advance; // from the ray's origin to the start
+    float margin;  // by which boxes are taken to be larger, in steps
+    bool is_near;  // whether the ray may come near the tree at all
 };
 
-// Boxes hold the spheres exactly, but a hit is computed with rounding: as if the sphere's centre were elsewhere by at
-// most 2^-21 of |origin| + |centre|, which sums a rounding of the centre, one of its difference from the origin, and
-// four of the dot products; the distances of a box's sides are off by less. Twice that covers both.
-GridRay grid_ray(vec3 origin)
+// A ray that comes from far away starts where it comes to the ball about the grid: the rounding there, of 2^-24 of the way,
+// is that of a ray which is a little different, but the same for all spheres. Otherwise each sphere, and the box of each
+// node, would have to be taken for as much larger.
+// Boxes hold the spheres exactly, but a hit is computed with rounding: as if the centre were elsewhere by at most 2^-21 of
+// its distance, which sums a rounding of the distance and four of the dot products; for the sides of boxes it is less.
+// Four times that is the margin.
+GridRay grid_ray(vec3 origin, vec3 direction)
 {
-    vec3 from = (origin - tree_shift()) / tree_step();
-    vec3 far = abs(from);
-    return GridRay(from, 1.9073486e-6 * (max(far.x, max(far.y, far.z)) + tree_reach())); // 2^-19
+    const float reach = float(TREE_REACH);
+    const float margin = 1.9073486e-6; // 2^-19
+    GridRay ray;
+    ray.advance = 0.0;
+    ray.is_near = true;
+    vec3 to_middle = tree_middle() - origin;
+    vec3 far = abs(to_middle);
+    if (max(far.x, max(far.y, far.z)) > 2.0 * reach * tree_step()) {
+        float radius = 1.75 * reach * tree_step(); // more than sqrt(3) reaches
+        float b = dot(to_middle, direction);
+        vec3 across = to_middle - b * direction;
+        ray.is_near = b > 0.0 && dot(across, across) < radius * radius;
+        ray.advance = ray.is_near ? b - radius : 0.0;
+        origin += ray.advance * direction;
+    }
+    vec3 from_camera = (origin - tree_shift()) / tree_step();
+    vec3 place = floor(clamp(from_camera, -3.0 * reach, 3.0 * reach) + 0.5);
+    ray.base = tree_camera() + ivec3(place);
+    ray.rest = from_camera - place;
+    uvec3 size = uvec3(abs(ray.base));
+    ray.margin = margin * (float(max(size.x, max(size.y, size.z))) + reach);
+    return ray;
 }
 
 // 1 / direction, per step of the grid, and finite: a component that is nearly 0 moves the ray by less than the margin.
@@ -83,7 +109,7 @@ Entered enter_node(uint node, GridRay ray, vec3 inverse, float before)
     // Along the ray: 256 of the node's own steps, and the node's corner less as much, for what byte_as_float adds.
     uvec3 exponents = uvec3(head.w, head.w >> 5, head.w >> 10) & 31u;
     vec3 width = uintBitsToFloat((exponents + 135u) << 23) * inverse;
-    vec3 corner = (vec3(ivec3(head.xyz) - tree_camera()) - ray.origin) * inverse - width;
+    vec3 corner = (vec3(ivec3(head.xyz) - ray.base) - ray.rest) * inverse - width;
     vec3 margin = ray.margin * abs(inverse);
     vec3 nearer_corner = corner - margin;
     vec3 farther_corner = corner + margin;

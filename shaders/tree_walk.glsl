@@ -16,27 +16,62 @@ void keep_closer_of_tree(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
+// Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
+float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, vec4 ball, float time)
+{
+    vec3 from_side = KNOWN_SIDES == 1 ? tree_sphere(surface - SURFACE_COUNT, time).xyz : ball.xyz;
+    bool outside = dot(from_side, from_side) > ball.w * ball.w;
+    bool leaving = surface == start.surface;
+    return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
+}
+
+bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, vec4 ball, float time)
+{
+    if (INSIDE == 1 || CLOSE_LAMPS == 1)
+        return blocks(shadow, distance_in_tree(start, ray, shadow.direction, surface, ball, time), surface);
+    bool at_end = surface == start.surface || surface == shadow.lamp;
+    return sphere_blocks(ball.xyz, ball.w, shadow.direction, at_end, shadow.distance - ray.advance);
+}
+
+// See ended_as_met of ray_tests.glsl.
+ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
+{
+    if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && shadow.distance > 0.0 && shadow.lamp >= SURFACE_COUNT) {
+        GridRay ray = grid_ray(start.origin, shadow.direction);
+        vec4 ball = tree_sphere_from(ray.base, ray.rest, shadow.lamp - SURFACE_COUNT, time);
+        float distance = distance_in_tree(start, ray, shadow.direction, shadow.lamp, ball, time);
+        shadow.distance = distance < NO_HIT ? distance : shadow.distance;
+    }
+    return shadow;
+}
+
 // Follows the shadow ray, if there is one, and then the other, if it is to be followed, in one loop: where invocations
 // run in step, those whose shadow ray ends early go on with the other, which made walks half as fast again as two loops.
 // hit and blocked: of the other surfaces, before, and of all of them after.
 void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, bool is_followed, ShadowRay shadow,
                float time)
 {
-    GridRay ray = grid_ray(start.origin);
-    vec3 inverse = inverse_of(direction);
+    GridRay path_ray = grid_ray(start.origin, direction);
+    GridRay shadow_ray = grid_ray(start.origin, shadow.direction);
+    vec3 path_inverse = inverse_of(direction);
     vec3 shadow_inverse = inverse_of(shadow.direction);
-    bool in_shadow = shadow.distance > 0.0 && !blocked;
+    bool follows_path = is_followed && path_ray.is_near;
+    bool in_shadow = shadow.distance > 0.0 && !blocked && shadow_ray.is_near;
 
     // A node and a sphere a trip at the most, so that there is one loop.
     const Group root = Group(0u, 0u, 1u);
     const Group nothing = Group(0u, 0u, 0u);
     uint stack[TREE_STACK_SIZE];
     int height = 0;
-    Group group = in_shadow || is_followed ? root : nothing;
+    Group group = in_shadow || follows_path ? root : nothing;
     uint first_place = 0u;
     uint spheres = 0u;
     bool done;
     do {
+        GridRay ray = path_ray;
+        if (in_shadow)
+            ray = shadow_ray;
+
         // The nearest node of the group; the others are kept for later.
         if (spheres == 0u && group.count > 0u) {
             uint node = group.first_child + (group.places & 3u);
@@ -44,8 +79,9 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             --group.count;
             stack[height] = packed_group(group);
             height += group.count > 0u ? 1 : 0;
-            Entered entered = enter_node(node, ray, in_shadow ? shadow_inverse : inverse,
-                                         in_shadow ? shadow.distance : hit.distance);
+            vec3 inverse = in_shadow ? shadow_inverse : path_inverse;
+            float before = in_shadow ? shadow.distance : hit.distance;
+            Entered entered = enter_node(node, ray, inverse, before - ray.advance);
             group = entered.inner;
             first_place = entered.first_place;
             spheres = entered.spheres;
@@ -56,22 +92,23 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             uint place = first_place + uint(findLSB(spheres));
             spheres &= spheres - 1u;
             uint surface = SURFACE_COUNT + place;
-            vec4 centre_radius = tree_sphere(place, time);
+            vec4 ball = tree_sphere_from(ray.base, ray.rest, place, time);
             if (in_shadow)
-                shade_sphere(blocked, start, shadow, surface, centre_radius);
+                blocked = blocks_in_tree(start, ray, shadow, surface, ball, time);
             else
-                keep_closer_of_tree(hit, distance_to_sphere(start, direction, surface, centre_radius), surface);
+                keep_closer_of_tree(hit, distance_in_tree(start, ray, direction, surface, ball, time), surface);
         }
 
         // What is left of this ray, or the other ray.
         bool is_empty = spheres == 0u && group.count == 0u;
         bool ray_ends = (is_empty && height == 0) || (in_shadow && blocked);
         height -= is_empty && height > 0 ? 1 : 0;
-        group = is_empty ? unpacked_group(stack[height]) : group;
+        if (is_empty)
+            group = unpacked_group(stack[height]);
         done = ray_ends && !in_shadow;
         if (ray_ends) {
             in_shadow = false;
-            group = is_followed ? root : nothing;
+            group = follows_path ? root : nothing;
             spheres = 0u;
             height = 0;
         }

@@ -2,6 +2,8 @@
 // nothing is made anew when the camera moves.
 #pragma once
 
+#include "shaders/gpu_layout.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -11,7 +13,7 @@ namespace pt {
 struct Grid {
     // Coordinates that boxes have at most, in steps: a camera may be as far away again, and differences are still 32-bit
     // numbers.
-    static constexpr double reach = 0x1p29;
+    static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // of the grid, in the scene's units
     double step;       // a power of two, in the scene's units

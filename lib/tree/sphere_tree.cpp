@@ -219,7 +219,6 @@ bool SphereTree::finds_close_lamps() const {
 // A camera within twice the grid's reach is a place of the grid, and differences from it are exact. For others the
 // middle of the grid is, and what is rounded is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
-    const glm::dvec3 steps = (camera.position - grid_.middle) / grid_.step;
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);
     frame.shift = glm::vec3(grid_.point(frame.camera) - camera.position);
@@ -228,9 +227,7 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.first_motion = first_motion_;
     frame.first_surface = first_surface_;
     frame.first_lamp = first_lamp_;
-    const glm::dvec3 farthest =
-        glm::max(glm::abs(glm::dvec3(box_.low) - steps), glm::abs(glm::dvec3(box_.high) - steps));
-    frame.reach = static_cast<float>(std::max({farthest.x, farthest.y, farthest.z}));
+    frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);
     frame.shutter_time = static_cast<float>(camera.shutter_close - camera.shutter_open);
     return frame;
