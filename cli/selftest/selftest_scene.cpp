@@ -44,8 +44,15 @@ std::string comparison(double measured, double expected) {
 
 pt_scene SelftestScene::scene() const {
     const auto size = [](const auto &items) { return static_cast<std::uint32_t>(items.size()); };
-    return {sizeof(pt_scene), size(materials), size(spheres), size(planes),
-            materials.data(), spheres.data(),  planes.data()};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = size(materials);
+    scene.sphere_count = size(spheres);
+    scene.plane_count = size(planes);
+    scene.materials = materials.data();
+    scene.spheres = spheres.data();
+    scene.planes = planes.data();
+    return scene;
 }
 
 double SelftestScene::bound() const {

@@ -1,8 +1,8 @@
 // Checks pt_create_info; see context.h.
 #include "lib/api/context.h"
 
-#include "lib/api/struct_size.h"
 #include "lib/base/rules.h"
+#include "lib/base/struct_size.h"
 
 namespace pt {
 

@@ -23,9 +23,9 @@ std::string BrokenRule::text() const {
 }
 
 void BrokenRules::add(BrokenRule rule) {
-    if (count_ < most_kept)
+    if (!is_full())
         first_.push_back(std::move(rule));
-    ++count_;
+    count_one();
 }
 
 std::string BrokenRules::text() const {

@@ -30,6 +30,10 @@ public:
 
     void add(BrokenRule rule);
 
+    // From then on rules need not be put into words.
+    bool is_full() const { return first_.size() == most_kept; }
+    void count_one() { ++count_; }
+
     const std::vector<BrokenRule> &first() const { return first_; }
     std::size_t count() const { return count_; }
 

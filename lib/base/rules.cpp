@@ -12,9 +12,6 @@ namespace pt {
 
 namespace {
 
-constexpr double min_length = 1e-18;
-constexpr double max_length = 1e18;
-
 template <typename Real>
 std::string real_text(Real value) {
     if (std::isnan(value))
@@ -22,6 +19,11 @@ std::string real_text(Real value) {
     std::array<char, 64> text{};
     const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general);
     return std::string(text.data(), end);
+}
+
+template <typename Vector>
+std::string vector_text(const Vector &value) {
+    return '(' + real_text(value.x) + ", " + real_text(value.y) + ", " + real_text(value.z) + ')';
 }
 
 } // namespace
@@ -43,7 +45,11 @@ std::string number_text(std::uint32_t value) {
 }
 
 std::string number_text(const glm::dvec3 &value) {
-    return '(' + number_text(value.x) + ", " + number_text(value.y) + ", " + number_text(value.z) + ')';
+    return vector_text(value);
+}
+
+std::string number_text(const glm::vec3 &value) {
+    return vector_text(value);
 }
 
 const char *finite_rule(double value) {
@@ -53,10 +59,7 @@ const char *finite_rule(double value) {
 const char *length_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
-    const double magnitude = std::abs(value);
-    return magnitude == 0.0 || (magnitude >= min_length && magnitude <= max_length)
-               ? nullptr
-               : "must be 0 or of a magnitude in [1e-18, 1e18]";
+    return is_length(value) ? nullptr : "must be 0 or of a magnitude in [1e-18, 1e18]";
 }
 
 const char *positive_length_rule(double value) {
@@ -64,7 +67,13 @@ const char *positive_length_rule(double value) {
         return "must be finite";
     if (value <= 0.0)
         return "must be > 0";
-    return value >= min_length && value <= max_length ? nullptr : "must lie in [1e-18, 1e18]";
+    return is_positive_length(value) ? nullptr : "must lie in [1e-18, 1e18]";
+}
+
+const char *share_rule(double value) {
+    if (!std::isfinite(value))
+        return "must be finite";
+    return is_share(value) ? nullptr : "must lie in [0, 1]";
 }
 
 void Violations::add(BrokenRule rule) {

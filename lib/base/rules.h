@@ -21,22 +21,45 @@ std::string number_text(std::uint64_t value);
 std::string number_text(std::uint32_t value);
 // "(x, y, z)"
 std::string number_text(const glm::dvec3 &value);
+std::string number_text(const glm::vec3 &value);
 
 // A rule says what a value must be, or nullptr if it is.
 using Rule = const char *(*)(double value);
 
 const char *finite_rule(double value);
 
+constexpr double min_length = 1e-18;
+constexpr double max_length = 1e18;
+
 // Lengths are 0 or have a magnitude in [1e-18, 1e18], so that in float32 their squares are normal numbers and sums of
 // squares are finite: 1e-36 > 2^-126 = 1.18e-38, and 3 * (3e18)^2 = 2.7e37 < 2^128 = 3.4e38 is the largest squared
 // distance of a sphere from the camera, each of whose components adds up three lengths (centre, motion, position).
+constexpr bool is_positive_length(double value) {
+    return value >= min_length && value <= max_length;
+}
+
+constexpr bool is_length(double value) {
+    return value == 0.0 || is_positive_length(value < 0.0 ? -value : value);
+}
+
 const char *length_rule(double value);
 const char *positive_length_rule(double value);
+
+// Shares of a whole lie in [0, 1].
+constexpr bool is_share(double value) {
+    return value >= 0.0 && value <= 1.0;
+}
+
+const char *share_rule(double value);
 
 // The broken rules of what one call was given.
 class Violations {
 public:
     void add(BrokenRule rule);
+
+    // Where no more are kept, a rule need not be put into words to be counted.
+    bool only_count() const { return broken_.is_full(); }
+    void count_one() { broken_.count_one(); }
 
     // Throws Error if a rule was broken.
     void throw_if_any(pt_result code) const;
@@ -77,6 +100,16 @@ public:
     void check(const Member &member, Value value, Rule rule) const {
         if (const char *broken = rule(value))
             refuse(member, number_text(value), broken);
+    }
+
+    // An element of a column, of which the caller knows already that it breaks a rule: of many millions the most are only
+    // counted.
+    template <typename Value>
+    void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
+        if (violations_.only_count())
+            violations_.count_one();
+        else
+            refuse_component(member, static_cast<std::int32_t>(element), number_text(value), std::string(rule));
     }
 
     // Every component of an array, which is named in the message.

@@ -119,7 +119,13 @@ static pt_result render_on(pt_context *context, float *pixels, uint64_t size_byt
     /* A sphere around the camera that shines in red, green and blue of 1, 2 and 4: every pixel is that. */
     static const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 4.0f}, 0.0f};
     static const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
-    const pt_scene scene = {sizeof scene, 1, 1, 0, &material, &sphere, NULL};
+    const pt_scene scene = {
+        .struct_size = sizeof scene,
+        .material_count = 1,
+        .sphere_count = 1,
+        .materials = &material,
+        .spheres = &sphere,
+    };
     const pt_camera camera = {.struct_size = sizeof camera, .target = {0.0, 0.0, -1.0}};
     const pt_render render = {.struct_size = sizeof render, .width = WIDTH, .height = HEIGHT};
     const pt_accumulate_info samples = {.struct_size = sizeof samples, .sample_count = 16};

@@ -58,7 +58,15 @@ static pt_result set_up(pt_context *context)
         {{2.0, 4.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 2, 0},
     };
     static const pt_plane floor = {{0.0, 1.0, 0.0}, 0.0, 0, 0};
-    const pt_scene scene = {sizeof scene, 3, 2, 1, materials, spheres, &floor};
+    const pt_scene scene = {
+        .struct_size = sizeof scene,
+        .material_count = 3,
+        .sphere_count = 2,
+        .plane_count = 1,
+        .materials = materials,
+        .spheres = spheres,
+        .planes = &floor,
+    };
     const pt_camera camera = {.struct_size = sizeof camera, .position = {0.0, 1.5, 5.0}, .target = {0.0, 1.0, 0.0}};
     const pt_render render = {.struct_size = sizeof render, .width = WIDTH, .height = HEIGHT};
     pt_result result = pt_set_scene(context, &scene);

@@ -43,10 +43,25 @@ class Sized(ctypes.Structure):
         super().__init__(struct_size=ctypes.sizeof(self), **fields)
 
 
+class pt_column(ctypes.Structure):
+    """Of a NumPy array a: pt_column(a.ctypes.data, a.strides[0], PT_TYPE_FLOAT32)."""
+
+    _fields_ = [("data", c_void_p), ("stride_bytes", c_uint32), ("type", c_uint32)]
+
+
+PT_TYPE_FLOAT32, PT_TYPE_FLOAT64, PT_TYPE_UINT32, PT_TYPE_SRGB8 = 1, 2, 3, 4
+
+
+class pt_sphere_array(Sized):
+    _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("center", pt_column), ("radius", pt_column),
+                ("motion", pt_column), ("material", pt_column), ("color", pt_column)]
+
+
 class pt_scene(Sized):
     _fields_ = [("struct_size", c_uint32), ("material_count", c_uint32), ("sphere_count", c_uint32),
                 ("plane_count", c_uint32), ("materials", POINTER(pt_material)), ("spheres", POINTER(pt_sphere)),
-                ("planes", POINTER(pt_plane))]
+                ("planes", POINTER(pt_plane)), ("sphere_arrays", POINTER(pt_sphere_array)),
+                ("sphere_array_count", c_uint32), ("reserved", c_uint32)]
 
 
 class pt_camera(Sized):
@@ -120,11 +135,13 @@ class Renderer:
         self._check(self.library.pt_get_context_device(self.context, device))
         return device.name.decode()
 
-    def set_scene(self, materials, spheres=(), planes=()):
+    def set_scene(self, materials, spheres=(), planes=(), sphere_arrays=()):
         self._check(self.library.pt_set_scene(self.context, pt_scene(
             material_count=len(materials), materials=(pt_material * len(materials))(*materials),
             sphere_count=len(spheres), spheres=(pt_sphere * len(spheres))(*spheres),
-            plane_count=len(planes), planes=(pt_plane * len(planes))(*planes))))
+            plane_count=len(planes), planes=(pt_plane * len(planes))(*planes),
+            sphere_array_count=len(sphere_arrays),
+            sphere_arrays=(pt_sphere_array * len(sphere_arrays))(*sphere_arrays))))
 
     def set_camera(self, **fields):
         self._check(self.library.pt_set_camera(self.context, pt_camera(**fields)))

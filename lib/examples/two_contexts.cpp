@@ -45,7 +45,14 @@ std::vector<float> render(double eye) {
     };
     const pt_sphere spheres[] = {{{0, 1, 0}, 1, {0, 0, 0}, 1, 0}, {{2, 4, 2}, 1, {0, 0, 0}, 2, 0}};
     const pt_plane floor{{0, 1, 0}, 0, 0, 0};
-    const pt_scene scene{sizeof scene, 3, 2, 1, materials, spheres, &floor};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = 3;
+    scene.sphere_count = 2;
+    scene.plane_count = 1;
+    scene.materials = materials;
+    scene.spheres = spheres;
+    scene.planes = &floor;
     pt_camera camera{};
     camera.struct_size = sizeof camera;
     camera.position[0] = eye;

@@ -1,164 +1,72 @@
-// The rules of a scene, one line each; see scene.h.
+// Takes a scene over from the caller; see scene.h.
 #include "lib/scene/scene.h"
 
-#include "lib/base/rules.h"
-#include "lib/base/scaled_vector.h"
+#include "lib/scene/checked_scene.h"
+#include "lib/scene/distinct_materials.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <span>
-#include <string>
+#include <utility>
 
 namespace pt {
 
 namespace {
 
-// Indices of surfaces, and a few times their number in words of the scene buffer, are 32-bit numbers.
-constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
-
-glm::vec3 colour(const float (&components)[3]) {
-    return {components[0], components[1], components[2]};
-}
-
-// Up to 1e18 the product of two colours is a float32 number: 1e36 < 2^128 = 3.4e38.
-const char *colour_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    if (value < 0.0)
-        return "must be >= 0";
-    return value <= 1e18 ? nullptr : "must be <= 1e18";
-}
-
-// The lobe about the mirror direction r falls as exp(-n a^2 / 2) with the angle a, by e at a = sqrt(2 / n). float32
-// unit vectors are off by up to d = 2^-23, which changes n a^2 / 2 there by n a d = sqrt(2 n) d: 0.5 % of the lobe
-// for n = 1e9. A sharper lobe would show the rounding of directions rather than the material.
-const char *glossiness_rule(double value) {
-    if (!std::isfinite(value))
-        return "must be finite";
-    if (value < 0.0)
-        return "must be >= 0";
-    return value <= 1e9 ? nullptr : "must be <= 1e9";
-}
-
-// The plane with a unit normal. Normals of any length are allowed, also where the square of the length is no double.
-Plane normalized(const pt_plane &plane) {
-    const auto [normal, exponent] = scaled(vector(plane.normal));
-    const double length = glm::length(normal);
-    return {normal / length, std::ldexp(plane.offset, -exponent) / length, plane.material};
-}
-
-Material owned(const pt_material &material) {
-    return {colour(material.diffuse), colour(material.specular), colour(material.emission), material.glossiness};
-}
-
-Sphere owned(const pt_sphere &sphere) {
-    return {vector(sphere.center), sphere.radius, vector(sphere.motion), sphere.material};
-}
-
-Plane owned(const pt_plane &plane) {
-    return normalized(plane);
-}
-
-// Checks the surfaces' and materials' fields.
-class Checker {
+// Gives spheres with colours of their own a material for each colour, which is one of those that are there already if
+// it is equal.
+class ColoredMaterials {
 public:
-    Checker(Violations &violations, std::uint32_t material_count) :
-        violations_(violations),
-        material_count_(material_count),
-        material_rule_("must be < material_count (" + std::to_string(material_count) + ")") {}
-
-    void check(const pt_material &source, std::size_t index) const {
-        const Subject material(violations_, "materials", index);
-        material.check_each("diffuse", source.diffuse, colour_rule);
-        material.check_each("specular", source.specular, colour_rule);
-        material.check_each("emission", source.emission, colour_rule);
-        material.check("glossiness", source.glossiness, glossiness_rule);
+    explicit ColoredMaterials(std::vector<Material> &materials) : materials_(materials), distinct_(materials) {
+        for (std::uint32_t i = 0; i < materials_.size(); ++i)
+            distinct_.first_equal(i);
     }
 
-    void check(const pt_sphere &source, std::size_t index) const {
-        const Subject sphere(violations_, "spheres", index);
-        sphere.check_each("center", source.center, length_rule);
-        sphere.check("radius", source.radius, positive_length_rule);
-        sphere.check_each("motion", source.motion, length_rule);
-        sphere.require(source.material < material_count_, "material", source.material, material_rule_);
-        sphere.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
-    }
-
-    void check(const pt_plane &source, std::size_t index) const {
-        const Subject plane(violations_, "planes", index);
-        const glm::dvec3 normal = vector(source.normal);
-        const bool finite = std::ranges::all_of(source.normal, [](double x) { return std::isfinite(x); });
-        const bool has_direction = finite && normal != glm::dvec3(0.0);
-        plane.check_each("normal", source.normal, finite_rule);
-        plane.require(!finite || has_direction, "normal", normal, "must not be zero");
-        plane.check("offset", source.offset, finite_rule);
-        if (has_direction && std::isfinite(source.offset))
-            plane.require(is_length_after_division(source), "offset", source.offset,
-                          "must be 0 or of a magnitude in [1e-18, 1e18] after division by the normal's length");
-        plane.require(source.material < material_count_, "material", source.material, material_rule_);
-        plane.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
+    std::uint32_t index_of(std::uint32_t material, const glm::vec3 &color) {
+        Material colored = materials_[material];
+        colored.diffuse *= color;
+        if (colored.diffuse == materials_[material].diffuse)
+            return material;
+        const auto added = static_cast<std::uint32_t>(materials_.size());
+        materials_.push_back(colored);
+        const std::uint32_t first = distinct_.first_equal(added);
+        if (first != added)
+            materials_.pop_back();
+        return first;
     }
 
 private:
-    static bool is_length_after_division(const pt_plane &plane) {
-        const double offset = normalized(plane).offset;
-        const bool underflowed = offset == 0.0 && plane.offset != 0.0;
-        return !underflowed && length_rule(offset) == nullptr;
-    }
-
-    Violations &violations_;
-    std::uint32_t material_count_;
-    std::string material_rule_;
+    std::vector<Material> &materials_;
+    DistinctMaterials distinct_;
 };
 
-// The elements of one of the scene's arrays; none, and a violation, if the array is missing.
-template <typename Element>
-std::span<const Element> elements(const Element *array, std::uint32_t count, const std::string &name,
-                                  Violations &violations) {
-    if (array || count == 0)
-        return {array, count};
-    violations.add({.subject = "scene",
-                    .member = name + "s",
-                    .value = "NULL",
-                    .rule = "must not be NULL, as " + name + "_count is " + std::to_string(count)});
-    return {};
-}
-
-template <typename Element>
-void check_all(std::span<const Element> elements, const Checker &checker) {
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        checker.check(elements[i], i);
-}
-
-template <typename Owned, typename Element>
-std::vector<Owned> owned_all(std::span<const Element> elements) {
-    std::vector<Owned> all;
-    all.reserve(elements.size());
-    std::ranges::transform(elements, std::back_inserter(all), [](const Element &element) { return owned(element); });
-    return all;
+void append_spheres(Scene &scene, const SphereSource &source) {
+    scene.spheres.reserve(source.size());
+    if (!source.has_colors()) {
+        source.for_each([&](std::size_t, const Sphere &sphere, const glm::vec3 &) { scene.spheres.push_back(sphere); });
+        return;
+    }
+    ColoredMaterials colored(scene.materials);
+    source.for_each([&](std::size_t, Sphere sphere, const glm::vec3 &color) {
+        sphere.material = colored.index_of(sphere.material, color);
+        scene.spheres.push_back(sphere);
+    });
 }
 
 } // namespace
 
 Scene validated_scene(const pt_scene &scene) {
-    Violations violations;
-    const std::uint64_t surface_count = std::uint64_t{scene.sphere_count} + scene.plane_count;
-    const Subject whole(violations, "scene");
-    whole.require(surface_count < max_surface_count, {"sphere_count", "+ plane_count"}, surface_count,
-                  "must be < 2^30");
-    // With counts like these the arrays are hardly there: they are not read.
-    violations.throw_if_any(PT_ERROR_INVALID_SCENE);
+    CheckedScene checked = checked_scene(scene);
+    const auto starts = checked.spheres.array_starts();
+    Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
+    append_spheres(owned, checked.spheres);
+    return owned;
+}
 
-    const auto materials = elements(scene.materials, scene.material_count, "material", violations);
-    const auto spheres = elements(scene.spheres, scene.sphere_count, "sphere", violations);
-    const auto planes = elements(scene.planes, scene.plane_count, "plane", violations);
-    const Checker checker(violations, scene.material_count);
-    check_all(materials, checker);
-    check_all(spheres, checker);
-    check_all(planes, checker);
-    violations.throw_if_any(PT_ERROR_INVALID_SCENE);
-    return {owned_all<Material>(materials), owned_all<Sphere>(spheres), owned_all<Plane>(planes)};
+SpherePlace place_of_sphere(const Scene &scene, std::size_t index) {
+    const auto after = std::ranges::upper_bound(scene.array_starts, index);
+    const auto array = after - scene.array_starts.begin() - 1;
+    if (array < 0)
+        return {"spheres", static_cast<std::int64_t>(index), -1};
+    return {"sphere_arrays", array, static_cast<std::int32_t>(index - *(after - 1))};
 }
 
 } // namespace pt

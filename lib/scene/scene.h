@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,12 +41,22 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials;
-    std::vector<Sphere> spheres;
+    std::vector<Material> materials; // the caller's, and those that spheres with colours of their own have
+    std::vector<Sphere> spheres;     // pt_scene.spheres, and those of the arrays
     std::vector<Plane> planes;
+    std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays
 };
 
 // Copies a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 Scene validated_scene(const pt_scene &scene);
+
+// Where the caller has a sphere, as the members of a BrokenRule.
+struct SpherePlace {
+    const char *subject;
+    std::int64_t index;
+    std::int32_t component; // -1: of no array
+};
+
+SpherePlace place_of_sphere(const Scene &scene, std::size_t index);
 
 } // namespace pt

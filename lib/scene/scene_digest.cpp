@@ -1,29 +1,72 @@
+// Tells scenes apart by what is in them; see scene_digest.h.
 #include "lib/scene/scene_digest.h"
 
 #include "lib/base/digest.h"
+#include "lib/scene/distinct_materials.h"
+
+#include <vector>
 
 namespace pt {
 
+namespace {
+
+// Adds the surfaces' materials: each by its number, which is followed by all of it where it is met for the first time.
+class MaterialDigest {
+public:
+    MaterialDigest(Digest &digest, const std::vector<Material> &materials) :
+        digest_(digest),
+        materials_(materials),
+        distinct_(materials),
+        numbers_(materials.size(), unknown) {}
+
+    void add(std::uint32_t material) {
+        const bool is_first = numbers_[material] == unknown && number(material);
+        digest_.add(std::uint64_t{numbers_[material]});
+        if (is_first)
+            add(materials_[material]);
+    }
+
+private:
+    static constexpr std::uint32_t unknown = ~std::uint32_t{0};
+
+    // Whether the number is a new one: that no equal material was met before.
+    bool number(std::uint32_t index) {
+        const std::uint32_t first = distinct_.first_equal(index);
+        numbers_[index] = first == index ? met_++ : numbers_[first];
+        return first == index;
+    }
+
+    void add(const Material &material) {
+        digest_.add(material.diffuse);
+        digest_.add(material.specular);
+        digest_.add(material.emission);
+        digest_.add(static_cast<double>(material.glossiness));
+    }
+
+    Digest &digest_;
+    const std::vector<Material> &materials_;
+    DistinctMaterials distinct_;
+    std::vector<std::uint32_t> numbers_; // in the order in which they are met; equal ones have one number
+    std::uint32_t met_ = 0;
+};
+
+} // namespace
+
 std::string digest_of(const Scene &scene) {
     Digest digest;
-    for (const std::size_t count : {scene.materials.size(), scene.spheres.size(), scene.planes.size()})
+    MaterialDigest materials(digest, scene.materials);
+    for (const std::size_t count : {scene.spheres.size(), scene.planes.size()})
         digest.add(std::uint64_t{count});
-    for (const Material &material : scene.materials) {
-        digest.add(material.diffuse);
-        digest.add(material.specular);
-        digest.add(material.emission);
-        digest.add(static_cast<double>(material.glossiness));
-    }
     for (const Sphere &sphere : scene.spheres) {
         digest.add(sphere.center);
         digest.add(sphere.radius);
         digest.add(sphere.motion);
-        digest.add(std::uint64_t{sphere.material});
+        materials.add(sphere.material);
     }
     for (const Plane &plane : scene.planes) {
         digest.add(plane.normal);
         digest.add(plane.offset);
-        digest.add(std::uint64_t{plane.material});
+        materials.add(plane.material);
     }
     return digest.text();
 }

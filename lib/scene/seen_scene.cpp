@@ -21,17 +21,20 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera) {
 
 void require_held_motions(const SeenScene &seen, const Scene &scene) {
     for (std::size_t i = 0; i < seen.spheres.size(); ++i)
-        if (moves_too_far(seen.spheres[i]))
+        if (moves_too_far(seen.spheres[i])) {
+            const SpherePlace place = place_of_sphere(scene, i);
             throw Error(
                 PT_ERROR_UNSUPPORTED,
-                BrokenRule{.subject = "spheres",
-                           .index = static_cast<std::int64_t>(i),
+                BrokenRule{.subject = place.subject,
+                           .index = place.index,
                            .member = "motion",
+                           .component = place.component,
                            .value = number_text(scene.spheres[i].motion),
                            .rule = "a sphere whose surface, as the shutter opens, is nearer to the camera than a "
                                    "65536th of its radius (" +
                                    number_text(scene.spheres[i].radius) +
                                    ") must move less than a 32nd of it while the shutter is open"});
+        }
 }
 
 } // namespace pt

@@ -2,6 +2,7 @@
 // Run alone with --gtest_filter=ExactLight*.
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/scenes.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0},
                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
-        const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+        const pt_scene scene = scene_of(materials, spheres, {});
         pt_camera camera{};
         camera.struct_size = sizeof camera;
         camera.target[2] = -1;

@@ -3,6 +3,7 @@
 #include "tests/analytic/analytic_fixture.h"
 #include "tests/analytic/judge.h"
 #include "tests/analytic/sphere_coverage.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ const SphereCoverage sphere_coverage(1, 0.5, -5);
 Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
     const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
     const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
-    const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+    const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
     pt_camera camera{};
     camera.struct_size = sizeof camera;
     camera.position[2] = 1;

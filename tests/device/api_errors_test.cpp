@@ -1,5 +1,6 @@
 // The last error as data: pt_get_broken_rule beside the message of pt_last_error, on a real device.
 #include "tests/device/api_fixture.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/errors.h>
 
@@ -129,7 +130,7 @@ TEST_F(ErrorsTest, NameASphereThatThisCameraCannotSee) {
     huge.radius = 1e9;
     huge.motion[0] = 1e9;
     const pt_sphere balls[2] = {sphere, huge};
-    const pt_scene scene{sizeof scene, 1, 2, 0, &material, balls, nullptr};
+    const pt_scene scene = scene_of({&material, 1}, balls, {});
     set_all();
     ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
     const pt_accumulate_info one = samples(1);
@@ -138,7 +139,7 @@ TEST_F(ErrorsTest, NameASphereThatThisCameraCannotSee) {
 
 TEST_F(ErrorsTest, KeepEightAndCountAll) {
     const std::vector<pt_sphere> balls(20, {{0, 0, 0}, -1, {0, 0, 0}, 0, 0});
-    const pt_scene scene{sizeof scene, 1, 20, 0, &material, balls.data(), nullptr};
+    const pt_scene scene = scene_of({&material, 1}, balls, {});
     EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
     EXPECT_EQ(pt_get_broken_rule(context(), 0, nullptr), 20U);
     EXPECT_EQ(rule_of(context(), 7).index, 7);

@@ -3,6 +3,7 @@
 
 #include "tests/support/context_fixture.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ inline const pt_sphere sphere{{0, 0, 0}, 9, {0, 0, 0}, 0, 0};
 inline const std::array<float, 3> radiance{1, 2, 4};
 
 inline pt_scene valid_scene() {
-    return {sizeof(pt_scene), 1, 1, 0, &material, &sphere, nullptr};
+    return scene_of({&material, 1}, {&sphere, 1}, {});
 }
 
 inline pt_camera valid_camera() {

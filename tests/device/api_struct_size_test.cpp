@@ -88,9 +88,25 @@ TEST_F(StructSizeTest, Scene) {
     pt_scene scene = valid_scene();
     scene.plane_count = 1;
     scene.planes = &plane;
+    const float center[3] = {1, 2, 3};
+    const float radius = 4;
+    pt_sphere_array array{};
+    array.struct_size = sizeof array;
+    array.count = 1;
+    array.center = {center, 12, PT_TYPE_FLOAT32};
+    array.radius = {&radius, 4, PT_TYPE_FLOAT32};
+    scene.sphere_arrays = &array;
+    scene.sphere_array_count = 1;
     EXPECT_EQ(call(scene).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(scene, call), none);
     expect_tail_refused(scene, "scene", call);
+    const auto call_with = [&](const pt_sphere_array &another) {
+        pt_scene changed = scene;
+        changed.sphere_arrays = &another;
+        return call(changed);
+    };
+    EXPECT_EQ(misread_sizes(array, call_with), none);
+    expect_tail_refused(array, "sphere_arrays[0]", call_with);
 }
 
 TEST_F(StructSizeTest, Camera) {

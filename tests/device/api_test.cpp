@@ -2,6 +2,7 @@
 // rules of single fields have their own tests, without a device.
 #include "tests/device/api_fixture.h"
 #include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/devices.h>
 
@@ -79,7 +80,7 @@ TEST_F(ApiTest, CopiesTheScene) {
     set_all();
     pt_material own_material = material;
     pt_sphere own_sphere = sphere;
-    const pt_scene scene{sizeof scene, 1, 1, 0, &own_material, &own_sphere, nullptr};
+    const pt_scene scene = scene_of({&own_material, 1}, {&own_sphere, 1}, {});
     ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
     own_material.emission[0] = 77;
     own_sphere.center[2] = 1e6;

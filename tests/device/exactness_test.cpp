@@ -6,6 +6,7 @@
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
 #include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ protected:
     Image image_inside_a_lamp(float radiance, uint32_t samples) {
         const pt_material material{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0};
         const pt_sphere sphere{{0, 0, 0}, 50, {0, 0, 0}, 0, 0};
-        const pt_scene scene{sizeof scene, 1, 1, 0, &material, &sphere, nullptr};
+        const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
         return render_image(context(), scene, CourseworkScene::camera(), render_of(8, 8, 1), samples);
     }
 };

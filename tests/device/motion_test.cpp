@@ -3,6 +3,7 @@
 #include "tests/device/floor_radiance.h"
 #include "tests/support/batch_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ protected:
         const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0},
                                          {{floor_albedo, floor_albedo, floor_albedo}, {0, 0, 0}, {0, 0, 0}, 0}};
         const pt_plane plane{{0, 1, 0}, 1, 1, 0};
-        const pt_scene scene{sizeof scene, 2, 1, floor_albedo > 0 ? 1U : 0U, materials, &sphere, &plane};
+        const pt_scene scene = scene_of(materials, {&sphere, 1}, {&plane, floor_albedo > 0 ? 1U : 0U});
         pt_camera camera = CourseworkScene::camera();
         camera.shutter_open = shutter_open;
         camera.shutter_close = shutter_close;
@@ -199,7 +200,7 @@ protected:
         const pt_sphere spheres[] = {
             {{3, 2, 0}, 1, {0, 0, 0}, 0, 0},
             {{0, -1 - floor.radius, 0}, floor.radius, {floor.motion[0], floor.motion[1], floor.motion[2]}, 1, 0}};
-        const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+        const pt_scene scene = scene_of(materials, spheres, {});
         pt_camera camera{};
         camera.struct_size = sizeof camera;
         camera.target[0] = 0.3;
@@ -240,7 +241,7 @@ TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0}};
     // Overhead another lamp fills the view; from within the floor none of it would be seen.
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
-    const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+    const pt_scene scene = scene_of(materials, spheres, {});
     pt_camera camera{};
     camera.struct_size = sizeof camera;
     camera.target[1] = 1;

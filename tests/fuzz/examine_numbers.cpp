@@ -2,8 +2,8 @@
 // refuses has a code and a message. See examine.h.
 #include "tests/fuzz/examine.h"
 
-#include "lib/api/struct_size.h"
 #include "lib/base/error.h"
+#include "lib/base/struct_size.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/scene_features.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace fuzz {
 
@@ -112,6 +113,63 @@ void read_claims(ByteReader &bytes, Input &input) {
     input.tail_byte = bytes.one_in(8) ? 1 : 0;
 }
 
+// Wrong strides are no larger than a struct, so that what is read lies in the structs, or are refused.
+void read_columns(ByteReader &bytes, Input &input) {
+    static constexpr std::uint32_t right_types[] = {PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_FLOAT64, PT_TYPE_UINT32,
+                                                    PT_TYPE_SRGB8};
+    Input::Columns &columns = input.columns;
+    columns.count = bytes.raw<std::uint16_t>() % static_cast<std::uint32_t>(input.spheres.size() + 1);
+    columns.has_colors = bytes.one_in(2);
+    if (bytes.one_in(4)) {
+        columns.claimed = bytes.below(Input::Columns::none);
+        columns.claim.data = bytes.one_in(8) ? nullptr : &input;
+        columns.claim.stride_bytes =
+            bytes.one_in(16) ? (1U << 31) | bytes.raw<std::uint32_t>() : bytes.below(sizeof(pt_sphere) + 1);
+        columns.claim.type = bytes.one_in(4) ? bytes.raw<std::uint8_t>() : right_types[columns.claimed];
+    }
+    if (bytes.one_in(32))
+        columns.more_spheres = (1U << 27) | bytes.raw<std::uint32_t>();
+    if (bytes.one_in(16))
+        columns.struct_size = bytes.one_in(4) ? bytes.raw<std::uint32_t>() : bytes.below(256);
+    // No caller's array ends within a pointer.
+    if (columns.struct_size < sizeof(pt_sphere_array) && columns.struct_size > offsetof(pt_sphere_array, center))
+        columns.struct_size &= ~7U;
+}
+
+pt_sphere_array columns_of(const Input &input, std::size_t first, std::size_t count) {
+    const Input::Columns &columns = input.columns;
+    pt_sphere_array array{};
+    array.struct_size = columns.struct_size;
+    array.count = static_cast<std::uint32_t>(count) | columns.more_spheres;
+    if (count == 0)
+        return array;
+    const auto column = [](const void *data, std::uint32_t type) { return pt_column{data, sizeof(pt_sphere), type}; };
+    const pt_sphere &sphere = input.spheres[first];
+    array.center = column(sphere.center, PT_TYPE_FLOAT64);
+    array.radius = column(&sphere.radius, PT_TYPE_FLOAT64);
+    array.motion = column(sphere.motion, PT_TYPE_FLOAT64);
+    array.material = column(&sphere.material, PT_TYPE_UINT32);
+    if (columns.has_colors)
+        array.color = column(sphere.center, PT_TYPE_SRGB8);
+    if (columns.claimed < Input::Columns::none) {
+        pt_column *const all[] = {&array.center, &array.radius, &array.motion, &array.material, &array.color};
+        pt_column &claimed = *all[columns.claimed];
+        const void *data = columns.claimed == 4 ? sphere.center : claimed.data;
+        claimed = columns.claim;
+        claimed.data = columns.claim.data ? data : nullptr;
+    }
+    return array;
+}
+
+// The arrays, one after the other in memory of just their size.
+void write_arrays(const Input &input, std::span<const pt_sphere_array> arrays) {
+    const std::size_t size = std::clamp<std::size_t>(input.columns.struct_size, sizeof(std::uint32_t), 65536);
+    input.array_bytes.assign(arrays.size() * size, input.tail_byte);
+    input.array_bytes.shrink_to_fit();
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        std::memcpy(input.array_bytes.data() + i * size, &arrays[i], std::min(sizeof(pt_sphere_array), size));
+}
+
 template <typename Surface>
 void repeat(std::vector<Surface> &surfaces, std::uint32_t copies) {
     const std::size_t once = surfaces.size();
@@ -128,11 +186,19 @@ pt_scene Input::scene() const {
     pt_scene scene{};
     scene.struct_size = sizeof scene;
     scene.material_count = count(materials) - std::min(count(materials), claims.fewer_materials);
-    scene.sphere_count = count(spheres) | claims.more_spheres;
+    scene.sphere_count = (count(spheres) - columns.count) | claims.more_spheres;
     scene.plane_count = count(planes);
     scene.materials = claims.has_materials ? materials.data() : nullptr;
     scene.spheres = claims.has_spheres ? spheres.data() : nullptr;
     scene.planes = claims.has_planes ? planes.data() : nullptr;
+    if (columns.count > 0) {
+        const std::size_t first = spheres.size() - columns.count;
+        const std::size_t half = columns.count / 2;
+        const std::array arrays{columns_of(*this, first, half), columns_of(*this, first + half, columns.count - half)};
+        write_arrays(*this, arrays);
+        scene.sphere_arrays = reinterpret_cast<const pt_sphere_array *>(array_bytes.data());
+        scene.sphere_array_count = count(arrays);
+    }
     return scene;
 }
 
@@ -159,6 +225,8 @@ Input decoded_input(ByteReader bytes) {
         repeat(input.spheres, copies);
         repeat(input.planes, copies);
     }
+    if (bytes.one_in(2))
+        read_columns(bytes, input);
     return input;
 }
 

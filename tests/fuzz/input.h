@@ -31,6 +31,19 @@ struct Input {
         std::uint32_t more_spheres = 0; // 2^30 or more
         std::uint32_t fewer_materials = 0;
     } claims;
+
+    // The last of the spheres may be given by two arrays of columns, which read the structs' members where they are.
+    struct Columns {
+        std::uint32_t count = 0;        // spheres in both
+        bool has_colors = false;        // sRGB bytes, those of the centres
+        std::uint32_t claimed = none;   // the column of both that is said to be what claim says
+        pt_column claim{};              // data: NULL, or else where the column is; read within the structs or refused
+        std::uint32_t more_spheres = 0; // 2^27 or more
+        std::uint32_t struct_size = sizeof(pt_sphere_array);
+
+        static constexpr std::uint32_t none = 5;
+    } columns;
+    mutable std::vector<std::uint8_t> array_bytes; // the arrays that scene() has made
     std::array<std::uint32_t, 3> struct_sizes{sizeof(pt_scene), sizeof(pt_camera), sizeof(pt_render)};
     std::uint8_t tail_byte = 0; // what follows the structs whose size is too large
 

@@ -21,14 +21,17 @@ static int32_t count_calls(void *user, double fraction) {
 static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
     const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, 0.0f};
     const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
-    pt_scene scene = {sizeof(pt_scene), 1, 1, 0, 0, 0, 0};
+    pt_scene scene = {0};
     pt_camera camera = {0};
     pt_render settings = {0};
     pt_accumulate_info samples = {0};
     pt_image image = {0};
     int calls = 0;
 
+    scene.struct_size = sizeof scene;
+    scene.material_count = 1;
     scene.materials = &material;
+    scene.sphere_count = 1;
     scene.spheres = &sphere;
     camera.struct_size = sizeof camera;
     camera.target[2] = -1.0;

@@ -18,7 +18,7 @@ template <typename... Struct>
 constexpr bool are_plain = (... && (std::is_trivial_v<Struct> && std::is_standard_layout_v<Struct>));
 static_assert(are_plain<pt_device_info, pt_material, pt_sphere, pt_plane, pt_scene, pt_camera, pt_render>);
 static_assert(are_plain<pt_accumulate_info, pt_image, pt_stats, pt_function_accuracy, pt_vulkan, pt_create_info>);
-static_assert(are_plain<pt_broken_rule, pt_buffer_image>);
+static_assert(are_plain<pt_broken_rule, pt_buffer_image, pt_column, pt_sphere_array>);
 
 static_assert(std::is_same_v<pt_result, int32_t>);
 static_assert(PT_OK == 0 && PT_CANCELLED == 1 && PT_TARGET_REACHED == 2 && PT_PENDING == 3);
@@ -32,6 +32,7 @@ static_assert(PT_ESTIMATOR_BEST == 0 && PT_ESTIMATOR_UNIFORM == 1 && PT_ESTIMATO
 static_assert(PT_FEATURE_LAMPS == 1 && PT_FEATURE_GLOSS == 2 && PT_FEATURE_MOTION == 4 && PT_FEATURE_LARGE == 8);
 static_assert(PT_QUANTITY_RADIANCE == 0 && PT_QUANTITY_STANDARD_ERROR == 1);
 static_assert(PT_FORMAT_RGB32F == 0 && PT_FORMAT_RGBA32F == 1 && PT_FORMAT_RGBA16F == 2);
+static_assert(PT_TYPE_FLOAT32 == 1 && PT_TYPE_FLOAT64 == 2 && PT_TYPE_UINT32 == 3 && PT_TYPE_SRGB8 == 4);
 static_assert(PT_LOG_ERROR == 1 && PT_LOG_WARNING == 2 && PT_LOG_INFO == 3);
 static_assert(PT_CREATE_VALIDATION == 1);
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <utility>
 
 namespace {
 
@@ -35,7 +36,6 @@ TEST(SceneDigest, DependsOnEveryNumber) {
         [](pt::Scene &scene) { scene.materials[0].specular.g = 0.75F; },
         [](pt::Scene &scene) { scene.materials[1].emission.b = 0.75F; },
         [](pt::Scene &scene) { scene.materials[1].glossiness = 1.0F; },
-        [](pt::Scene &scene) { scene.materials.push_back({}); },
         [](pt::Scene &scene) { scene.spheres[0].center.z = -6; },
         [](pt::Scene &scene) { scene.spheres[0].motion.x = 1; },
         [](pt::Scene &scene) { scene.spheres[1].radius = 3; },
@@ -50,6 +50,29 @@ TEST(SceneDigest, DependsOnEveryNumber) {
         changes[i](changed);
         EXPECT_NE(pt::digest_of(changed), digest) << "change " << i;
     }
+}
+
+// Only what the surfaces are made of is seen, and not how the materials are listed.
+TEST(SceneDigest, DoesNotDependOnTheListOfMaterials) {
+    const std::string digest = pt::digest_of(small_scene());
+    pt::Scene unused = small_scene();
+    unused.materials.push_back({});
+    EXPECT_EQ(pt::digest_of(unused), digest);
+    pt::Scene swapped = small_scene();
+    std::swap(swapped.materials[0], swapped.materials[1]);
+    EXPECT_NE(pt::digest_of(swapped), digest);
+    swapped.spheres[0].material = swapped.planes[0].material = 1;
+    swapped.spheres[1].material = 0;
+    EXPECT_EQ(pt::digest_of(swapped), digest);
+    pt::Scene repeated = small_scene();
+    repeated.materials.push_back(repeated.materials[0]);
+    repeated.planes[0].material = 2;
+    EXPECT_EQ(pt::digest_of(repeated), digest);
+    repeated.materials[0].diffuse.r = repeated.materials[2].diffuse.r = 0.0F;
+    const std::string zero = pt::digest_of(repeated);
+    EXPECT_NE(zero, digest);
+    repeated.materials[2].diffuse.r = -0.0F; // which is equal
+    EXPECT_EQ(pt::digest_of(repeated), zero);
 }
 
 } // namespace

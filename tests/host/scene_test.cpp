@@ -164,19 +164,22 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Arrays, BrokenScene,
-    testing::Values(SceneCase{"NoSpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
-                              "scene.spheres = NULL: must not be NULL, as sphere_count is 4"},
-                    SceneCase{"NoPlanes", [](Draft &d) { d.spoil = [](pt_scene &s) { s.planes = nullptr; }; },
-                              "scene.planes = NULL: must not be NULL, as plane_count is 2"},
-                    SceneCase{"NoMaterials", [](Draft &d) { d.spoil = [](pt_scene &s) { s.materials = nullptr; }; },
-                              "scene.materials = NULL: must not be NULL, as material_count is 5"},
-                    SceneCase{"TooManySurfaces", // that are not there: the arrays must not be read
-                              [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = (1U << 30) - 2; }; },
-                              "scene.sphere_count + plane_count = 1073741824: must be < 2^30"},
-                    SceneCase{
-                        "CountsThatWrapAround",
-                        [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = s.plane_count = 1U << 31; }; },
-                        "scene.sphere_count + plane_count = 4294967296: must be < 2^30"}),
+    testing::Values(
+        SceneCase{"NoSpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.spheres = nullptr; }; },
+                  "scene.spheres = NULL: must not be NULL, as sphere_count is 4"},
+        SceneCase{"NoPlanes", [](Draft &d) { d.spoil = [](pt_scene &s) { s.planes = nullptr; }; },
+                  "scene.planes = NULL: must not be NULL, as plane_count is 2"},
+        SceneCase{"NoMaterials", [](Draft &d) { d.spoil = [](pt_scene &s) { s.materials = nullptr; }; },
+                  "scene.materials = NULL: must not be NULL, as material_count is 5"},
+        SceneCase{"TooManySurfaces", // that are not there: the arrays must not be read
+                  [](Draft &d) { d.spoil = [](pt_scene &s) { s.plane_count = (1U << 30) - 4; }; },
+                  "scene.plane_count + all spheres = 1073741824: must be < 2^30"},
+        SceneCase{"TooManySpheres", [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = (1U << 26) + 1; }; },
+                  "scene.sphere_count = 67108865: must be <= 2^26"},
+        SceneCase{"CountsThatWrapAround",
+                  [](Draft &d) { d.spoil = [](pt_scene &s) { s.sphere_count = s.plane_count = 1U << 31; }; },
+                  "scene.sphere_count = 2147483648: must be <= 2^26\n"
+                  "scene.plane_count + all spheres = 4294967296: must be < 2^30"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(Scene, TellsOfAllViolationsInOrder) {
@@ -211,7 +214,7 @@ TEST(Scene, ShowsEightViolationsAndCountsTheRest) {
 }
 
 TEST(Scene, MayBeEmpty) {
-    const pt_scene scene{sizeof(pt_scene), 0, 0, 0, nullptr, nullptr, nullptr};
+    const pt_scene scene = scene_of({}, {}, {});
     const pt::Scene owned = pt::validated_scene(scene);
     EXPECT_TRUE(owned.materials.empty() && owned.spheres.empty() && owned.planes.empty());
 }

@@ -1,5 +1,5 @@
 // The growth rule of structs: callers compiled with an older or a newer header.
-#include "lib/api/struct_size.h"
+#include "lib/base/struct_size.h"
 
 #include <gtest/gtest.h>
 

@@ -116,7 +116,12 @@ const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0}, {{0.5F, 0
 void set_scene(pt_context *context, int round) {
     const pt_sphere spheres[] = {{{3, 2, -8}, 1, {0, 0, 0}, 0, 0},
                                  {{-1, 1e-3 * (round % 100), -6}, 1, {0, 0, 0}, 1, 0}};
-    const pt_scene scene{sizeof scene, 2, 2, 0, materials, spheres, nullptr};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = 2;
+    scene.sphere_count = 2;
+    scene.materials = materials;
+    scene.spheres = spheres;
     require_ok(pt_set_scene(context, &scene), context);
 }
 

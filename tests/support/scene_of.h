@@ -8,13 +8,15 @@
 // Refers to the arrays, which must outlive it.
 inline pt_scene scene_of(std::span<const pt_material> materials, std::span<const pt_sphere> spheres,
                          std::span<const pt_plane> planes) {
-    return {sizeof(pt_scene),
-            static_cast<uint32_t>(materials.size()),
-            static_cast<uint32_t>(spheres.size()),
-            static_cast<uint32_t>(planes.size()),
-            materials.data(),
-            spheres.data(),
-            planes.data()};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = static_cast<uint32_t>(materials.size());
+    scene.sphere_count = static_cast<uint32_t>(spheres.size());
+    scene.plane_count = static_cast<uint32_t>(planes.size());
+    scene.materials = materials.data();
+    scene.spheres = spheres.data();
+    scene.planes = planes.data();
+    return scene;
 }
 
 // All else by default.

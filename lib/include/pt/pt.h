@@ -13,7 +13,7 @@
  * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
  *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer one is
  *   accepted only if the tail unknown to this library is zero (PT_ERROR_UNSUPPORTED). Elements of arrays have no
- *   struct_size and are frozen. Reserved fields must be zero.
+ *   struct_size and are frozen, but for pt_sphere_array, which grows like the others. Reserved fields must be zero.
  * - Ownership: what a call is given is copied or no longer needed when it returns, but for callbacks with their user
  *   pointers where that is said. Pointers must not be NULL where that is not allowed.
  * - Results: a call that fails (result < 0) has changed nothing, except that a lost device stays lost (destroy the
@@ -94,7 +94,7 @@ typedef struct pt_material {
 
 /** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
  *
- * Of spheres that float32 cannot tell apart as the camera sees them the first in the array stands for all, and so of
+ * Of spheres that float32 cannot tell apart as the camera sees them the first in the scene stands for all, and so of
  * planes: radii that differ by less than a 2^18th, and centres by less than a 2^18th of the radius plus a 2^21th of the
  * distance, but never by a quarter of the radius. */
 typedef struct pt_sphere {
@@ -108,6 +108,37 @@ typedef struct pt_sphere {
     uint32_t reserved; /**< 0 */
 } pt_sphere;
 
+/** Values of pt_column.type: what a component is. */
+enum {
+    PT_TYPE_FLOAT32 = 1, /**< float */
+    PT_TYPE_FLOAT64 = 2, /**< double */
+    PT_TYPE_UINT32 = 3,  /**< uint32_t */
+    /** uint8_t, for colours alone: 255 times the sRGB encoding (IEC 61966-2-1) of a linear value in [0, 1], which is what
+     * pictures and colour maps have. */
+    PT_TYPE_SRGB8 = 4
+};
+
+/** One property of many spheres, where the caller has it. That of sphere i begins at data + i * stride_bytes and has its
+ * components one after the other; no alignment is needed. All zero: no column, the property has its default. */
+typedef struct pt_column {
+    const void *data;      /**< NULL only if there is no column */
+    uint32_t stride_bytes; /**< < 2^31; at least the bytes of a sphere's components, or 0: one value for all spheres */
+    uint32_t type;         /**< PT_TYPE_* */
+} pt_column;
+
+/** Spheres by columns, as simulations have them. What is said of the fields of pt_sphere holds for each value. */
+typedef struct pt_sphere_array {
+    uint32_t struct_size; /**< sizeof(pt_sphere_array): also the distance from one element to the next, alike in all */
+    uint32_t count;       /**< spheres; the columns of none are not looked at */
+    pt_column center;     /**< x, y, z at time 0; FLOAT32 or FLOAT64; there must be one */
+    pt_column radius;     /**< FLOAT32 or FLOAT64; there must be one */
+    pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
+    pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
+    /** R, G, B in [0, 1], by which the diffuse of the sphere's material is multiplied; FLOAT32 or FLOAT64, linear like all
+     * colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. */
+    pt_column color;
+} pt_sphere_array;
+
 /** The points x with dot(normal, x) + offset = 0. Visible, lit and emitting on both sides. */
 typedef struct pt_plane {
     double normal[3];  /**< any length but 0; (normal, offset) is divided by it */
@@ -116,15 +147,19 @@ typedef struct pt_plane {
     uint32_t reserved; /**< 0 */
 } pt_plane;
 
-/** What is to be seen. The arrays are the caller's and are copied by pt_set_scene. */
+/** What is to be seen. The arrays are the caller's; pt_set_scene reads them and keeps none. Spheres are in the order of
+ * spheres, followed by those of each of sphere_arrays. */
 typedef struct pt_scene {
-    uint32_t struct_size;         /**< sizeof(pt_scene) */
-    uint32_t material_count;      /**< elements of materials */
-    uint32_t sphere_count;        /**< elements of spheres */
-    uint32_t plane_count;         /**< elements of planes; spheres and planes together: fewer than 2^30 */
-    const pt_material *materials; /**< NULL where the count is 0, like the two below */
-    const pt_sphere *spheres;     /**< in any order */
-    const pt_plane *planes;       /**< in any order */
+    uint32_t struct_size;                 /**< sizeof(pt_scene) */
+    uint32_t material_count;              /**< elements of materials */
+    uint32_t sphere_count;                /**< elements of spheres; with those of sphere_arrays at most 2^26 */
+    uint32_t plane_count;                 /**< elements of planes; with all spheres fewer than 2^30 */
+    const pt_material *materials;         /**< NULL where the count is 0, like all arrays here */
+    const pt_sphere *spheres;             /**< in any order */
+    const pt_plane *planes;               /**< in any order */
+    const pt_sphere_array *sphere_arrays; /**< more spheres, one array for each species for instance; in any order */
+    uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
+    uint32_t reserved;                    /**< 0 */
 } pt_scene;
 
 /** A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
@@ -344,7 +379,8 @@ PT_API void pt_destroy(pt_context *context);
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
  * One thread at a time per context. PT_ERROR_INVALID_SCENE: a rule is broken; the message has a line for each rule
- * that is, as "spheres[3].radius = -1: must be > 0". PT_ERROR_DEVICE_LOST. */
+ * that is, as "spheres[3].radius = -1: must be > 0" or, of a column, "sphere_arrays[0].radius[123] = -1: must be > 0";
+ * after eight lines it only counts. PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
 /** Takes over a camera, and discards the samples accumulated so far.

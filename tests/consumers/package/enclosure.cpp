@@ -48,7 +48,12 @@ Context create() {
 std::vector<float> render(pt_context *context) {
     const pt_material material = {{0, 0, 0}, {0, 0, 0}, {2, 1, 0.5F}, 0};
     const pt_sphere ball = {{0, 0, 0}, 3, {0, 0, 0}, 0, 0};
-    const pt_scene scene = {sizeof scene, 1, 1, 0, &material, &ball, nullptr};
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = 1;
+    scene.materials = &material;
+    scene.sphere_count = 1;
+    scene.spheres = &ball;
     pt_camera camera{};
     camera.struct_size = sizeof camera;
     camera.target[2] = -1;

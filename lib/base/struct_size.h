@@ -25,20 +25,21 @@ inline void require_not_null(const void *pointer, const char *name) {
                     BrokenRule{.subject = name, .value = "NULL", .rule = "must not be NULL"});
 }
 
-inline BrokenRule wrong_size(const char *name, std::uint32_t size, const std::string &rule) {
-    return {.subject = name, .member = "struct_size", .value = std::to_string(size), .rule = rule};
+inline BrokenRule wrong_size(const char *name, std::int64_t index, std::uint32_t size, const std::string &rule) {
+    return {.subject = name, .index = index, .member = "struct_size", .value = std::to_string(size), .rule = rule};
 }
 
-// The struct_size of the caller's struct, which is called name in messages.
-inline std::uint32_t struct_size_of(const void *user, const char *name) {
+// The struct_size of the caller's struct, which is called name in messages; index: if it is an element of an array.
+inline std::uint32_t struct_size_of(const void *user, const char *name, std::int64_t index = -1) {
     require_not_null(user, name);
     std::uint32_t size = 0;
     std::memcpy(&size, user, sizeof size);
     if (size < sizeof size)
         throw Error(PT_ERROR_INVALID_ARGUMENT,
-                    wrong_size(name, size, "must be the size of the struct, which holds this field"));
+                    wrong_size(name, index, size, "must be the size of the struct, which holds this field"));
     if (size > max_struct_size)
-        throw Error(PT_ERROR_INVALID_ARGUMENT, wrong_size(name, size, "must be the size of the struct (<= 65536)"));
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    wrong_size(name, index, size, "must be the size of the struct (<= 65536)"));
     return size;
 }
 
@@ -46,13 +47,13 @@ inline std::uint32_t struct_size_of(const void *user, const char *name) {
 // from an older header, is read as if zeros followed; a longer one, from a newer header, must not ask for what is
 // unknown here.
 template <typename T>
-T copy_in(const T *user, const char *name) {
-    const std::uint32_t size = struct_size_of(user, name);
+T copy_in(const T *user, const char *name, std::int64_t index = -1) {
+    const std::uint32_t size = struct_size_of(user, name, index);
     const auto *bytes = reinterpret_cast<const unsigned char *>(user);
     for (std::size_t i = sizeof(T); i < size; ++i)
         if (bytes[i] != 0)
             throw Error(PT_ERROR_UNSUPPORTED,
-                        wrong_size(name, size,
+                        wrong_size(name, index, size,
                                    "byte " + std::to_string(i) + " is set, but this library knows only the first " +
                                        std::to_string(sizeof(T)) + " bytes of the struct"));
     T copy{};

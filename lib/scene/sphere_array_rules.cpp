@@ -1,0 +1,207 @@
+// Checks columns; see sphere_array_rules.h.
+#include "lib/scene/sphere_array_rules.h"
+
+#include "lib/base/struct_size.h"
+#include "lib/scene/column.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace pt {
+
+namespace {
+
+// So many that none is missed, and so few that a count which nobody has set is noticed before the arrays are read.
+constexpr std::uint32_t max_array_count = 65536;
+
+// Negative strides, which NumPy has and C has not, are noticed as well.
+constexpr std::uint32_t max_stride = (std::uint32_t{1} << 31) - 1;
+
+// A column's place in its array, and what it may be.
+struct ColumnKind {
+    const char *name;
+    pt_column pt_sphere_array::*column;
+    std::uint32_t components;
+    bool (*is_type)(std::uint32_t type);
+    const char *type_rule;
+    bool is_needed;
+};
+
+bool is_real(std::uint32_t type) {
+    return type == PT_TYPE_FLOAT32 || type == PT_TYPE_FLOAT64;
+}
+
+bool is_index(std::uint32_t type) {
+    return type == PT_TYPE_UINT32;
+}
+
+bool is_color(std::uint32_t type) {
+    return is_real(type) || type == PT_TYPE_SRGB8;
+}
+
+const char *const real_types = "must be PT_TYPE_FLOAT32 (1) or PT_TYPE_FLOAT64 (2)";
+const char *const index_types = "must be PT_TYPE_UINT32 (3)";
+const char *const color_types = "must be PT_TYPE_FLOAT32 (1), PT_TYPE_FLOAT64 (2) or PT_TYPE_SRGB8 (4)";
+
+const ColumnKind kinds[] = {
+    {"center", &pt_sphere_array::center, 3, is_real, real_types, true},
+    {"radius", &pt_sphere_array::radius, 1, is_real, real_types, true},
+    {"motion", &pt_sphere_array::motion, 3, is_real, real_types, false},
+    {"material", &pt_sphere_array::material, 1, is_index, index_types, false},
+    {"color", &pt_sphere_array::color, 3, is_color, color_types, false},
+};
+
+std::uint32_t component_bytes(std::uint32_t type) {
+    if (type == PT_TYPE_FLOAT64)
+        return sizeof(double);
+    return type == PT_TYPE_SRGB8 ? 1 : sizeof(float);
+}
+
+// A member of a column: "center.data".
+std::string member(const ColumnKind &kind, const char *name) {
+    return std::string(kind.name) + '.' + name;
+}
+
+// Whether a column can be read, or is rightly missing.
+bool check_layout(const Subject &array, const pt_column &column, std::uint32_t count, const ColumnKind &kind) {
+    const auto refuse = [&](const char *name, const std::string &value, const std::string &rule) {
+        array.refuse(member(kind, name).c_str(), value, rule);
+        return false;
+    };
+    if (!is_there(column)) {
+        if (kind.is_needed)
+            return refuse("data", "NULL", "must not be NULL, as count is " + number_text(count));
+        return (column.type == 0 && column.stride_bytes == 0) ||
+               refuse("data", "NULL", "must not be NULL where type or stride_bytes is set");
+    }
+    if (!kind.is_type(column.type))
+        return refuse("type", number_text(column.type), kind.type_rule);
+    const std::uint32_t bytes = kind.components * component_bytes(column.type);
+    if (column.stride_bytes > max_stride)
+        return refuse("stride_bytes", number_text(column.stride_bytes), "must be < 2^31");
+    return column.stride_bytes == 0 || column.stride_bytes >= bytes ||
+           refuse("stride_bytes", number_text(column.stride_bytes),
+                  "must be 0 or at least the " + number_text(bytes) + " bytes of one element");
+}
+
+bool check_layout(const Subject &subject, const pt_sphere_array &array) {
+    bool readable = true;
+    for (const ColumnKind &kind : kinds)
+        readable &= check_layout(subject, array.*kind.column, array.count, kind);
+    return readable;
+}
+
+// Calls refuse(index, value) for each element that does not hold.
+template <typename Read, typename Holds, typename Refuse>
+void check_elements(std::size_t count, Read read, Holds holds, Refuse refuse) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (const auto value = read(i); !holds(value))
+            refuse(i, value);
+}
+
+// What the first component that breaks it says of the rule.
+template <typename Vector>
+const char *broken(const Vector &value, Rule rule) {
+    const char *x = rule(value.x);
+    const char *y = rule(value.y);
+    return x ? x : y ? y : rule(value.z);
+}
+
+// The columns of one array, all of which can be read.
+class ColumnChecker {
+public:
+    ColumnChecker(const Subject &subject, std::size_t count) : subject_(subject), count_(count) {}
+
+    template <bool (*holds)(double)>
+    void check_vectors(const char *name, const pt_column &column, Rule rule) const {
+        with_vectors(column, [&](auto read) {
+            check_elements(
+                elements(column), read,
+                [](const auto &value) { return holds(value.x) && holds(value.y) && holds(value.z); },
+                [&](std::size_t i, const auto &value) {
+                    subject_.refuse_element(name, i, value, broken(value, rule));
+                });
+        });
+    }
+
+    template <bool (*holds)(double)>
+    void check_numbers(const char *name, const pt_column &column, Rule rule) const {
+        with_numbers(column, [&](auto read) {
+            check_elements(elements(column), read, holds,
+                           [&](std::size_t i, auto value) { subject_.refuse_element(name, i, value, rule(value)); });
+        });
+    }
+
+    void check_materials(const pt_column &column, std::uint32_t material_count) const {
+        const std::string rule = material_rule(material_count);
+        check_elements(
+            elements(column), [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
+            [material_count](std::uint32_t material) { return material < material_count; },
+            [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
+    }
+
+private:
+    // One value for all is looked at once.
+    std::size_t elements(const pt_column &column) const { return column.stride_bytes == 0 ? 1 : count_; }
+
+    const Subject &subject_;
+    std::size_t count_;
+};
+
+void check_values(const Subject &subject, const pt_sphere_array &array, std::uint32_t material_count) {
+    const ColumnChecker checker(subject, array.count);
+    checker.check_vectors<is_length>("center", array.center, length_rule);
+    checker.check_numbers<is_positive_length>("radius", array.radius, positive_length_rule);
+    if (is_there(array.motion))
+        checker.check_vectors<is_length>("motion", array.motion, length_rule);
+    if (is_there(array.material))
+        checker.check_materials(array.material, material_count);
+    else
+        subject.require(material_count > 0, "material", 0U, material_rule(material_count));
+    if (is_there(array.color) && array.color.type != PT_TYPE_SRGB8)
+        checker.check_vectors<is_share>("color", array.color, share_rule);
+}
+
+} // namespace
+
+std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations) {
+    const Subject whole(violations, "scene");
+    const std::uint32_t count = scene.sphere_array_count;
+    if (count == 0)
+        return {};
+    if (!scene.sphere_arrays)
+        whole.refuse("sphere_arrays", "NULL", "must not be NULL, as sphere_array_count is " + number_text(count));
+    whole.require(count <= max_array_count, "sphere_array_count", count, "must be <= 65536");
+    if (!scene.sphere_arrays || count > max_array_count)
+        return {};
+
+    std::vector<pt_sphere_array> arrays;
+    arrays.reserve(count);
+    const std::uint32_t distance = struct_size_of(scene.sphere_arrays, "sphere_arrays", 0);
+    const auto *first = reinterpret_cast<const unsigned char *>(scene.sphere_arrays);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto *array = reinterpret_cast<const pt_sphere_array *>(first + std::size_t{i} * distance);
+        const std::uint32_t size = struct_size_of(array, "sphere_arrays", i);
+        if (size != distance)
+            throw Error(PT_ERROR_INVALID_ARGUMENT,
+                        wrong_size("sphere_arrays", i, size,
+                                   "must be that of sphere_arrays[0] (" + number_text(distance) + ")"));
+        arrays.push_back(copy_in(array, "sphere_arrays", i));
+    }
+    return arrays;
+}
+
+void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count,
+                         Violations &violations) {
+    for (std::size_t i = 0; i < arrays.size(); ++i) {
+        const Subject subject(violations, "sphere_arrays", i);
+        if (arrays[i].count > 0 && check_layout(subject, arrays[i]))
+            check_values(subject, arrays[i], material_count);
+    }
+}
+
+std::string material_rule(std::uint32_t material_count) {
+    return "must be < material_count (" + number_text(material_count) + ")";
+}
+
+} // namespace pt

@@ -1,0 +1,113 @@
+// Reads spheres column by column; see sphere_source.h.
+#include "lib/scene/sphere_source.h"
+
+#include "lib/scene/column.h"
+
+namespace pt {
+
+namespace {
+
+// A member of the structs, which lie one after the other.
+pt_column column_of(const void *first, std::uint32_t type) {
+    return {first, sizeof(pt_sphere), type};
+}
+
+pt_sphere_array columns_of(std::span<const pt_sphere> spheres) {
+    pt_sphere_array columns{};
+    columns.struct_size = sizeof columns;
+    columns.count = static_cast<std::uint32_t>(spheres.size());
+    if (spheres.empty())
+        return columns;
+    const pt_sphere &first = spheres.front();
+    columns.center = column_of(first.center, PT_TYPE_FLOAT64);
+    columns.radius = column_of(&first.radius, PT_TYPE_FLOAT64);
+    columns.motion = column_of(first.motion, PT_TYPE_FLOAT64);
+    columns.material = column_of(&first.material, PT_TYPE_UINT32);
+    return columns;
+}
+
+void read_columns(const pt_sphere_array &columns, std::size_t first, std::span<Sphere> spheres) {
+    with_vectors(columns.center, [&](auto center) {
+        for (std::size_t i = 0; i < spheres.size(); ++i)
+            spheres[i].center = center(first + i);
+    });
+    with_numbers(columns.radius, [&](auto radius) {
+        for (std::size_t i = 0; i < spheres.size(); ++i)
+            spheres[i].radius = radius(first + i);
+    });
+    if (is_there(columns.motion))
+        with_vectors(columns.motion, [&](auto motion) {
+            for (std::size_t i = 0; i < spheres.size(); ++i)
+                spheres[i].motion = motion(first + i);
+        });
+    else
+        for (Sphere &sphere : spheres)
+            sphere.motion = glm::dvec3(0.0);
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+        spheres[i].material = is_there(columns.material) ? element<std::uint32_t>(columns.material, first + i) : 0;
+}
+
+void read_color_column(const pt_column &column, std::size_t first, std::span<glm::vec3> colors) {
+    if (is_there(column))
+        with_colors(column, [&](auto color) {
+            for (std::size_t i = 0; i < colors.size(); ++i)
+                colors[i] = color(first + i);
+        });
+    else
+        std::ranges::fill(colors, glm::vec3(1.0F));
+}
+
+} // namespace
+
+SphereSource::SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays) {
+    parts_.reserve(arrays.size() + 1);
+    parts_.push_back(columns_of(spheres));
+    parts_.insert(parts_.end(), arrays.begin(), arrays.end());
+    starts_.reserve(parts_.size() + 1);
+    starts_.push_back(0);
+    for (const pt_sphere_array &part : parts_)
+        starts_.push_back(starts_.back() + part.count);
+    has_colors_ = std::ranges::any_of(
+        arrays, [](const pt_sphere_array &array) { return array.count > 0 && is_there(array.color); });
+}
+
+Sphere SphereSource::operator[](std::size_t index) const {
+    Sphere sphere;
+    read(index, {&sphere, 1});
+    return sphere;
+}
+
+glm::vec3 SphereSource::color(std::size_t index) const {
+    glm::vec3 color;
+    read_colors(index, {&color, 1});
+    return color;
+}
+
+void SphereSource::read(std::size_t first, std::span<Sphere> spheres) const {
+    read_parts(first, spheres, read_columns);
+}
+
+void SphereSource::read_colors(std::size_t first, std::span<glm::vec3> colors) const {
+    read_parts(first, colors, [](const pt_sphere_array &columns, std::size_t from, std::span<glm::vec3> part) {
+        read_color_column(columns.color, from, part);
+    });
+}
+
+// The last that begins there or before: of empty ones and the part behind them, which begin alike, that part.
+std::size_t SphereSource::part_of(std::size_t index) const {
+    const auto after = std::ranges::upper_bound(starts_, index);
+    return static_cast<std::size_t>(after - starts_.begin()) - 1;
+}
+
+template <typename Element, typename Read>
+void SphereSource::read_parts(std::size_t first, std::span<Element> elements, Read read_part) const {
+    for (std::size_t part = part_of(first); !elements.empty(); ++part) {
+        const std::size_t count = std::min<std::size_t>(elements.size(), starts_[part + 1] - first);
+        if (count > 0)
+            read_part(parts_[part], first - starts_[part], elements.first(count));
+        elements = elements.subspan(count);
+        first += count;
+    }
+}
+
+} // namespace pt

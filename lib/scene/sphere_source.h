@@ -1,0 +1,69 @@
+// The spheres that pt_set_scene was given, structs and columns alike, read where the caller has them.
+#pragma once
+
+#include "lib/scene/scene.h"
+
+#include <pt/pt.h>
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// Refers to the caller's memory, and so is valid during the call that was given it. Several threads may read.
+class SphereSource {
+public:
+    // In this order, which is the scene's. What is in them obeys the rules (sphere_array_rules.h).
+    SphereSource(std::span<const pt_sphere> spheres, std::span<const pt_sphere_array> arrays);
+
+    std::size_t size() const { return starts_.back(); }
+
+    // Whether spheres may have a colour of their own: else all colours are 1.
+    bool has_colors() const { return has_colors_; }
+
+    // One sphere, and by what its material's diffuse is multiplied. For many in a row the functions below are faster.
+    Sphere operator[](std::size_t index) const;
+    glm::vec3 color(std::size_t index) const;
+
+    // As many as there is room for, from the first on.
+    void read(std::size_t first, std::span<Sphere> spheres) const;
+    void read_colors(std::size_t first, std::span<glm::vec3> colors) const;
+
+    // Calls use(index, sphere, color) for each, in order.
+    template <typename Use>
+    void for_each(Use use) const {
+        std::array<Sphere, chunk_size> spheres;
+        std::array<glm::vec3, chunk_size> colors;
+        for (std::size_t first = 0; first < size(); first += chunk_size) {
+            const std::size_t count = std::min(chunk_size, size() - first);
+            read(first, std::span(spheres).first(count));
+            read_colors(first, std::span(colors).first(count));
+            for (std::size_t i = 0; i < count; ++i)
+                use(first + i, spheres[i], colors[i]);
+        }
+    }
+
+    // The index of the first sphere of each array, or where it would be.
+    std::span<const std::uint32_t> array_starts() const { return {starts_.begin() + 1, starts_.end() - 1}; }
+
+private:
+    static constexpr std::size_t chunk_size = 256; // 19 KiB, which stay in the first cache
+
+    std::size_t part_of(std::size_t index) const;
+
+    // Calls read_part(columns, first, elements) for what lies in each of the arrays; first counts from the array's own.
+    template <typename Element, typename Read>
+    void read_parts(std::size_t first, std::span<Element> elements, Read read_part) const;
+
+    std::vector<pt_sphere_array> parts_; // the structs as columns, then the arrays
+    std::vector<std::uint32_t> starts_;  // index of the first sphere of each part, and the number of all
+    bool has_colors_;
+};
+
+} // namespace pt
