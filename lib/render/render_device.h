@@ -91,9 +91,14 @@ public:
 
     // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
     // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and
-    // others have begun before. Returns how many samples the slice has begun: 0 for the film and within a pass.
-    // has_room() must hold.
-    std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
+    // others have begun before. estimate: if it is given, and the slice takes all of the samples, the error of the film
+    // with them is estimated behind it where that can be, for error_reader().collect(). has_room() must hold.
+    struct Started {
+        std::uint32_t samples; // that the slice has begun: 0 for the film and within a pass
+        bool estimates;
+    };
+    Started start(const SampleRange &samples, const SampleRange &hull,
+                  const std::optional<ErrorQuery> &estimate = std::nullopt);
 
     // Whether finish() would not wait, having waited for that until a time. Not idle.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
@@ -124,7 +129,9 @@ private:
     void drop_kernel() noexcept;
     void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
     void start_film_work();
-    std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
+    Started start_samples(const SampleRange &samples, const SampleRange &hull,
+                          const std::optional<ErrorQuery> &estimate);
+    ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
     KernelCode code_;

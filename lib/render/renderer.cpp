@@ -217,15 +217,18 @@ const ErrorEstimate &Renderer::error() {
 // then go to the first device in rows of regions: an image has the same estimate on one device and on several.
 void Renderer::estimate_error(ErrorEstimator &estimator) {
     RenderDevice &device = *devices_.front();
-    const double unit = scene_->film_unit;
+    const ErrorQuery query{scene_->film_unit, part_counts(samples_)};
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!device.device().policy().resolve_on_device || !device.film().has_whole_regions()) {
         read_films(films(), samples_, piece_pixels,
-                   [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
+                   [&](const PixelSums &sums) { estimator.add(sums.estimates(query.unit, true)); });
         return;
     }
     if (resolves_on_device()) {
-        device.error_reader().read(unit, part_counts(samples_), add);
+        if (job_ && job_->accumulation.has_estimate())
+            device.error_reader().collect(query, add);
+        else
+            device.error_reader().read(query, add);
         return;
     }
     const std::uint32_t width = settings_->width;
@@ -239,7 +242,7 @@ void Renderer::estimate_error(ErrorEstimator &estimator) {
         if (!rows || rows->pixel_count() != sums.pixel_count())
             rows.emplace(device.device(), width, row_count, most_pixels);
         rows->write(sums, parts);
-        ErrorReader(device.device(), device.estimate_pipeline(), *rows).read(unit, part_counts(samples_), add);
+        ErrorReader(device.device(), device.estimate_pipeline(), *rows).read(query, add);
     });
 }
 
@@ -325,6 +328,13 @@ void Renderer::require_under_way() const {
 }
 
 // With a target error in runs, from each number of samples at which the error is looked at to the next.
+Accumulation::Goal Renderer::next_goal() const {
+    const std::uint64_t check = job_->target_error > 0.0 ? next_check(samples_.count()) : job_->count;
+    if (check < job_->count)
+        return {check, scene_->film_unit};
+    return {job_->count, std::nullopt};
+}
+
 pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     Accumulation &accumulation = job_->accumulation;
     const double target_error = job_->target_error;
@@ -332,7 +342,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     while (samples_.count() < wanted) {
         if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
-        if (!accumulation.run(target_error > 0.0 ? std::min(wanted, next_check(samples_.count())) : wanted, until))
+        if (!accumulation.run(next_goal(), until))
             return PT_PENDING;
         take_over(accumulation.samples());
         if (accumulation.stopped() && samples_.count() < wanted)

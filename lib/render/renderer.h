@@ -143,6 +143,7 @@ private:
     void begin(std::uint32_t sample_count, double target_error, const Progress &progress);
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
+    Accumulation::Goal next_goal() const;
     pt_result advance(Accumulation::Clock::time_point until);
     void take_over(SampleSet samples) noexcept;
     void give_up() noexcept;

@@ -58,7 +58,7 @@ Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
     }
     if (use == BufferUse::HostRead) {
         constexpr std::array wanted = {host_readable, host_visible};
-        return {device, bytes, Usage::eTransferDst, wanted, host_visible};
+        return {device, bytes, Usage::eStorageBuffer | Usage::eTransferDst, wanted, host_visible};
     }
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::UniformOrStorage)

@@ -15,7 +15,7 @@ enum class BufferUse {
     Storage,          // kernels read and write it
     UniformOrStorage, // kernels read it either way
     Streamed,         // kernels read it as uniform; the host writes it often, and never waits to do so
-    HostRead          // copied to, and read by the host in place once that has ended
+    HostRead          // copied to or written by kernels, and read by the host in place once that has ended
 };
 
 // A part of a buffer and where its bytes go.
