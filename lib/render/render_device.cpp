@@ -98,6 +98,7 @@ void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePi
     drop_bound(); // it uses the old ones
     resolve_.reset();
     estimate_.reset();
+    add_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
     device_.pipeline_cache().set_key(pipelines_->take_kernel_key());
@@ -175,6 +176,12 @@ const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {
     if (!estimate_)
         estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate));
     return *estimate_;
+}
+
+const vulkan::ComputePipeline &RenderDevice::add_pipeline() {
+    if (!add_)
+        add_.emplace(pt::add_pipeline(device_, code_.add));
+    return *add_;
 }
 
 ErrorReader &RenderDevice::error_reader() {

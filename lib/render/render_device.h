@@ -5,6 +5,7 @@
 #include "lib/film/device_film.h"
 #include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/error_reader.h"
+#include "lib/kernel/film_sum.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
@@ -46,8 +47,10 @@ public:
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // What reads errors of other films.
+    // Kernels for other films than this device's own.
+    ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
+    const vulkan::ComputePipeline &add_pipeline();
 
     // Takes over kernels that the caller has kept, and hands over those that are built.
     void keep_kernels(const vulkan::KernelStore &store);
@@ -125,7 +128,6 @@ private:
     };
 
     bool can_clear_at_once() const;
-    ResolvePipelines &resolve_pipelines();
     void drop_kernel() noexcept;
     void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
     void start_film_work();
@@ -140,6 +142,7 @@ private:
     double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
+    std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;
