@@ -5,8 +5,9 @@
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
+#include "lib/render/kernels_kept.h"
+#include "lib/render/missed_lamps.h"
 #include "lib/render/saved_film.h"
-#include "lib/scene/lamp_share.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
@@ -24,21 +25,6 @@ std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
         devices.push_back(vulkan::describe(device));
     return devices;
 }
-
-// Hands to the caller, at the end of a call, the kernels that were built in it.
-class KernelsKept {
-public:
-    explicit KernelsKept(const std::vector<std::unique_ptr<RenderDevice>> &devices) : devices_(devices) {}
-    KernelsKept(const KernelsKept &) = delete;
-    KernelsKept &operator=(const KernelsKept &) = delete;
-    ~KernelsKept() {
-        for (const auto &device : devices_)
-            device->save_kernels();
-    }
-
-private:
-    const std::vector<std::unique_ptr<RenderDevice>> &devices_;
-};
 
 Error too_many_samples(std::uint32_t sample_count, const std::string &reason, std::uint64_t number) {
     return {PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "accumulate",
@@ -174,25 +160,14 @@ bool Renderer::is_in_pass() const {
     return std::ranges::any_of(devices_, [](const auto &device) { return !device->pass().empty(); });
 }
 
-bool Renderer::may_miss_lamps(std::uint64_t samples) const {
-    constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
-    const std::uint32_t estimator = settings_->estimator;
-    const bool by_chance =
-        settings_->max_path_length > 1 &&
-        (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
-    if (!by_chance)
-        return false;
-    const std::optional<double> share = smallest_lamp_share(scene_->scene, *camera_);
-    return share && static_cast<double>(samples) * *share < enough_meetings;
-}
-
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.count() * devices_.front()->pixel_count();
-        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps(samples)});
+        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler,
+                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
         view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->accumulation.has_estimate());
         rejected_samples_ = estimator.rejected();
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();

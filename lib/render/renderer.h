@@ -135,7 +135,6 @@ private:
     ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
-    bool may_miss_lamps(std::uint64_t samples) const; // of all pixels
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
     void begin(std::uint32_t sample_count, double target_error, const Progress &progress);
