@@ -116,6 +116,8 @@ PT_CONSTANT BINDING_TREE = 5;
 // Of resolve.comp and estimate.comp, beside BINDING_FILM.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
+// Of add.comp, likewise.
+PT_CONSTANT BINDING_ADDED = 3;
 
 // What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h.
 PT_CONSTANT FORMAT_RGB32F = 0;
@@ -273,6 +275,16 @@ struct EstimateConstants {
     float relative_scale;
 };
 
+// Of add.comp: consecutive pixels of one strip, and as many of what is added to them.
+struct AddConstants {
+    uvec2 parts; // in memory, to which those of what is added are added
+    uint strip_pixel_count;
+    uint first_pixel; // in the strip
+    uint pixel_count;
+    uint added_first_pixel;
+    uint added_stride; // words of a plane
+};
+
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
 static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
@@ -283,6 +295,7 @@ static_assert(offsetof(FrameConstants, start_scale) == 88);
 static_assert(sizeof(TreeFrame) == 64 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
+static_assert(sizeof(AddConstants) == 28 && offsetof(AddConstants, added_stride) == 24);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

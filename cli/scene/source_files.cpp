@@ -41,8 +41,8 @@ SourceFiles read_shader_files(const std::filesystem::path &shader_dir) {
     SourceFiles files;
     std::vector<std::filesystem::path> to_read;
     if (!shader_dir.empty()) {
-        for (const char *kernel :
-             {"pathtrace.comp", "commit.comp", "fold.comp", "resolve.comp", "estimate.comp", "accuracy.comp"}) {
+        for (const char *kernel : {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp",
+                                   "estimate.comp", "accuracy.comp"}) {
             to_read.push_back(shader_dir / kernel);
         }
     }

@@ -132,6 +132,25 @@ bool DeviceFilm::has_whole_regions() const {
     return strips_.size() == 1 || strips_.front().pixel_count % (std::uint64_t{width_} * gpu::REGION_SIZE) == 0;
 }
 
+void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels,
+                         const vulkan::Buffer &to) const {
+    for (const Strip &strip : strips_) {
+        const Overlap overlap(strip, pixels.first, pixels.count);
+        if (overlap.count == 0)
+            continue;
+        std::vector<vk::BufferCopy> pieces;
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
+                const std::uint64_t words =
+                    (std::uint64_t{part} * gpu::FILM_WORDS + plane) * pixels.count + (overlap.first - pixels.first);
+                pieces.push_back({.srcOffset = word_offset(strip, part, plane, overlap.first),
+                                  .dstOffset = words * sizeof(std::uint32_t),
+                                  .size = overlap.count * sizeof(std::uint32_t)});
+            }
+        to.copy(commands, strip.words, pieces);
+    }
+}
+
 void DeviceFilm::write(const PixelSums &sums, const PartUse &parts) {
     for (Strip &strip : strips_)
         write_sums(strip, strip.words, 0, sums);

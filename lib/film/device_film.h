@@ -16,6 +16,12 @@
 
 namespace pt {
 
+// Consecutive pixels of a film.
+struct PixelRange {
+    std::uint32_t first;
+    std::uint32_t count;
+};
+
 class DeviceFilm {
 public:
     // As many consecutive pixels, row by row, as fit into one binding.
@@ -36,6 +42,7 @@ public:
     std::uint32_t width() const { return width_; }
     std::uint32_t pixel_count() const { return width_ * height_; }
     std::vector<Strip> &strips() { return strips_; }
+    const std::vector<Strip> &strips() const { return strips_; }
 
     // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
     // takes samples.
@@ -55,6 +62,10 @@ public:
 
     // Whether its strips are whole rows of regions, as estimates of its error want them (gpu_layout.h).
     bool has_whole_regions() const;
+
+    // Records that the words of consecutive pixels become those of a buffer: planes without gaps, part by part as in
+    // memory.
+    void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
     // Sets the sums of its first pixels, all of them in parts as used.
     void write(const PixelSums &sums, const PartUse &parts);
@@ -90,12 +101,6 @@ private:
     std::uint32_t height_;
     std::vector<Strip> strips_;
     PartUse parts_;
-};
-
-// Consecutive pixels of a film.
-struct PixelRange {
-    std::uint32_t first;
-    std::uint32_t count;
 };
 
 // Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the

@@ -88,43 +88,57 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     device_(device),
     estimate_(estimate),
     film_(film),
-    regions_(device, vulkan::BufferUse::Storage, most_region_bytes(film), "error of an image"),
-    host_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image") {
+    regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image") {
     for (DeviceFilm::Strip &strip : film.strips()) {
         const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &regions_};
         sets_.push_back(estimate.bind(buffers));
     }
 }
 
-void ErrorReader::read(double unit, const PartCounts &samples,
-                       const std::function<void(const RegionErrors &)> &receive) {
-    const RelativeUnits units(unit);
+void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+        device_.submit(
+            [&](const vk::raii::CommandBuffer &commands) { record_strip(commands, i, film_.parts(), query); });
+        collect_strip(i, query, receive);
+    }
+}
+
+void ErrorReader::record(const vk::raii::CommandBuffer &commands, const PartUse &parts, const ErrorQuery &query) const {
+    record_strip(commands, 0, parts, query);
+}
+
+void ErrorReader::collect(const ErrorQuery &query, const Receive &receive) const {
+    collect_strip(0, query, receive);
+}
+
+void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const PartUse &parts,
+                               const ErrorQuery &query) const {
+    const RelativeUnits units(query.unit);
+    const auto &[older, newer] = query.samples;
     const std::uint32_t width = film_.width();
+    const std::uint32_t pixel_count = film_.strips()[strip].pixel_count;
     gpu::EstimateConstants constants{};
-    constants.sample_counts = {static_cast<std::uint32_t>(samples[older_part]),
-                               static_cast<std::uint32_t>(samples[newer_part])};
-    constants.older_part = film_.parts().older();
+    constants.sample_counts = {static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer)};
+    constants.older_part = parts.older();
     constants.film_width = width;
-    constants.sample_count = static_cast<float>(samples[older_part] + samples[newer_part]);
+    constants.strip_pixel_count = pixel_count;
+    constants.row_count = pixel_count / width;
+    constants.sample_count = static_cast<float>(older + newer);
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
-    for (std::size_t i = 0; i < sets_.size(); ++i) {
-        const DeviceFilm::Strip &strip = film_.strips()[i];
-        const std::uint32_t rows = strip.pixel_count / width;
-        constants.strip_pixel_count = strip.pixel_count;
-        constants.row_count = rows;
-        device_.submit([&](const vk::raii::CommandBuffer &commands) {
-            estimate_.dispatch(commands, sets_[i], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},
-                               regions_of(rows));
-            vulkan::barrier_between_commands(commands);
-            host_.copy(commands, regions_, region_bytes(film_, strip));
-        });
-        const auto *region = reinterpret_cast<const gpu::RegionError *>(host_.host_bytes().data());
-        for (std::uint32_t top = 0; top < rows; top += gpu::REGION_SIZE)
-            for (std::uint32_t left = 0; left < width; left += gpu::REGION_SIZE)
-                receive(errors_of(*region++, std::min(gpu::REGION_SIZE, width - left),
-                                  std::min(gpu::REGION_SIZE, rows - top), unit, units));
-    }
+    estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},
+                       regions_of(constants.row_count));
+}
+
+void ErrorReader::collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const {
+    const RelativeUnits units(query.unit);
+    const std::uint32_t width = film_.width();
+    const std::uint32_t rows = film_.strips()[strip].pixel_count / width;
+    const auto *region = reinterpret_cast<const gpu::RegionError *>(regions_.host_bytes().data());
+    for (std::uint32_t top = 0; top < rows; top += gpu::REGION_SIZE)
+        for (std::uint32_t left = 0; left < width; left += gpu::REGION_SIZE)
+            receive(errors_of(*region++, std::min(gpu::REGION_SIZE, width - left),
+                              std::min(gpu::REGION_SIZE, rows - top), query.unit, units));
 }
 
 } // namespace pt

@@ -8,29 +8,45 @@
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 namespace pt {
+
+// Of which samples the error is asked for.
+struct ErrorQuery {
+    double unit;        // of the film, a power of two, in radiance
+    PartCounts samples; // that every pixel has
+};
 
 class ErrorReader {
 public:
     // All must outlive it. estimate: of estimate_pipeline(). The film's strips must be whole rows of regions.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
-    // Calls receive(region) for every region of the film, always in the same order. unit: of the film, a power of two, in
-    // radiance; samples: that every pixel has. Throws PT_ERROR_INTERNAL if a driver lost work.
-    void read(double unit, const PartCounts &samples, const std::function<void(const RegionErrors &)> &receive);
+    using Receive = std::function<void(const RegionErrors &)>;
+
+    // Calls receive(region) for every region of the film, always in the same order. Throws PT_ERROR_INTERNAL if a driver
+    // lost work.
+    void read(const ErrorQuery &query, const Receive &receive);
+
+    // The same in two steps, where the film is one strip: records it behind the commands that make the film what it is
+    // asked about, with its parts used so; and takes it in, once these have ended.
+    void record(const vk::raii::CommandBuffer &commands, const PartUse &parts, const ErrorQuery &query) const;
+    void collect(const ErrorQuery &query, const Receive &receive) const;
 
 private:
+    void record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const PartUse &parts,
+                      const ErrorQuery &query) const;
+    void collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const;
+
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
-    vulkan::Buffer regions_; // of a strip
-    vulkan::Buffer host_;
+    vulkan::Buffer regions_;                  // of a strip
     std::vector<vulkan::DescriptorSet> sets_; // one per strip
 };
 

@@ -11,41 +11,6 @@ namespace {
 // Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
-struct Piece {
-    std::size_t slot;
-    vulkan::Device::Ticket ticket;
-    std::uint32_t pixel_count;
-};
-
-// Submissions in the order of their starts. Whatever fails, all are waited for at the end.
-class PiecesUnderWay {
-public:
-    PiecesUnderWay(vulkan::Device &device, std::size_t most) : device_(device) { pieces_.reserve(most); }
-    PiecesUnderWay(const PiecesUnderWay &) = delete;
-    PiecesUnderWay &operator=(const PiecesUnderWay &) = delete;
-    ~PiecesUnderWay() {
-        try {
-            while (!pieces_.empty())
-                finish_first();
-        } catch (...) { // the device is lost, and whoever failed tells of it
-        }
-    }
-
-    std::size_t count() const { return pieces_.size(); }
-    void add(const Piece &piece) { pieces_.push_back(piece); }
-
-    Piece finish_first() {
-        const Piece piece = pieces_.front();
-        pieces_.erase(pieces_.begin());
-        device_.finish(piece.ticket);
-        return piece;
-    }
-
-private:
-    vulkan::Device &device_;
-    std::vector<Piece> pieces_;
-};
-
 } // namespace
 
 // The device resolves a piece, and copies it, while the host takes the one before.
@@ -60,24 +25,27 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
 
     gpu::ResolveConstants constants = resolve_constants(query, film_);
     constants.row_words = static_cast<std::uint32_t>(query.pixels.width * bytes_of_pixel / sizeof(std::uint32_t));
-    PiecesUnderWay under_way(device_, slot_count);
-    std::uint64_t started = 0;
-    for (std::size_t next_slot = 0; started < total || under_way.count() > 0;) {
-        if (started < total && under_way.count() < slot_count) {
-            const std::uint64_t row = query.pixels.y + started / query.pixels.width;
-            constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
-            constants.pixel_count = static_cast<std::uint32_t>(std::min(most, total - started));
-            under_way.add({next_slot, start(slots_[next_slot], query.format, constants), constants.pixel_count});
-            started += constants.pixel_count;
-            next_slot = (next_slot + 1) % slot_count;
-            continue;
-        }
-        const Piece piece = under_way.finish_first();
-        const std::span<const std::byte> bytes = slots_[piece.slot].host.host_bytes();
+    const auto pixels_of = [&](std::uint64_t piece) { return std::min(most, total - piece * most); };
+    const std::uint64_t piece_count = (total + most - 1) / most;
+    vulkan::SubmissionsUnderWay under_way(device_, slot_count);
+    const auto start = [&](std::uint64_t piece) {
+        const std::uint64_t row = query.pixels.y + piece * most / query.pixels.width;
+        constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
+        constants.pixel_count = static_cast<std::uint32_t>(pixels_of(piece));
+        under_way.start(
+            [&](const auto &commands) { record(commands, slots_[piece % slot_count], query.format, constants); });
+    };
+    for (std::uint64_t piece = 0; piece < slot_count; ++piece)
+        start(piece);
+    for (std::uint64_t piece = 0; piece < piece_count; ++piece) {
+        under_way.finish_first();
+        const std::span<const std::byte> bytes = slots_[piece % slot_count].host.host_bytes();
         std::uint32_t lost_pixels = 0;
         std::memcpy(&lost_pixels, bytes.data(), sizeof lost_pixels);
         require_no_loss(lost_pixels);
-        receive(bytes.subspan(findings_bytes, piece.pixel_count * bytes_of_pixel));
+        receive(bytes.subspan(findings_bytes, pixels_of(piece) * bytes_of_pixel));
+        if (piece + slot_count < piece_count)
+            start(piece + slot_count);
     }
 }
 
@@ -102,17 +70,14 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
     return slots_[index];
 }
 
-vulkan::Device::Ticket ImageReader::start(Slot &slot, std::uint32_t format, const gpu::ResolveConstants &constants) {
-    const vulkan::ComputePipeline &pipeline = pipelines_.of(format);
-    return device_.start([&](const vk::raii::CommandBuffer &commands) {
-        slot.findings.clear(commands, 0, findings_bytes);
-        vulkan::barrier_between_commands(commands);
-        resolve(commands, pipeline, film_, slot.sets, constants);
-        vulkan::barrier_between_commands(commands);
-        slot.host.copy(commands, slot.findings, findings_bytes);
-        slot.host.copy(commands, slot.resolved, std::uint64_t{constants.pixel_count} * pixel_bytes(format),
-                       findings_bytes);
-    });
+void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
+                         const gpu::ResolveConstants &constants) const {
+    slot.findings.clear(commands, 0, findings_bytes);
+    vulkan::barrier_between_commands(commands);
+    resolve(commands, pipelines_.of(format), film_, slot.sets, constants);
+    vulkan::barrier_between_commands(commands);
+    slot.host.copy(commands, slot.findings, findings_bytes);
+    slot.host.copy(commands, slot.resolved, std::uint64_t{constants.pixel_count} * pixel_bytes(format), findings_bytes);
 }
 
 } // namespace pt

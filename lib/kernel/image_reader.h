@@ -5,6 +5,7 @@
 
 #include "lib/kernel/resolve.h"
 #include "lib/vulkan/buffer.h"
+#include "lib/vulkan/submissions_under_way.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +37,8 @@ private:
     };
 
     Slot &slot(std::size_t index, std::uint64_t bytes, std::uint32_t format);
-    vulkan::Device::Ticket start(Slot &slot, std::uint32_t format, const gpu::ResolveConstants &constants);
+    void record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
+                const gpu::ResolveConstants &constants) const;
 
     vulkan::Device &device_;
     ResolvePipelines &pipelines_;

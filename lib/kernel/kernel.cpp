@@ -185,7 +185,7 @@ bool Kernel::scene_fits_commands() const {
 
 // Where the film's split moves, its parts are folded before the batch that moves it.
 vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
-                                     bool on_cleared_film) {
+                                     bool on_cleared_film, const Behind &behind) {
     const Slice all_pixels{0, film_.pixel_count(), 1, true};
     PartUse parts = on_cleared_film ? PartUse{} : film_.parts();
     const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count, hull);
@@ -217,6 +217,10 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             if (slice.whole)
                 parts.extend(extended);
             dispatch(commands, trace, slice, batch, parts.part_of(batch.first_sample), sharers_);
+        }
+        if (behind) {
+            vulkan::barrier_between_commands(commands);
+            behind(commands, parts);
         }
     });
     scene_is_old_ = false;

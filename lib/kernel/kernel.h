@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -45,11 +46,14 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
+    // Records what follows the samples in their submission; parts: of the film, as they are used then.
+    using Behind = std::function<void(const vk::raii::CommandBuffer &, const PartUse &parts)>;
+
     // Starts to take the samples of a slice, of which first_sample is the index of the first; those of a split pass are
     // kept aside. hull: of the samples that this device and others that render the same have begun before. At most the
     // device's queue_depth of slices may be under way. on_cleared_film: all pixels of the film are cleared first.
     vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
-                                 bool on_cleared_film);
+                                 bool on_cleared_film, const Behind &behind = {});
 
     // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
     // holds whole samples again with the range that ends it.

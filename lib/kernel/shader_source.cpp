@@ -2,6 +2,7 @@
 #include "lib/kernel/shader_source.h"
 
 #include "accuracy.spv.h"
+#include "add.spv.h"
 #include "commit.spv.h"
 #include "estimate.spv.h"
 #include "fold.spv.h"
@@ -91,12 +92,14 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
 
 bool KernelCode::operator==(const KernelCode &other) const {
     return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
-           std::ranges::equal(fold, other.fold) && std::ranges::equal(resolve, other.resolve) &&
-           std::ranges::equal(estimate, other.estimate) && std::ranges::equal(accuracy, other.accuracy);
+           std::ranges::equal(fold, other.fold) && std::ranges::equal(add, other.add) &&
+           std::ranges::equal(resolve, other.resolve) && std::ranges::equal(estimate, other.estimate) &&
+           std::ranges::equal(accuracy, other.accuracy);
 }
 
 KernelCode embedded_code() {
-    return {pathtrace_spirv, commit_spirv, fold_spirv, resolve_spirv, estimate_spirv, accuracy_spirv, nullptr};
+    return {pathtrace_spirv, commit_spirv,   fold_spirv,     add_spirv,
+            resolve_spirv,   estimate_spirv, accuracy_spirv, nullptr};
 }
 
 std::string digest_of(const KernelCode &code) {
@@ -112,9 +115,10 @@ KernelCode ShaderSource::read() const {
     const pt_compile_glsl_fn compiler = load_compiler();
     auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
     for (const char *const name :
-         {"pathtrace.comp", "commit.comp", "fold.comp", "resolve.comp", "estimate.comp", "accuracy.comp"})
+         {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp", "estimate.comp", "accuracy.comp"})
         compiled->push_back(compile(compiler, directory_, name));
-    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4], (*compiled)[5], compiled};
+    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3],
+            (*compiled)[4], (*compiled)[5], (*compiled)[6], compiled};
 }
 
 } // namespace pt

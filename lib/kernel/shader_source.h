@@ -15,6 +15,7 @@ struct KernelCode {
     std::span<const std::uint32_t> pathtrace;
     std::span<const std::uint32_t> commit;
     std::span<const std::uint32_t> fold;
+    std::span<const std::uint32_t> add;
     std::span<const std::uint32_t> resolve;
     std::span<const std::uint32_t> estimate;
     std::span<const std::uint32_t> accuracy;
@@ -31,7 +32,7 @@ std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, commit.comp, fold.comp, resolve.comp, estimate.comp, accuracy.comp and what they
+    // A folder with pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp and what they
     // include; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 

@@ -21,8 +21,8 @@ Accumulation::Accumulation(const Devices &devices, const SampleSet &samples, std
 // Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
 // next call: so a call comes to an end however short the slices are, and one that finds nothing under way waits for
 // nothing.
-bool Accumulation::run(std::uint64_t count, Clock::time_point until) {
-    count_ = count;
+bool Accumulation::run(const Goal &goal, Clock::time_point until) {
+    goal_ = goal;
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
         device->look();
@@ -45,7 +45,7 @@ bool Accumulation::is_under_way() const {
 bool Accumulation::complete() noexcept {
     stop();
     try {
-        return run(count_, Clock::time_point::max());
+        return run({goal_.count, std::nullopt}, Clock::time_point::max());
     } catch (...) {
         for (const auto &device : devices_)
             device->drain();
@@ -73,14 +73,26 @@ void Accumulation::deal() {
 // Starts a device's next slice, if it has room for one and there is one.
 bool Accumulation::deal_to(RenderDevice &device) {
     const bool finishes_pass = !device.pass().empty() && !(stopped_ && devices_.size() == 1);
-    const bool goes_on = !stopped_ && (device.film_is_behind() || (device.pass().empty() && dealt_.count() < count_));
+    const bool goes_on =
+        !stopped_ && (device.film_is_behind() || (device.pass().empty() && dealt_.count() < goal_.count));
     if (!device.has_room() || !(finishes_pass || goes_on))
         return false;
     SampleRange next = dealt_.next_missing(first_sample_);
-    next.end = std::min(next.end, next.first + (count_ - std::min(count_, dealt_.count())));
+    next.end = std::min(next.end, next.first + (goal_.count - std::min(goal_.count, dealt_.count())));
     dealt_.prepare_add(); // what is started must be counted
-    dealt_.add({next.first, next.first + device.start(next, dealt_.hull())});
+    const auto [begun, estimates] = device.start(next, dealt_.hull(), estimate_after(next));
+    dealt_.add({next.first, next.first + begun});
+    has_estimate_ = estimates;
     return true;
+}
+
+// Of the films with these samples, if they are the last ones. What a device tells of its own film alone is no use.
+std::optional<ErrorQuery> Accumulation::estimate_after(const SampleRange &samples) const {
+    if (!goal_.unit_of_error || devices_.size() > 1 || dealt_.count() + samples.count() < goal_.count)
+        return std::nullopt;
+    SampleSet all = dealt_;
+    all.add(samples);
+    return ErrorQuery{*goal_.unit_of_error, part_counts(all)};
 }
 
 // The device whose slice ends first, if one does by that time. Of several it is the first that is seen to be done, for

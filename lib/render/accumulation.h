@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pt {
@@ -37,9 +38,19 @@ public:
     Accumulation(const Devices &devices, const SampleSet &samples, std::uint32_t first_sample, std::uint32_t wanted,
                  const Progress &progress, DeviceWork &work);
 
+    // How many samples the films are to have, and whether their error is to be estimated then.
+    struct Goal {
+        std::uint64_t count;
+        std::optional<double> unit_of_error; // of the films, if it is
+    };
+
     // Takes samples until the films have as many, or fewer if it was stopped. False if that is still under way at a
-    // time; it is to be called again then, with the same count.
-    bool run(std::uint64_t count, Clock::time_point until);
+    // time; it is to be called again then, with the same goal.
+    bool run(const Goal &goal, Clock::time_point until);
+
+    // Whether the error was estimated in the submission with the last samples, which saves one: on a device that is
+    // alone and took them at once.
+    bool has_estimate() const { return has_estimate_; }
 
     bool is_under_way() const;
 
@@ -61,6 +72,7 @@ public:
 private:
     void deal();
     bool deal_to(RenderDevice &device);
+    std::optional<ErrorQuery> estimate_after(const SampleRange &samples) const;
     RenderDevice *next_to_finish(Clock::time_point until) const;
     void finish_slice(RenderDevice &device);
 
@@ -69,7 +81,8 @@ private:
     Progress progress_;
     std::uint32_t first_sample_;
     SampleSet dealt_; // those that the films hold or have begun
-    std::uint64_t count_ = 0;
+    Goal goal_{};
+    bool has_estimate_ = false;
     std::uint64_t pixels_wanted_;   // pixels times samples
     std::uint64_t pixels_done_ = 0; // of them
     bool stopped_ = false;          // by the caller, or by a failure

@@ -98,6 +98,7 @@ void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePi
     drop_bound(); // it uses the old ones
     resolve_.reset();
     estimate_.reset();
+    add_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
     device_.pipeline_cache().set_key(pipelines_->take_kernel_key());
@@ -200,10 +201,20 @@ const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {
     return *estimate_;
 }
 
+const vulkan::ComputePipeline &RenderDevice::add_pipeline() {
+    if (!add_)
+        add_.emplace(pt::add_pipeline(device_, code_.add));
+    return *add_;
+}
+
 ErrorReader &RenderDevice::error_reader() {
-    DeviceFilm &film = this->film();
+    film();
+    return bound_error_reader();
+}
+
+ErrorReader &RenderDevice::bound_error_reader() {
     if (!error_reader_)
-        error_reader_.emplace(device_, estimate_pipeline(), film);
+        error_reader_.emplace(device_, estimate_pipeline(), *film_);
     return *error_reader_;
 }
 
@@ -212,11 +223,12 @@ void RenderDevice::discard_pass() {
     pass_pixels_ = 0;
 }
 
-std::uint32_t RenderDevice::start(const SampleRange &samples, const SampleRange &hull) {
+RenderDevice::Started RenderDevice::start(const SampleRange &samples, const SampleRange &hull,
+                                          const std::optional<ErrorQuery> &estimate) {
     if (!film_is_behind() || (can_clear_at_once() && !samples.empty()))
-        return start_samples(samples, hull);
+        return start_samples(samples, hull, estimate);
     start_film_work();
-    return 0;
+    return {0, false};
 }
 
 // In the submission that takes the first samples.
@@ -236,12 +248,20 @@ void RenderDevice::start_film_work() {
     pixels_left -= slice.pixel_count;
 }
 
-std::uint32_t RenderDevice::start_samples(const SampleRange &samples, const SampleRange &hull) {
+RenderDevice::Started RenderDevice::start_samples(const SampleRange &samples, const SampleRange &hull,
+                                                  const std::optional<ErrorQuery> &estimate) {
     const bool in_pass = pass_pixels_ > 0;
     const auto remaining = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(samples.count(), 1, UINT32_MAX));
     const Slice slice = schedule_->next(remaining, pass_pixels_);
     const std::uint32_t first_sample = in_pass ? pass_sample_ : static_cast<std::uint32_t>(samples.first);
-    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull, uncleared_pixels_ > 0), false});
+    const bool estimates = estimate && slice.whole && slice.sample_count == samples.count() &&
+                           device_.policy().resolve_on_device && film_->strips().size() == 1;
+    Kernel::Behind behind;
+    if (estimates)
+        behind = [&reader = bound_error_reader(), &estimate](const auto &commands, const PartUse &parts) {
+            reader.record(commands, parts, *estimate);
+        };
+    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull, uncleared_pixels_ > 0, behind), false});
     uncleared_pixels_ = 0;
     if (!slice.whole) {
         const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
@@ -251,7 +271,7 @@ std::uint32_t RenderDevice::start_samples(const SampleRange &samples, const Samp
         pass_sample_ = first_sample;
         pass_hull_ = hull;
     }
-    return in_pass ? 0 : slice.sample_count;
+    return {in_pass ? 0 : slice.sample_count, estimates};
 }
 
 RenderDevice::Finished RenderDevice::finish() {

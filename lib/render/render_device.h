@@ -5,6 +5,7 @@
 #include "lib/film/device_film.h"
 #include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/error_reader.h"
+#include "lib/kernel/film_sum.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
@@ -46,8 +47,10 @@ public:
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
 
-    // What reads errors of other films.
+    // Kernels for other films than this device's own.
+    ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
+    const vulkan::ComputePipeline &add_pipeline();
 
     // Takes over kernels that the caller has kept, and hands over those that are built.
     void keep_kernels(const vulkan::KernelStore &store);
@@ -91,9 +94,14 @@ public:
 
     // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
     // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and
-    // others have begun before. Returns how many samples the slice has begun: 0 for the film and within a pass.
-    // has_room() must hold.
-    std::uint32_t start(const SampleRange &samples, const SampleRange &hull);
+    // others have begun before. estimate: if it is given, and the slice takes all of the samples, the error of the film
+    // with them is estimated behind it where that can be, for error_reader().collect(). has_room() must hold.
+    struct Started {
+        std::uint32_t samples; // that the slice has begun: 0 for the film and within a pass
+        bool estimates;
+    };
+    Started start(const SampleRange &samples, const SampleRange &hull,
+                  const std::optional<ErrorQuery> &estimate = std::nullopt);
 
     // Whether finish() would not wait, having waited for that until a time. Not idle.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
@@ -120,12 +128,13 @@ private:
     };
 
     bool can_clear_at_once() const;
-    ResolvePipelines &resolve_pipelines();
     void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
     void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
     void start_film_work();
-    std::uint32_t start_samples(const SampleRange &samples, const SampleRange &hull);
+    Started start_samples(const SampleRange &samples, const SampleRange &hull,
+                          const std::optional<ErrorQuery> &estimate);
+    ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
     KernelCode code_;
@@ -134,6 +143,7 @@ private:
     double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
+    std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;

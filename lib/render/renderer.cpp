@@ -5,9 +5,9 @@
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
-#include "lib/render/image_rows.h"
+#include "lib/render/kernels_kept.h"
+#include "lib/render/missed_lamps.h"
 #include "lib/render/saved_film.h"
-#include "lib/scene/lamp_share.h"
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
@@ -25,21 +25,6 @@ std::vector<pt_device_info> describe_all(const vulkan::Instance &instance) {
         devices.push_back(vulkan::describe(device));
     return devices;
 }
-
-// Hands to the caller, at the end of a call, the kernels that were built in it.
-class KernelsKept {
-public:
-    explicit KernelsKept(const std::vector<std::unique_ptr<RenderDevice>> &devices) : devices_(devices) {}
-    KernelsKept(const KernelsKept &) = delete;
-    KernelsKept &operator=(const KernelsKept &) = delete;
-    ~KernelsKept() {
-        for (const auto &device : devices_)
-            device->save_kernels();
-    }
-
-private:
-    const std::vector<std::unique_ptr<RenderDevice>> &devices_;
-};
 
 Error too_many_samples(std::uint32_t sample_count, const std::string &reason, std::uint64_t number) {
     return {PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "accumulate",
@@ -127,6 +112,7 @@ void Renderer::set_render(const RenderSettings &settings) {
         std::vector<DeviceFilm> films;
         for (const auto &device : devices_)
             films.push_back(device->make_film(settings));
+        view_.drop();
         for (std::size_t i = 0; i < films.size(); ++i)
             devices_[i]->set_film(std::move(films[i]));
     }
@@ -150,6 +136,7 @@ void Renderer::set_code(const KernelCode &code) {
     for (const auto &device : devices_)
         pipelines.push_back(device->make_pipelines(code));
     discard_samples();
+    view_.drop();
     for (std::size_t i = 0; i < pipelines.size(); ++i)
         devices_[i]->set_pipelines(code, std::move(pipelines[i]));
     code_ = code;
@@ -174,74 +161,19 @@ bool Renderer::is_in_pass() const {
     return std::ranges::any_of(devices_, [](const auto &device) { return !device->pass().empty(); });
 }
 
-std::vector<DeviceFilm *> Renderer::films() const {
-    std::vector<DeviceFilm *> films;
-    for (const auto &device : devices_)
-        films.push_back(&device->film());
-    return films;
-}
-
-// Sums of several devices meet on the host, as do those in parts that a sample of another device has moved.
-bool Renderer::resolves_on_device() const {
-    RenderDevice &device = *devices_.front();
-    return devices_.size() == 1 && device.device().policy().resolve_on_device &&
-           device.film().parts().split() == split_of(samples_.hull());
-}
-
-bool Renderer::may_miss_lamps(std::uint64_t samples) const {
-    constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
-    const std::uint32_t estimator = settings_->estimator;
-    const bool by_chance =
-        settings_->max_path_length > 1 &&
-        (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
-    if (!by_chance)
-        return false;
-    const std::optional<double> share = smallest_lamp_share(scene_->scene, *camera_);
-    return share && static_cast<double>(samples) * *share < enough_meetings;
-}
-
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.count() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.count() * devices_.front()->pixel_count();
-        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler, may_miss_lamps(samples)});
-        estimate_error(estimator);
+        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler,
+                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
+        view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->accumulation.has_estimate());
         rejected_samples_ = estimator.rejected();
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
     return *error_;
-}
-
-// On the first device, if it is of those that do so; else on the host. Sums of several devices meet on the host, and
-// then go to the first device in rows of regions: an image has the same estimate on one device and on several.
-void Renderer::estimate_error(ErrorEstimator &estimator) {
-    RenderDevice &device = *devices_.front();
-    const double unit = scene_->film_unit;
-    const auto add = [&](const RegionErrors &region) { estimator.add(region); };
-    if (!device.device().policy().resolve_on_device || !device.film().has_whole_regions()) {
-        read_films(films(), samples_, piece_pixels,
-                   [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
-        return;
-    }
-    if (resolves_on_device()) {
-        device.error_reader().read(unit, part_counts(samples_), add);
-        return;
-    }
-    const std::uint32_t width = settings_->width;
-    const std::uint32_t row_of_regions = width * gpu::REGION_SIZE;
-    const std::uint32_t most_pixels = std::max(piece_pixels / row_of_regions, 1U) * row_of_regions;
-    std::optional<DeviceFilm> rows;
-    PartUse parts;
-    parts.extend(samples_.hull());
-    read_films(films(), samples_, most_pixels, [&](const PixelSums &sums) {
-        const auto row_count = static_cast<std::uint32_t>(sums.pixel_count() / width);
-        if (!rows || rows->pixel_count() != sums.pixel_count())
-            rows.emplace(device.device(), width, row_count, most_pixels);
-        rows->write(sums, parts);
-        ErrorReader(device.device(), device.estimate_pipeline(), *rows).read(unit, part_counts(samples_), add);
-    });
 }
 
 bool Renderer::is_on_target(double target_error) {
@@ -270,6 +202,7 @@ void Renderer::prepare() {
     const KernelsKept kept(devices_);
     for (const auto &device : devices_)
         device->prepare_ahead(gpu_scene_of_settings(), *settings_);
+    view_.prepare();
 }
 
 void Renderer::begin(std::uint32_t sample_count, double target_error, const Progress &progress) {
@@ -326,6 +259,13 @@ void Renderer::require_under_way() const {
 }
 
 // With a target error in runs, from each number of samples at which the error is looked at to the next.
+Accumulation::Goal Renderer::next_goal() const {
+    const std::uint64_t check = job_->target_error > 0.0 ? next_check(samples_.count()) : job_->count;
+    if (check < job_->count)
+        return {check, scene_->film_unit};
+    return {job_->count, std::nullopt};
+}
+
 pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     Accumulation &accumulation = job_->accumulation;
     const double target_error = job_->target_error;
@@ -333,7 +273,7 @@ pt_result Renderer::advance(Accumulation::Clock::time_point until) {
     while (samples_.count() < wanted) {
         if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
-        if (!accumulation.run(target_error > 0.0 ? std::min(wanted, next_check(samples_.count())) : wanted, until))
+        if (!accumulation.run(next_goal(), until))
             return PT_PENDING;
         take_over(accumulation.samples());
         if (accumulation.stopped() && samples_.count() < wanted)
@@ -366,25 +306,11 @@ ImageQuery Renderer::query(const ImageLayout &layout) const {
             layout.format};
 }
 
-// On the host, of the rows that the image has a part of.
 void Renderer::readback(const Image &image) {
     require_settings();
     require_samples();
     const KernelsKept kept(devices_);
-    const ImageQuery query = this->query(image.layout);
-    ImageRows rows(image);
-    if (resolves_on_device()) {
-        devices_.front()->image_reader().read(query, [&](std::span<const std::byte> pixels) { rows.put(pixels); });
-        return;
-    }
-    const std::uint32_t width = settings_->width;
-    const PixelRange range{query.pixels.y * width, query.pixels.height * width};
-    std::uint64_t first = range.first;
-    read_films(films(), samples_, range, piece_pixels, [&](const PixelSums &sums) {
-        const PixelEstimates pixels = sums.estimates(query.unit, query.standard_error);
-        rows.put_part(first, width, query.standard_error ? pixels.standard_error : pixels.radiance);
-        first += sums.pixel_count();
-    });
+    view_.read(image, query(image.layout), samples_);
 }
 
 // A lent device is the only one, so its film holds all samples.
@@ -421,7 +347,7 @@ FilmHeader Renderer::film_header() const {
 }
 
 void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {
-    save(films(), header, bytes);
+    save(FilmView::films(devices_), header, bytes);
 }
 
 // A pass under way, of which no sample is counted yet, ends where the film brings its sample.

@@ -10,6 +10,7 @@
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/accumulation.h"
+#include "lib/render/film_view.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
@@ -132,18 +133,15 @@ private:
     void discard_samples() noexcept;
     const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();
     bool is_in_pass() const;
-    std::vector<DeviceFilm *> films() const;
-    bool resolves_on_device() const;
     ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
-    bool may_miss_lamps(std::uint64_t samples) const; // of all pixels
     const ErrorEstimate &error();
-    void estimate_error(ErrorEstimator &estimator);
     bool is_on_target(double target_error);
     void begin(std::uint32_t sample_count, double target_error, const Progress &progress);
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
+    Accumulation::Goal next_goal() const;
     pt_result advance(Accumulation::Clock::time_point until);
     void take_over(SampleSet samples) noexcept;
     void give_up() noexcept;
@@ -152,6 +150,7 @@ private:
     KernelCode code_;
     vulkan::Instance instance_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
+    FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;        // the devices have films if it is there

@@ -52,13 +52,14 @@ struct Allocation {
 };
 
 Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
-    if (use == BufferUse::Streamed) {
+    if (use == BufferUse::Streamed || use == BufferUse::HostWritten) {
         constexpr std::array wanted = {Property::eDeviceLocal | host_visible, host_visible};
-        return {device, bytes, Usage::eUniformBuffer, wanted, host_visible};
+        const auto usage = use == BufferUse::Streamed ? Usage::eUniformBuffer : Usage::eStorageBuffer;
+        return {device, bytes, usage, wanted, host_visible};
     }
     if (use == BufferUse::HostRead) {
         constexpr std::array wanted = {host_readable, host_visible};
-        return {device, bytes, Usage::eTransferDst, wanted, host_visible};
+        return {device, bytes, Usage::eStorageBuffer | Usage::eTransferDst, wanted, host_visible};
     }
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::UniformOrStorage)
@@ -202,9 +203,19 @@ std::span<const std::byte> Buffer::host_bytes() const {
     return {state_->allocation.mapped, state_->bytes};
 }
 
+std::span<std::byte> Buffer::host_memory() {
+    return {state_->allocation.mapped, state_->bytes};
+}
+
 void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
                   std::uint64_t offset) const {
     commands.copyBuffer(other.handle(), handle(), vk::BufferCopy{.dstOffset = offset, .size = bytes});
+}
+
+void Buffer::copy(const vk::raii::CommandBuffer &commands, const Buffer &other,
+                  std::span<const vk::BufferCopy> pieces) const {
+    commands.copyBuffer(other.handle(), handle(),
+                        vk::ArrayProxy<const vk::BufferCopy>(static_cast<std::uint32_t>(pieces.size()), pieces.data()));
 }
 
 } // namespace pt::vulkan

@@ -15,7 +15,8 @@ enum class BufferUse {
     Storage,          // kernels read and write it
     UniformOrStorage, // kernels read it either way
     Streamed,         // kernels read it as uniform; the host writes it often, and never waits to do so
-    HostRead          // copied to, and read by the host in place once that has ended
+    HostWritten,      // kernels read it; the host writes it in place, and never waits to do so
+    HostRead          // copied to or written by kernels, and read by the host in place once that has ended
 };
 
 // A part of a buffer and where its bytes go.
@@ -44,8 +45,9 @@ public:
     void download(std::span<std::byte> data, std::uint64_t offset);
     void download(std::span<const BufferPiece> pieces);
 
-    // What is in a buffer for the host to read.
+    // What is in a buffer for the host to read, or to write.
     std::span<const std::byte> host_bytes() const;
+    std::span<std::byte> host_memory();
 
     // Records that the first bytes of it become these: no more than max_recorded_bytes.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
@@ -56,6 +58,8 @@ public:
     // Records that bytes from an offset on become the first of another buffer.
     void copy(const vk::raii::CommandBuffer &commands, const Buffer &other, std::uint64_t bytes,
               std::uint64_t offset = 0) const;
+    void copy(const vk::raii::CommandBuffer &commands, const Buffer &other,
+              std::span<const vk::BufferCopy> pieces) const;
 
 private:
     struct State;

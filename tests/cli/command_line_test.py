@@ -285,7 +285,7 @@ class Outputs(CommandLineTest):
         def full_disk():
             default_signals()
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
 
         done = subprocess.run([self.program, "render", COURSEWORK, "-o", "big.exr", "-o", "small.png", "--spp", "1"],
                               cwd=self.folder, preexec_fn=full_disk, capture_output=True, text=True, check=False)

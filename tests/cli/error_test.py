@@ -99,7 +99,7 @@ class StandardError(CommandLineTest):
         def full_disk():
             default_signals()
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+            resource.setrlimit(resource.RLIMIT_FSIZE, (7500, 7500))
 
         arguments = ["render", COURSEWORK, "-o", "a.png", "--standard-error", "e.exr", "--spp", "1"]
         done = subprocess.run([self.program, *arguments], cwd=self.folder, preexec_fn=full_disk,

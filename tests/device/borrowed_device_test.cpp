@@ -95,7 +95,7 @@ protected:
         device.set_film(device.make_film(settings));
         device.prepare(coursework_gpu_scene(settings), settings);
         for (std::uint32_t sample = 0; sample < 4;) {
-            sample += device.start({sample, 4}, {0, sample});
+            sample += device.start({sample, 4}, {0, sample}).samples;
             device.finish();
         }
         EXPECT_EQ(device.film().rejected_samples(), 0U);

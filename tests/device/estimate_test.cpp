@@ -91,7 +91,7 @@ protected:
         parts.extend({0, 2 * part_samples});
         film.write(sums, parts);
         pt::ErrorEstimator estimator(conditions(size.width));
-        pt::ErrorReader(device(), pipeline, film).read(unit, {part_samples, part_samples}, [&](const auto &tile) {
+        pt::ErrorReader(device(), pipeline, film).read({unit, {part_samples, part_samples}}, [&](const auto &tile) {
             estimator.add(tile);
         });
         return {estimator.result(), estimator.rejected()};

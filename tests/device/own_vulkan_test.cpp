@@ -4,6 +4,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/render_image.h"
+#include "tests/support/shared_context.h"
 
 #include <pt/async.h>
 
@@ -206,6 +207,40 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     render(context.get(), 0);
     const std::uint64_t before = mutex.locks;
     ASSERT_EQ(pt_prepare(context.get()), PT_OK) << pt_last_error(context.get());
+    EXPECT_EQ(mutex.locks, before + 1);
+}
+
+// A GPU estimates errors behind the samples that they are about: a look at a target costs no submission of its own. Only
+// an error that is asked for without samples does.
+TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
+    QueueMutex mutex;
+    pt_vulkan vulkan = caller().handles();
+    mutex.guard(vulkan);
+    pt_create_info info = info_of(vulkan);
+    info.submit_milliseconds = 1000;
+    pt_context *created = nullptr;
+    ASSERT_EQ(create_shared(1, info, &created, true), PT_OK) << pt_last_error(nullptr);
+    const Context context(created);
+    const CourseworkScene coursework;
+    render_image(created, coursework.scene(), CourseworkScene::camera(), render_of(own_width, own_height, 3), samples);
+    const auto stats = [&] {
+        pt_stats found{};
+        found.struct_size = sizeof found;
+        EXPECT_EQ(pt_get_stats(created, &found), PT_OK) << pt_last_error(created);
+        return found;
+    };
+    const std::uint64_t submissions = stats().submit_count;
+    const std::uint64_t locks = mutex.locks;
+    const pt_accumulate_info to_a_target{sizeof to_a_target, 4096, nullptr, nullptr, 0.1};
+    ASSERT_EQ(pt_accumulate(created, &to_a_target), PT_TARGET_REACHED) << pt_last_error(created);
+    const std::uint64_t reached = mutex.locks;
+    EXPECT_GT(stats().sample_count, 20U) << "several looks";
+    EXPECT_EQ(reached - locks, stats().submit_count - submissions);
+    EXPECT_EQ(mutex.locks, reached) << "it is known";
+    const pt_accumulate_info eight{sizeof eight, 8, nullptr, nullptr, 0};
+    ASSERT_EQ(pt_accumulate(created, &eight), PT_OK) << pt_last_error(created);
+    const std::uint64_t before = mutex.locks;
+    EXPECT_GT(stats().relative_rmse, 0.0);
     EXPECT_EQ(mutex.locks, before + 1);
 }
 

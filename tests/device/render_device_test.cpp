@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 
 namespace {
@@ -20,9 +22,12 @@ constexpr std::uint32_t most_samples = 18;
 class RenderDeviceTest : public VulkanFixture {
 protected:
     pt::RenderDevice ready_device(double target_seconds) {
+        return ready_device(target_seconds, pt::vulkan::default_policy(pt::vulkan::describe(physical_device())));
+    }
+
+    pt::RenderDevice ready_device(double target_seconds, const pt::vulkan::DevicePolicy &policy) {
         return pt::RenderDevice(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
-                                pt::vulkan::default_policy(pt::vulkan::describe(physical_device())),
-                                pt::embedded_code(), target_seconds);
+                                policy, pt::embedded_code(), target_seconds);
     }
 
     static void set_up(pt::RenderDevice &device) {
@@ -46,7 +51,7 @@ protected:
 
     // Starts a slice of the samples up to a number of them, of which so many have been begun.
     static std::uint32_t start(pt::RenderDevice &device, std::uint32_t begun, std::uint32_t end) {
-        return device.start({begun, end}, {0, begun});
+        return device.start({begun, end}, {0, begun}).samples;
     }
 
     // The film by the number of samples in it, taken as whole ones.
@@ -110,6 +115,64 @@ TEST_F(RenderDeviceTest, TheFilmHoldsWholeSamplesWhereverTheWorkStandsStill) {
         }
     }
     EXPECT_FALSE(expected.at(most_samples) == expected.at(most_samples - 1)) << "a missing sample must show";
+}
+
+// The sums of what the film's regions say, in their order: another film has others.
+std::array<double, 6> sums_of_regions(const std::function<void(const pt::ErrorReader::Receive &)> &read) {
+    std::array<double, 6> sums{};
+    read([&](const pt::RegionErrors &region) {
+        sums[0] += region.square.sum;
+        sums[1] += region.square.of_pixels;
+        sums[2] += region.relative_square.sum;
+        sums[3] += region.relative_square.of_tiles;
+        sums[4] += region.unseen;
+        sums[5] += region.value_count;
+    });
+    return sums;
+}
+
+// Over samples that move the split of the film's parts, up or down, and samples that do not.
+TEST_F(RenderDeviceTest, AnErrorBehindItsSamplesIsThatOfTheFilm) {
+    pt::RenderDevice device = ready_device(60.0, pt::vulkan::gpu_like_policy());
+    set_up(device);
+    pt::SampleSet taken;
+    std::array<double, 6> last{};
+    for (const pt::SampleRange range : {pt::SampleRange{100, 116}, {116, 120}, {120, 128}, {40, 60}, {128, 140}}) {
+        const pt::SampleRange hull = taken.hull();
+        taken.add(range);
+        const pt::ErrorQuery query{1.0, pt::part_counts(taken)};
+        const auto [begun, estimates] = device.start(range, hull, query);
+        ASSERT_EQ(begun, range.count());
+        ASSERT_TRUE(estimates);
+        device.finish();
+        pt::ErrorReader &reader = device.error_reader();
+        const std::array<double, 6> found = sums_of_regions([&](const auto &take) { reader.collect(query, take); });
+        EXPECT_EQ(found, sums_of_regions([&](const auto &take) { reader.read(query, take); })) << pt::text_of(range);
+        EXPECT_NE(found, last);
+        last = found;
+    }
+}
+
+// Neither where a slice takes fewer samples, or a part of one, nor where the host does it.
+TEST_F(RenderDeviceTest, NoErrorIsEstimatedOfAnotherFilmThanThatAskedAbout) {
+    const pt::ErrorQuery query{1.0, pt::part_counts(pt::SampleSet({0, 16}))};
+    pt::vulkan::DevicePolicy slow = pt::vulkan::gpu_like_policy();
+    slow.tests_per_second = 1.0;
+    pt::vulkan::DevicePolicy by_host = pt::vulkan::gpu_like_policy();
+    by_host.resolve_on_device = false;
+    for (const pt::vulkan::DevicePolicy &policy : {slow, by_host}) {
+        pt::RenderDevice device = ready_device(60.0, policy);
+        set_up(device);
+        std::uint32_t begun = 0;
+        for (int i = 0; begun < 16 && i < 1000; ++i) {
+            const auto [samples, estimates] = device.start({begun, 16}, {0, begun}, query);
+            device.finish();
+            EXPECT_TRUE(!estimates || begun + samples == 16) << begun;
+            EXPECT_FALSE(estimates && !policy.resolve_on_device);
+            begun += samples;
+        }
+        EXPECT_EQ(begun, 16U);
+    }
 }
 
 // What was begun is forgotten: the film is emptied again, wherever the work stood.

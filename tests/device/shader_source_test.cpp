@@ -50,6 +50,7 @@ TEST_F(ShaderSourceTest, CompilesToTheEmbeddedWords) {
     EXPECT_TRUE(std::ranges::equal(code.pathtrace, embedded.pathtrace));
     EXPECT_TRUE(std::ranges::equal(code.commit, embedded.commit));
     EXPECT_TRUE(std::ranges::equal(code.fold, embedded.fold));
+    EXPECT_TRUE(std::ranges::equal(code.add, embedded.add));
     EXPECT_TRUE(std::ranges::equal(code.accuracy, embedded.accuracy));
     EXPECT_TRUE(code == embedded);
     EXPECT_NE(code.pathtrace.data(), embedded.pathtrace.data());
@@ -62,6 +63,7 @@ TEST_F(ShaderSourceTest, EachKernelCounts) {
     EXPECT_FALSE(std::ranges::equal(code.pathtrace, embedded.pathtrace));
     EXPECT_TRUE(std::ranges::equal(code.commit, embedded.commit));
     EXPECT_TRUE(std::ranges::equal(code.fold, embedded.fold));
+    EXPECT_TRUE(std::ranges::equal(code.add, embedded.add));
     EXPECT_FALSE(code == embedded);
 
     shaders.replace("pathtrace.comp", "* (2.0 * frame.film_scale)", "* frame.film_scale");

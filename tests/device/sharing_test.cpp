@@ -51,6 +51,13 @@ protected:
         return image;
     }
 
+    pt_stats stats_of_one_gpu(uint32_t samples) {
+        const Context alone = context_on(1, 50, true);
+        set_up(alone.get());
+        EXPECT_EQ(accumulate_on(alone.get(), samples), PT_OK);
+        return stats_of(alone.get());
+    }
+
     static pt_stats stats_of(pt_context *on) {
         pt_stats stats{};
         stats.struct_size = sizeof stats;
@@ -59,15 +66,17 @@ protected:
     }
 };
 
-// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples.
+// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples. Films
+// of GPUs meet on the first of them.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());
     ASSERT_EQ(accumulate_on(alone.get(), 77), PT_OK);
     const Image expected = image_of(alone.get());
     const Image expected_error = image_of(alone.get(), shared_height, PT_QUANTITY_STANDARD_ERROR);
-    for (const uint32_t submit_milliseconds : {1U, 50U}) {
-        const Context shared = context_on(3, submit_milliseconds);
+    const pt_stats expected_stats[] = {stats_of(alone.get()), stats_of_one_gpu(77)};
+    for (const auto &[submit_milliseconds, like_gpus] : {std::pair{1U, false}, {50U, false}, {5U, true}}) {
+        const Context shared = context_on(3, submit_milliseconds, like_gpus);
         set_up(shared.get());
         ASSERT_EQ(accumulate_on(shared.get(), 50), PT_OK);
         EXPECT_NE(image_of(shared.get()), expected) << "27 missing samples must show";
@@ -77,7 +86,8 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
         const pt_stats stats = stats_of(shared.get());
         EXPECT_EQ(stats.device_count, 3U);
         EXPECT_EQ(stats.sample_count, 77U);
-        EXPECT_EQ(stats.relative_rmse, stats_of(alone.get()).relative_rmse);
+        EXPECT_EQ(stats.relative_rmse, expected_stats[like_gpus ? 1 : 0].relative_rmse);
+        EXPECT_EQ(stats.rmse_high, expected_stats[like_gpus ? 1 : 0].rmse_high);
         EXPECT_GE(stats.device_bytes, uint64_t{3} * 112 * shared_width * shared_height) << "each has a film";
     }
 }
@@ -147,6 +157,40 @@ TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
         EXPECT_EQ(found[0].sample_count, found[1].sample_count);
         EXPECT_EQ(found[0].relative_rmse_high, found[1].relative_rmse_high);
     }
+}
+
+// So large that films meet in two bands of rows; and a rectangle in both.
+TEST_F(SharingTest, LargeFilmsMeetInBands) {
+    constexpr uint32_t width = 1060;
+    constexpr uint32_t height = 500;
+    Image images[2];
+    Image parts[2];
+    pt_stats stats[2];
+    for (const uint32_t devices : {1U, 2U}) {
+        const Context shared = context_on(devices, 50, true);
+        set_up(shared.get());
+        const pt_render render = render_of(width, height, 1);
+        ASSERT_EQ(pt_set_render(shared.get(), &render), PT_OK) << pt_last_error(shared.get());
+        ASSERT_EQ(accumulate_on(shared.get(), 17), PT_OK);
+        stats[devices - 1] = stats_of(shared.get());
+        Image &image = images[devices - 1];
+        image.resize(std::size_t{width} * height * 3);
+        const pt_image target = image_target(image);
+        EXPECT_EQ(pt_readback(shared.get(), &target), PT_OK) << pt_last_error(shared.get());
+        Image &part = parts[devices - 1];
+        part.resize(std::size_t{30} * 200 * 3);
+        pt_image rectangle = image_target(part);
+        rectangle.x = 700;
+        rectangle.y = 190;
+        rectangle.width = 30;
+        rectangle.height = 200;
+        EXPECT_EQ(pt_readback(shared.get(), &rectangle), PT_OK) << pt_last_error(shared.get());
+    }
+    EXPECT_EQ(images[0], images[1]);
+    EXPECT_EQ(parts[0], parts[1]);
+    EXPECT_NE(parts[0], Image(parts[0].size()));
+    EXPECT_EQ(stats[0].relative_rmse, stats[1].relative_rmse);
+    EXPECT_EQ(stats[0].rmse_high, stats[1].rmse_high);
 }
 
 // Images and errors that kernels make of the film are those that the host makes.

@@ -1,0 +1,165 @@
+#include "lib/kernel/film_sum.h"
+
+#include "lib/base/stream_copy.h"
+
+#include <algorithm>
+#include <array>
+#include <list>
+
+namespace pt {
+
+namespace {
+
+// Pixels of a piece, 3.5 MiB: large enough for a bus to be busy with one, small enough to wait little for the first and
+// to be in the processor's cache when it is copied.
+constexpr std::uint32_t most_piece_pixels = 1U << 15;
+
+std::uint64_t words_bytes(std::uint32_t pixel_count) {
+    return pixel_count * DeviceFilm::bytes_per_pixel;
+}
+
+} // namespace
+
+vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
+    constexpr std::array bindings = {vulkan::no_binding, vulkan::no_binding, vk::DescriptorType::eStorageBuffer,
+                                     vk::DescriptorType::eStorageBuffer};
+    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_ADDED == 3);
+    return {device, code, bindings, sizeof(gpu::AddConstants), {}};
+}
+
+FilmSum::FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count) :
+    home_(sources.front()),
+    add_(add),
+    film_(home_.device, home_.film.width(), row_count, max_strip_pixels(home_.device.limits())),
+    piece_pixels_(std::min(film_.pixel_count(), most_piece_pixels)) {
+    const auto bind = [&](vulkan::Buffer &words) {
+        std::vector<vulkan::DescriptorSet> sets;
+        for (DeviceFilm::Strip &strip : film_.strips()) {
+            const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &words};
+            sets.push_back(add_.bind(buffers));
+        }
+        return sets;
+    };
+    for (DeviceFilm::Strip &strip : home_.film.strips())
+        own_sets_.push_back(bind(strip.words));
+    for (const Source &source : std::span(sources).subspan(1)) {
+        Distant &distant = others_.emplace_back(Distant{source, {}});
+        for (std::uint32_t i = 0; i < source.device.policy().queue_depth; ++i)
+            distant.slots.emplace_back(source.device, vulkan::BufferUse::HostRead, words_bytes(piece_pixels_),
+                                       "films on their way");
+    }
+    for (std::uint32_t i = 0; i < home_.device.policy().queue_depth && !others_.empty(); ++i) {
+        slots_.emplace_back(home_.device, vulkan::BufferUse::HostWritten, words_bytes(piece_pixels_),
+                            "films on their way");
+        slot_sets_.push_back(bind(slots_.back()));
+    }
+}
+
+void FilmSum::gather(std::uint32_t first_row, const PixelRange &wanted, const SampleRange &hull) {
+    const std::uint32_t first_pixel = first_row * film_.width();
+    PartUse parts;
+    parts.extend(hull);
+    vulkan::SubmissionsUnderWay at_home(home_.device, home_.device.policy().queue_depth);
+    at_home.start([&](const vk::raii::CommandBuffer &commands) {
+        film_.clear(commands, 0, film_.pixel_count());
+        film_.set_parts(parts);
+        vulkan::barrier_between_commands(commands);
+        add_own(commands, first_pixel, wanted);
+    });
+    add_others(at_home, first_pixel, wanted);
+    at_home.finish_all();
+}
+
+// The parts of the sum to which those of a film belong: one or the other for both, where samples of other films have
+// moved the split.
+gpu::uvec2 FilmSum::parts_for(const DeviceFilm &film) const {
+    const std::uint64_t split = film_.parts().split();
+    const std::uint32_t older = film_.parts().older();
+    const PartUse &parts = film.parts();
+    if (parts.split() != split)
+        return gpu::uvec2(parts.split() < split ? older : 1 - older);
+    return parts.older() == older ? gpu::uvec2(0, 1) : gpu::uvec2(1, 0);
+}
+
+void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel,
+                      const PixelRange &wanted) const {
+    if (home_.film.parts().empty())
+        return;
+    for (std::size_t i = 0; i < own_sets_.size(); ++i) {
+        const DeviceFilm::Strip &strip = home_.film.strips()[i];
+        add(commands, first_pixel, wanted,
+            {{strip.first_pixel, strip.pixel_count}, strip.pixel_count, parts_for(home_.film), own_sets_[i]});
+    }
+}
+
+// While the host copies a piece, its device copies the next, and the first device adds the one before.
+void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted) {
+    const auto piece = [&](std::uint32_t index) -> PixelRange {
+        const std::uint32_t first = index * piece_pixels_;
+        return {wanted.first + first, std::min(piece_pixels_, wanted.count - first)};
+    };
+    const std::uint32_t piece_count = (wanted.count + piece_pixels_ - 1) / piece_pixels_;
+    struct Fetch {
+        explicit Fetch(const Distant &of) : distant(of), under_way(of.source.device, of.slots.size()) {}
+
+        const vulkan::Buffer &slot(std::uint32_t index) const { return distant.slots[index % distant.slots.size()]; }
+
+        const Distant &distant;
+        vulkan::SubmissionsUnderWay under_way;
+    };
+    const auto start = [&](Fetch &fetch, std::uint32_t index) {
+        fetch.under_way.start([&](const vk::raii::CommandBuffer &commands) {
+            fetch.distant.source.film.copy_to(commands, piece(index), fetch.slot(index));
+        });
+    };
+    std::list<Fetch> fetches;
+    for (const Distant &distant : others_) {
+        if (distant.source.film.parts().empty())
+            continue;
+        Fetch &fetch = fetches.emplace_back(distant);
+        for (std::uint32_t i = 0; i < std::min<std::size_t>(piece_count, distant.slots.size()); ++i)
+            start(fetch, i);
+    }
+    std::size_t slot = 0;
+    for (std::uint32_t index = 0; index < piece_count; ++index)
+        for (Fetch &fetch : fetches) {
+            const PixelRange pixels = piece(index);
+            fetch.under_way.finish_first();
+            if (at_home.count() == slots_.size()) // the slot is free afterwards
+                at_home.finish_first();
+            stream_copy(fetch.slot(index).host_bytes().first(words_bytes(pixels.count)),
+                        slots_[slot].host_memory().data());
+            at_home.start([&](const vk::raii::CommandBuffer &commands) {
+                add(commands, first_pixel, wanted,
+                    {pixels, pixels.count, parts_for(fetch.distant.source.film), slot_sets_[slot]});
+            });
+            slot = (slot + 1) % slots_.size();
+            if (const auto next = static_cast<std::uint32_t>(index + fetch.distant.slots.size()); next < piece_count)
+                start(fetch, next);
+        }
+}
+
+// The wanted pixels that are added, strip by strip.
+void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
+                  const Added &added) const {
+    gpu::AddConstants constants{};
+    constants.parts = added.parts;
+    constants.added_stride = added.stride;
+    for (std::size_t i = 0; i < added.sets.size(); ++i) {
+        const DeviceFilm::Strip &strip = film_.strips()[i];
+        const std::uint32_t strip_first = first_pixel + strip.first_pixel;
+        const std::uint32_t first = std::max({strip_first, wanted.first, added.pixels.first});
+        const std::uint32_t end = std::min(
+            {strip_first + strip.pixel_count, wanted.first + wanted.count, added.pixels.first + added.pixels.count});
+        if (first >= end)
+            continue;
+        constants.strip_pixel_count = strip.pixel_count;
+        constants.first_pixel = first - strip_first;
+        constants.pixel_count = end - first;
+        constants.added_first_pixel = first - added.pixels.first;
+        const std::uint32_t groups = (constants.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
+        add_.dispatch(commands, added.sets[i], std::as_bytes(std::span(&constants, 1)), groups);
+    }
+}
+
+} // namespace pt

@@ -1,0 +1,70 @@
+// The sum of films of several devices, or of some rows of them, in the memory of the first: what the others hold comes
+// through the host's memory, and add.comp adds it. Owned by FilmView; bound to the films.
+#pragma once
+
+#include "lib/film/device_film.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device.h"
+#include "lib/vulkan/submissions_under_way.h"
+#include "shaders/gpu_layout.h"
+
+#include <cstdint>
+#include <list>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class FilmSum {
+public:
+    struct Source {
+        vulkan::Device &device;
+        DeviceFilm &film;
+    };
+
+    // All must outlive it. sources: films of one size; the sum is on the device of the first. add: of add_pipeline(), on
+    // that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
+
+    // Of so many rows.
+    DeviceFilm &film() { return film_; }
+
+    // Makes it the sum of the films' rows from one on, with parts as of a film with samples in this hull. Of pixels that
+    // are not wanted, which are counted as in the films, it says nothing.
+    void gather(std::uint32_t first_row, const PixelRange &wanted, const SampleRange &hull);
+
+private:
+    // A film of another device on its way, in pieces of consecutive pixels.
+    struct Distant {
+        Source source;
+        std::vector<vulkan::Buffer> slots; // that the host reads
+    };
+
+    // Words of consecutive pixels of a film that are to be added, and where they are.
+    struct Added {
+        PixelRange pixels;                           // of the films
+        std::uint32_t stride;                        // words of a plane
+        gpu::uvec2 parts;                            // of the sum, in memory
+        std::span<const vulkan::DescriptorSet> sets; // one per strip of the sum
+    };
+
+    void add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted) const;
+    void add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted);
+    void add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
+             const Added &added) const;
+    gpu::uvec2 parts_for(const DeviceFilm &film) const;
+
+    Source home_;
+    const vulkan::ComputePipeline &add_;
+    DeviceFilm film_;
+    std::list<Distant> others_;
+    std::uint32_t piece_pixels_;
+    std::vector<vulkan::Buffer> slots_;                         // that the host writes
+    std::vector<std::vector<vulkan::DescriptorSet>> slot_sets_; // of each, one per strip of the sum
+    std::vector<std::vector<vulkan::DescriptorSet>> own_sets_;  // likewise of each strip of the first film
+};
+
+vulkan::ComputePipeline add_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);
+
+} // namespace pt

@@ -1,0 +1,72 @@
+// What the films of a context's devices say together: the image of their samples, and its error. On the first device, if
+// it is of those whose kernels do so, else on the host. Owned by Renderer.
+#pragma once
+
+#include "lib/api/image.h"
+#include "lib/film/error_estimate.h"
+#include "lib/film/sample_set.h"
+#include "lib/kernel/error_reader.h"
+#include "lib/kernel/film_sum.h"
+#include "lib/kernel/image_reader.h"
+#include "lib/kernel/resolve.h"
+#include "lib/render/render_device.h"
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pt {
+
+class FilmView {
+public:
+    using Devices = std::vector<std::unique_ptr<RenderDevice>>;
+
+    // The devices must outlive it.
+    explicit FilmView(const Devices &devices) : devices_(devices) {}
+
+    // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
+    void read(const Image &image, const ImageQuery &query, const SampleSet &samples);
+
+    // Gives the estimator all that is known of the error. is_recorded: it is there already, of a submission that took the
+    // samples on the only device. Throws likewise.
+    void estimate(ErrorEstimator &estimator, double unit, const SampleSet &samples, bool is_recorded);
+
+    // Builds what it needs of kernels beside those of each device.
+    void prepare();
+
+    // Films or kernels are about to be replaced.
+    void drop() noexcept { sums_.clear(); }
+
+    // Brought up to date.
+    static std::vector<DeviceFilm *> films(const Devices &devices);
+
+private:
+    // A sum of some rows of the films, and what reads it.
+    struct Sum {
+        Sum(const std::vector<FilmSum::Source> &sources, RenderDevice &home, std::uint32_t row_count);
+
+        FilmSum rows;
+        ImageReader image;
+        std::optional<ErrorReader> error;
+    };
+
+    // Rows of the films that meet on the first device at a time.
+    struct Band {
+        std::uint32_t first_row;
+        std::uint32_t row_count;
+    };
+
+    RenderDevice &home() const { return *devices_.front(); }
+    bool is_one_film(const SampleSet &samples) const;
+    std::vector<Band> bands() const;
+    Sum &sum(std::uint32_t row_count);
+    void read_on_host(const Image &image, const ImageQuery &query, const SampleSet &samples) const;
+
+    const Devices &devices_;
+    std::list<Sum> sums_; // of the sizes that bands have: two at the most
+};
+
+} // namespace pt

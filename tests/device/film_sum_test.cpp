@@ -1,0 +1,142 @@
+// Sums of films of several devices on one of them, against sums on the host.
+#include "lib/kernel/film_sum.h"
+#include "lib/kernel/shader_source.h"
+#include "tests/device/vulkan_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <random>
+#include <vector>
+
+namespace {
+
+// So large that a film comes in several pieces, the last of them smaller.
+constexpr std::uint32_t sum_width = 307;
+constexpr std::uint32_t sum_height = 331;
+constexpr pt::SampleRange all_samples{0, 116};
+
+class FilmSumTest : public VulkanFixture {
+protected:
+    void TearDown() override {
+        films_.clear();
+        devices_.clear();
+        VulkanFixture::TearDown();
+    }
+
+    // A film with random sums, their most significant words and carries into these among them, on a device of its own.
+    void add_film(const pt::PartUse &parts, std::uint32_t max_strip_pixels) {
+        devices_.emplace_back(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
+                              pt::vulkan::gpu_like_policy());
+        films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);
+        pt::PixelSums sums;
+        sums.resize(films_.back().pixel_count());
+        for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
+                for (std::uint32_t &word : sums.plane(part, plane))
+                    word = parts.empty() ? 0 : random_word();
+        films_.back().write(sums, parts);
+    }
+
+    // Of all films, with different strips, whose parts belong to those of the sum in every way.
+    void add_films() {
+        pt::PartUse as_all; // but the other way round in memory
+        as_all.extend({100, 116});
+        as_all.extend({40, 60});
+        pt::PartUse older;
+        older.extend({0, 16});
+        pt::PartUse newer;
+        newer.extend({100, 116});
+        add_film(older, 1U << 30);
+        add_film(as_all, sum_width * 100);
+        add_film(newer, sum_width * 45);
+        add_film({}, 1U << 30);
+        ASSERT_EQ(as_all.older(), 1U);
+        ASSERT_EQ(as_all.split(), pt::split_of(all_samples));
+        ASSERT_LT(older.split(), pt::split_of(all_samples));
+        ASSERT_GT(newer.split(), pt::split_of(all_samples));
+    }
+
+    pt::PixelSums sum_on_host(const pt::PixelRange &pixels) {
+        pt::PixelSums all;
+        all.resize(pixels.count);
+        pt::PixelSums one = all;
+        films_.front().read(pixels.first, pt::split_of(all_samples), all);
+        for (std::size_t i = 1; i < films_.size(); ++i) {
+            films_[i].read(pixels.first, pt::split_of(all_samples), one);
+            all.add(one);
+        }
+        return all;
+    }
+
+    std::vector<pt::FilmSum::Source> sources() {
+        std::vector<pt::FilmSum::Source> sources;
+        for (std::size_t i = 0; i < films_.size(); ++i)
+            sources.push_back({devices_[i], films_[i]});
+        return sources;
+    }
+
+    pt::vulkan::ComputePipeline pipeline() { return pt::add_pipeline(devices_.front(), pt::embedded_code().add); }
+
+    static pt::PixelSums sums_in(pt::FilmSum &sum, const pt::PixelRange &pixels) {
+        pt::PixelSums sums;
+        sums.resize(pixels.count);
+        sum.film().read(pixels.first, pt::split_of(all_samples), sums);
+        return sums;
+    }
+
+    std::deque<pt::vulkan::Device> devices_;
+    std::deque<pt::DeviceFilm> films_;
+
+private:
+    std::uint32_t random_word() {
+        return generator_() % 4 == 0 ? UINT32_MAX : static_cast<std::uint32_t>(generator_() >> 2);
+    }
+
+    std::mt19937 generator_{2026};
+};
+
+// Whatever it held before, and again, with the films as they were.
+TEST_F(FilmSumTest, IsThatOfTheHost) {
+    add_films();
+    const pt::vulkan::ComputePipeline add = pipeline();
+    pt::FilmSum sum(sources(), add, sum_height);
+    const pt::PixelRange all{0, sum_width * sum_height};
+    const pt::PixelSums expected = sum_on_host(all);
+    for (int round = 0; round < 2; ++round) {
+        sum.gather(0, all, all_samples);
+        EXPECT_TRUE(sums_in(sum, all) == expected) << round;
+    }
+    EXPECT_TRUE(sum_on_host(all) == expected) << "films are only read";
+}
+
+TEST_F(FilmSumTest, MayBeOfSomeRowsAndPixels) {
+    add_films();
+    const pt::vulkan::ComputePipeline add = pipeline();
+    constexpr std::uint32_t rows = 200;
+    pt::FilmSum sum(sources(), add, rows);
+    for (const std::uint32_t first_row : {0U, 64U, sum_height - rows})
+        for (const pt::PixelRange rows_wanted : {pt::PixelRange{0, rows}, {7, 1}, {40, 130}}) {
+            sum.gather(first_row, {(first_row + rows_wanted.first) * sum_width, rows_wanted.count * sum_width},
+                       all_samples);
+            const pt::PixelRange in_sum{rows_wanted.first * sum_width, rows_wanted.count * sum_width};
+            EXPECT_TRUE(sums_in(sum, in_sum) == sum_on_host({in_sum.first + first_row * sum_width, in_sum.count}))
+                << rows_wanted.count << " rows from " << first_row << " + " << rows_wanted.first;
+        }
+}
+
+// Parts that samples of another device have moved are those of one film too.
+TEST_F(FilmSumTest, MayBeOfOneFilm) {
+    pt::PartUse parts;
+    parts.extend({100, 116});
+    add_film(parts, sum_width * 50);
+    const pt::vulkan::ComputePipeline add = pipeline();
+    pt::FilmSum sum(sources(), add, sum_height);
+    const pt::PixelRange all{0, sum_width * sum_height};
+    sum.gather(0, all, all_samples);
+    EXPECT_TRUE(sums_in(sum, all) == sum_on_host(all));
+}
+
+} // namespace
