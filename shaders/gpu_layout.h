@@ -46,7 +46,8 @@ PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with anoth
 PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of the pinhole
 PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
 PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
-PT_CONSTANT CONSTANT_COUNT = 25;
+PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
+PT_CONSTANT CONSTANT_COUNT = 26;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -143,7 +144,7 @@ PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 //   motion[spheres]
 //   curvature[planes]
 //   index[S]          four to a word: MATERIAL_INDEX_BITS + the surface's place in the table, as the bits of a float
-//   tree[4]           with TREE: TreeFrame
+//   tree[5]           with TREE: TreeFrame
 //   table             for each material its word of diffuse and, with GLOSS, that of specular
 // Emission is not in the table, as the many lamps of such a scene are asked for it one after the other.
 // The bits of 1.0: any index below 2^30 makes a finite number of them, and none that a device may flush to 0.
@@ -161,11 +162,14 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 //   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float
 //   motion[places]    way of the centre in a unit of time, as bits of floats; 0 (only if some sphere moves)
 //   surface[places]   four to a word: the place of the material in the table, or TREE_LAMP_BIT + the number of a lamp
+//   color[places]     four to a word: what multiplies the diffuse reflection, the root of each component times
+//                     TREE_COLOR_STEPS in ten bits (only with TREE_COLORS)
 //   lamp[tree lamps]  place; place of the material in the table; 0; 0
 PT_CONSTANT TREE_WIDTH = 4;
 PT_CONSTANT TREE_STACK_SIZE = 27; // nodes from the root to the deepest, at most (lib/tree/sphere_order.h)
 PT_CONSTANT TREE_NODE_WORDS = 3;
 PT_CONSTANT TREE_LAMP_BIT = 0x80000000u;
+PT_CONSTANT TREE_COLOR_STEPS = 1023;
 
 // Of the tree as a camera sees it: a place p of the grid is at (p - camera) step + shift from it.
 struct TreeFrame {
@@ -177,8 +181,10 @@ struct TreeFrame {
     float shutter_open; // in units of time of motion
     uint first_motion;  // words of the tree buffer
     uint first_surface;
+    uint first_color;
     uint first_lamp;
     float shutter_time; // while the shutter is open
+    uint reserved[3];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
 
@@ -292,7 +298,7 @@ static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConsta
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
 static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
 static_assert(offsetof(FrameConstants, start_scale) == 88);
-static_assert(sizeof(TreeFrame) == 64 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
+static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 static_assert(sizeof(AddConstants) == 28 && offsetof(AddConstants, added_stride) == 24);

@@ -32,6 +32,7 @@ layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_TREE) const uint TREE = 0;
 layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
+layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
@@ -103,7 +104,7 @@ const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 // ... and those of the storage buffer alone.
 const uint INDICES = CURVATURES + CURVATURE * PLANE_COUNT;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
-const uint TABLE = TREE_FRAME + 4u * TREE;
+const uint TABLE = TREE_FRAME + 5u * TREE;
 
 #include "tree.glsl"
 
@@ -159,6 +160,10 @@ vec4 emission_of_lamp(uint lamp) { return scene_word_among(EMISSION, LAMP_COUNT,
 // Of the diffuse reflection, albedo / pi, and the probability of choosing the specular lobe.
 vec4 diffuse_of(uint surface)
 {
+    if (TREE_COLORS == 1u && surface >= SURFACE_COUNT) {
+        vec4 word = scene_word(material_words(surface));
+        return vec4(word.rgb * tree_color(surface - SURFACE_COUNT), word.a);
+    }
     return HAS_TABLE ? scene_word(material_words(surface)) : scene_word_among(DIFFUSE, SURFACE_COUNT, surface);
 }
 

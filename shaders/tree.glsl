@@ -16,8 +16,9 @@ vec3 tree_middle() { return scene_storage.words[TREE_FRAME + 2u].xyz; }
 float tree_shutter_open() { return scene_storage.words[TREE_FRAME + 2u].w; }
 uint tree_first_motion() { return scene_bits.words[TREE_FRAME + 3u].x; }
 uint tree_first_surface() { return scene_bits.words[TREE_FRAME + 3u].y; }
-uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].z; }
-float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 3u].w; }
+uint tree_first_color() { return scene_bits.words[TREE_FRAME + 3u].z; }
+uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].w; }
+float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 
 // Centre and radius of the sphere at a place and a time, as seen from a place of the grid and so many steps from there.
 vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
@@ -57,6 +58,14 @@ uint tree_material(uint place)
     uint word = tree_surface(place);
     bool is_lamp = TREE_LAMPS > 0u && (word & TREE_LAMP_BIT) != 0u;
     return is_lamp ? tree.words[tree_first_lamp() + (word - TREE_LAMP_BIT)].y : word;
+}
+
+// By what the diffuse reflection of its material is multiplied.
+vec3 tree_color(uint place)
+{
+    uint word = tree.words[tree_first_color() + place / 4u][place % 4u];
+    vec3 root = vec3(uvec3(word, word >> 10, word >> 20) & TREE_COLOR_STEPS) / float(TREE_COLOR_STEPS);
+    return root * root;
 }
 
 #endif

@@ -195,7 +195,7 @@ pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
 
 pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
     return pt::guard_context(
-        context, [&](pt::Renderer &renderer) { renderer.set_scene(pt::validated_scene(pt::copy_in(scene, "scene"))); });
+        context, [&](pt::Renderer &renderer) { renderer.set_scene(pt::checked_scene(pt::copy_in(scene, "scene"))); });
 }
 
 pt_result pt_set_camera(pt_context *context, const pt_camera *camera) {

@@ -161,12 +161,11 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
 } // namespace
 
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    const Scene &held = scene.without_tree();
-    SeenScene seen = seen_scene(held, camera);
-    require_held_motions(seen, held);
+    SeenScene seen = seen_scene(scene.scene, camera);
+    require_held_motions(seen, scene.scene);
     const Camera start = starting_ahead(with_tree_as_ball(seen, scene, camera), camera, settings);
     if (start.start_distance > 0.0)
-        seen = seen_scene(held, start);
+        seen = seen_scene(scene.scene, start);
     return gpu_scene(without_twins(std::move(seen), scene.sphere_order), scene, start, settings);
 }
 

@@ -1,6 +1,7 @@
 // Finds what does not depend on the camera; see prepared_scene.h.
 #include "lib/kernel/prepared_scene.h"
 
+#include "lib/base/digest.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 #include "lib/tree/outlying.h"
@@ -35,10 +36,57 @@ double film_unit(const std::vector<Material> &materials) {
     return std::ldexp(1.0, std::clamp(exponent - 8, -120, 120));
 }
 
+bool does_move(const Sphere &sphere) {
+    return sphere.motion != glm::dvec3(0.0);
+}
+
+// The tree has materials by their place among those in use.
+std::string digest_with_tree(const PreparedScene &prepared) {
+    Digest digest;
+    digest.add(digest_of(prepared.scene));
+    digest.add(prepared.tree->grid().middle);
+    digest.add(prepared.tree->grid().step);
+    for (const glm::uvec4 &word : prepared.tree->words())
+        digest.add(std::span<const std::uint32_t>(&word.x, 4));
+    for (const Material &material : prepared.used_materials) {
+        digest.add(material.diffuse);
+        digest.add(material.specular);
+        digest.add(material.emission);
+        digest.add(static_cast<double>(material.glossiness));
+    }
+    return digest.text();
+}
+
 } // namespace
 
-PreparedScene::PreparedScene(Scene of, std::uint32_t tree_from) : scene(std::move(of)) {
-    const std::vector<bool> used = is_used(scene);
+PreparedScene::PreparedScene(Scene of) :
+    scene(std::move(of)),
+    moves(std::ranges::any_of(scene.spheres, does_move)),
+    sphere_order(order_along_line(scene.spheres)) {
+    note_materials(is_used(scene));
+}
+
+PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from) :
+    PreparedScene(checked.spheres.size() < tree_from ? PreparedScene(owned_scene(std::move(checked)))
+                                                     : with_tree(checked, outlying_spheres(checked.spheres))) {}
+
+PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out) {
+    PreparedScene prepared(owned_scene_of(checked, left_out));
+    std::vector<bool> used = is_used(prepared.scene);
+    checked.spheres.for_each(
+        [&](std::size_t, const Sphere &sphere, const glm::vec3 &) { used[sphere.material] = true; });
+    prepared.note_materials(used);
+    std::vector<TreeMaterial> materials;
+    for (std::size_t i = 0; i < used.size(); ++i)
+        materials.push_back({prepared.used_indices[i], emits(prepared.scene.materials[i])});
+    prepared.tree = std::make_shared<const SphereTree>(checked.spheres, left_out, materials, [](double) {});
+    prepared.moves = prepared.moves || prepared.tree->moves();
+    return prepared;
+}
+
+void PreparedScene::note_materials(const std::vector<bool> &used) {
+    used_materials.clear();
+    used_indices.clear();
     for (std::size_t i = 0; i < used.size(); ++i) {
         used_indices.push_back(static_cast<std::uint32_t>(used_materials.size()));
         if (used[i])
@@ -46,28 +94,11 @@ PreparedScene::PreparedScene(Scene of, std::uint32_t tree_from) : scene(std::mov
     }
     film_unit = pt::film_unit(used_materials);
     gloss = std::ranges::any_of(used_materials, is_glossy);
-    moves = std::ranges::any_of(scene.spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); });
-    if (scene.spheres.size() >= tree_from)
-        plant_tree();
-    sphere_order = order_along_line(without_tree().spheres);
-}
-
-void PreparedScene::plant_tree() {
-    const std::vector<std::uint32_t> outlying = outlying_spheres(scene.spheres);
-    std::vector<Sphere> inside;
-    inside.reserve(scene.spheres.size() - outlying.size());
-    rest_.emplace(Scene{scene.materials, {}, scene.planes});
-    for (std::uint32_t i = 0; i < scene.spheres.size(); ++i)
-        (std::ranges::binary_search(outlying, i) ? rest_->spheres : inside).push_back(scene.spheres[i]);
-    std::vector<TreeMaterial> materials;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
-        materials.push_back({used_indices[i], emits(scene.materials[i])});
-    tree = std::make_shared<const SphereTree>(inside, materials, [](double) {});
 }
 
 const std::string &PreparedScene::digest() const {
     if (digest_.empty())
-        digest_ = digest_of(scene);
+        digest_ = tree ? digest_with_tree(*this) : digest_of(scene);
     return digest_;
 }
 

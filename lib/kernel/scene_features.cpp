@@ -105,6 +105,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.sphere_count = static_cast<std::uint32_t>(surfaces.spheres.size());
     features.plane_count = static_cast<std::uint32_t>(surfaces.planes.size());
     features.tree = tree != nullptr;
+    features.tree_colors = tree && tree->has_colors();
     features.tree_lamps = tree_lamps;
     features.lamp_count = surfaces.lamp_count + tree_lamps;
     features.sky_count = surfaces.sky_count;
@@ -198,6 +199,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
     constants[gpu::ID_TREE] = features.tree ? 1 : 0;
+    constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;

@@ -39,6 +39,7 @@ struct Features {
     bool scene_in_uniform; // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share
     bool tree;                     // most spheres are in a tree, and not among sphere_count
+    bool tree_colors;              // with colours of their own
     std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
 
     bool operator==(const Features &) const = default;

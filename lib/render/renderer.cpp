@@ -89,7 +89,7 @@ void Renderer::discard_samples() noexcept {
     take_over({});
 }
 
-void Renderer::set_scene(Scene scene) {
+void Renderer::set_scene(CheckedScene scene) {
     require_alive();
     PreparedScene prepared(std::move(scene), devices_.front()->device().policy().tree_from);
     discard_samples();

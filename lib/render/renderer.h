@@ -42,8 +42,8 @@ struct CreateSettings {
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
-    bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
+    std::uint32_t devices_of_each = 1;      // render devices on each that is named: tests share work where there is one
+    bool like_gpus = false;                 // CPUs are used as GPUs are: for tests without one
     std::optional<std::uint32_t> tree_from; // DevicePolicy's: for tests of trees over few spheres
 };
 
@@ -67,7 +67,7 @@ public:
     bool is_on_lent_device() const { return devices_.front()->device().is_borrowed(); }
 
     // Each setter discards the samples so far.
-    void set_scene(Scene scene);
+    void set_scene(CheckedScene scene);
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 

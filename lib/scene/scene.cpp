@@ -54,14 +54,30 @@ void append_spheres(Scene &scene, const SphereSource &source) {
 } // namespace
 
 Scene validated_scene(const pt_scene &scene) {
-    CheckedScene checked = checked_scene(scene);
+    return owned_scene(checked_scene(scene));
+}
+
+Scene owned_scene(CheckedScene checked) {
     const auto starts = checked.spheres.array_starts();
     Scene owned{std::move(checked.materials), {}, std::move(checked.planes), {starts.begin(), starts.end()}};
     append_spheres(owned, checked.spheres);
     return owned;
 }
 
-SpherePlace place_of_sphere(const Scene &scene, std::size_t index) {
+Scene owned_scene_of(const CheckedScene &checked, const std::vector<std::uint32_t> &spheres) {
+    const auto starts = checked.spheres.array_starts();
+    Scene owned{checked.materials, {}, checked.planes, {starts.begin(), starts.end()}, spheres};
+    ColoredMaterials colored(owned.materials);
+    for (const std::uint32_t index : spheres) {
+        owned.spheres.push_back(checked.spheres[index]);
+        Sphere &sphere = owned.spheres.back();
+        sphere.material = colored.index_of(sphere.material, checked.spheres.color(index));
+    }
+    return owned;
+}
+
+SpherePlace place_of_sphere(const Scene &scene, std::size_t position) {
+    const std::size_t index = scene.indices.empty() ? position : scene.indices[position];
     const auto after = std::ranges::upper_bound(scene.array_starts, index);
     const auto array = after - scene.array_starts.begin() - 1;
     if (array < 0)

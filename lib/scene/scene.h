@@ -45,10 +45,19 @@ struct Scene {
     std::vector<Sphere> spheres;     // pt_scene.spheres, and those of the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays
+    std::vector<std::uint32_t> indices = {};      // of the spheres in the caller's scene, where they are not all of it
 };
 
 // Copies a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 Scene validated_scene(const pt_scene &scene);
+
+struct CheckedScene;
+
+// Takes all over, ...
+Scene owned_scene(CheckedScene checked);
+
+// ... or of the spheres just some, by their indices in ascending order.
+Scene owned_scene_of(const CheckedScene &checked, const std::vector<std::uint32_t> &spheres);
 
 // Where the caller has a sphere, as the members of a BrokenRule.
 struct SpherePlace {

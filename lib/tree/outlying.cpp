@@ -15,14 +15,17 @@ constexpr std::size_t most_outlying = 16; // each costs every ray a test
 constexpr double much_farther = 16.0; // so that a grid loses four bits at the most
 
 // Medians of the coordinates of a thousand spheres or so.
-glm::dvec3 middle_of(std::span<const Sphere> spheres) {
+glm::dvec3 middle_of(const SphereSource &spheres) {
     constexpr std::size_t enough = 1000;
     const std::size_t step = spheres.size() / enough + 1;
+    std::vector<glm::dvec3> centres;
+    for (std::size_t i = 0; i < spheres.size(); i += step)
+        centres.push_back(spheres[i].center);
     glm::dvec3 middle;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> coordinates;
-        for (std::size_t i = 0; i < spheres.size(); i += step)
-            coordinates.push_back(spheres[i].center[axis]);
+        for (const glm::dvec3 &centre : centres)
+            coordinates.push_back(centre[axis]);
         const auto half = coordinates.begin() + static_cast<std::ptrdiff_t>(coordinates.size() / 2);
         std::ranges::nth_element(coordinates, half);
         middle[axis] = *half;
@@ -36,20 +39,20 @@ double reach_of(const Sphere &sphere, const glm::dvec3 &middle) {
 
 } // namespace
 
-std::vector<std::uint32_t> outlying_spheres(std::span<const Sphere> spheres) {
+std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
 
     // The farthest ones and one more, farthest first.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
-    for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-        const Reach reach(reach_of(spheres[i], middle), i);
+    spheres.for_each([&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
+        const Reach reach(reach_of(sphere, middle), static_cast<std::uint32_t>(i));
         if (farthest.size() > few && reach.first <= farthest.back().first)
-            continue;
+            return;
         farthest.insert(std::ranges::upper_bound(farthest, reach, std::greater()), reach);
         farthest.resize(std::min(farthest.size(), few + 1));
-    }
+    });
 
     std::vector<std::uint32_t> outlying;
     for (const auto &[reach, index] : farthest)

@@ -18,26 +18,47 @@ constexpr double margin = 0x1p-16;
 // As in twins.cpp.
 constexpr double two_spheres = 0.25;
 
-// The box of what spheres take up at any time.
-struct Extent {
+// Of the spheres that are in the tree: calls use(index, sphere, color) for each, in order.
+template <typename Use>
+void for_each_of(const SphereSource &spheres, std::span<const std::uint32_t> left_out, Use &&use) {
+    spheres.for_each([&](std::size_t index, const Sphere &sphere, const glm::vec3 &color) {
+        if (!left_out.empty() && left_out.front() == index)
+            left_out = left_out.subspan(1);
+        else
+            use(static_cast<std::uint32_t>(index), sphere, color);
+    });
+}
+
+} // namespace
+
+// What spheres take up at any time.
+struct SphereTree::Extent {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    bool moves = false;
 
     void add(const Sphere &sphere) {
         const glm::dvec3 end = sphere.center + sphere.motion;
         low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
         high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
+        moves = moves || sphere.motion != glm::dvec3(0.0);
+    }
+
+    // With a step more than needed on either side, for rounding to places.
+    Grid grid() const {
+        const glm::dvec3 half = 0.5 * high - 0.5 * low;
+        return {0.5 * low + 0.5 * high, std::max({half.x, half.y, half.z}) * (1.0 + 0x1p-28)};
+    }
+
+    static Extent of(const SphereSource &spheres, std::span<const std::uint32_t> left_out) {
+        Extent extent;
+        for_each_of(spheres, left_out,
+                    [&](std::uint32_t, const Sphere &sphere, const glm::vec3 &) { extent.add(sphere); });
+        return extent;
     }
 };
 
-Grid grid_for(std::span<const Sphere> spheres) {
-    Extent extent;
-    for (const Sphere &sphere : spheres)
-        extent.add(sphere);
-    const glm::dvec3 half = 0.5 * extent.high - 0.5 * extent.low;
-    // A step more than needed on either side, for rounding to places.
-    return {0.5 * extent.low + 0.5 * extent.high, std::max({half.x, half.y, half.z}) * (1.0 + 0x1p-28)};
-}
+namespace {
 
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
     const glm::vec3 centre((sphere.center + 0.5 * sphere.motion - grid.middle) / grid.step);
@@ -45,16 +66,23 @@ std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
     return {centre.x, centre.y, centre.z, static_cast<float>(radius / grid.step)};
 }
 
-std::vector<TreeItem> items_of(std::span<const Sphere> spheres, const Grid &grid) {
+std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std::uint32_t> left_out, const Grid &grid) {
     std::vector<TreeItem> items;
-    items.reserve(spheres.size());
-    for (const Sphere &sphere : spheres)
-        items.push_back({ball_of(sphere, grid), static_cast<std::uint32_t>(items.size())});
+    items.reserve(spheres.size() - left_out.size());
+    for_each_of(spheres, left_out, [&](std::uint32_t index, const Sphere &sphere, const glm::vec3 &) {
+        items.push_back({ball_of(sphere, grid), index});
+    });
     return items;
 }
 
 glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
     return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
+}
+
+// Ten bits for the root of each component, which keep dark colours apart as well as bright ones.
+std::uint32_t color_word(const glm::vec3 &color) {
+    const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
+    return steps.r | steps.g << 10 | steps.b << 20;
 }
 
 glm::uvec4 motion_word(const Sphere &sphere) {
@@ -73,52 +101,62 @@ glm::dvec3 way_of(const glm::uvec4 &word) {
 
 } // namespace
 
-SphereTree::SphereTree(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
-                       const std::function<void(double)> &progress) :
-    grid_(grid_for(spheres)),
-    moves_(std::ranges::any_of(spheres, [](const Sphere &sphere) { return sphere.motion != glm::dvec3(0.0); })) {
+SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
+                       std::span<const TreeMaterial> materials, const std::function<void(double)> &progress) :
+    SphereTree(Extent::of(spheres, left_out), spheres, left_out, materials, progress) {}
+
+SphereTree::SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out,
+                       std::span<const TreeMaterial> materials, const std::function<void(double)> &progress) :
+    grid_(extent.grid()),
+    moves_(extent.moves),
+    has_colors_(spheres.has_colors()) {
     const auto are_twins = [&](std::uint32_t a, std::uint32_t b) {
         return sphere_word(spheres[a], grid_) == sphere_word(spheres[b], grid_) &&
                motion_word(spheres[a]) == motion_word(spheres[b]);
     };
-    const TreeShape shape = tree_shape(items_of(spheres, grid_), {are_twins, progress});
+    TreeShape shape = tree_shape(items_of(spheres, left_out, grid_), {are_twins, progress});
     depth_ = shape.depth;
     write_spheres(spheres, materials, shape);
+    shape.spheres = {};
     write_nodes(shape);
     close_lamps_ = finds_close_lamps();
 }
 
-// All blocks but the nodes'.
-void SphereTree::write_spheres(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
+// All blocks but the nodes'. The caller's spheres are read in their order, which is faster than any other.
+void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                const TreeShape &shape) {
-    // Lamps are numbered as in the scene, of which places are no order.
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> lamps; // sphere and place
+    constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // of what is left out, and of twins
+    std::vector<std::uint32_t> places(spheres.size(), nowhere);
     for (std::uint32_t place = 0; place < shape.spheres.size(); ++place)
-        if (materials[spheres[shape.spheres[place]].material].emits)
-            lamps.emplace_back(shape.spheres[place], place);
-    std::ranges::sort(lamps);
+        places[shape.spheres[place]] = place;
 
     sphere_count_ = static_cast<std::uint32_t>(shape.spheres.size());
+    const std::uint32_t quarter = (sphere_count_ + 3) / 4;
     first_sphere_ = static_cast<std::uint32_t>(shape.nodes.size()) * gpu::TREE_NODE_WORDS;
     first_motion_ = first_sphere_ + sphere_count_;
     first_surface_ = first_motion_ + (moves_ ? sphere_count_ : 0);
-    first_lamp_ = first_surface_ + (sphere_count_ + 3) / 4;
-    words_.resize(std::size_t{first_lamp_} + lamps.size());
-
-    for (std::uint32_t place = 0; place < sphere_count_; ++place) {
-        const Sphere &sphere = spheres[shape.spheres[place]];
+    first_color_ = first_surface_ + quarter;
+    first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
+    words_.resize(first_lamp_);
+    spheres.for_each([&](std::size_t index, const Sphere &sphere, const glm::vec3 &color) {
+        const std::uint32_t place = places[index];
+        if (place == nowhere)
+            return;
+        const auto component = static_cast<int>(place % 4);
+        const TreeMaterial &material = materials[sphere.material];
         words_[first_sphere_ + place] = sphere_word(sphere, grid_);
         if (moves_)
             words_[first_motion_ + place] = motion_word(sphere);
-        words_[first_surface_ + place / 4][static_cast<int>(place % 4)] = materials[sphere.material].index;
-    }
-    for (const auto &[sphere, place] : lamps) {
-        const auto number = static_cast<std::uint32_t>(lamp_materials_.size());
-        const std::uint32_t material = spheres[sphere].material;
-        words_[first_surface_ + place / 4][static_cast<int>(place % 4)] = gpu::TREE_LAMP_BIT + number;
-        words_[first_lamp_ + number] = {place, materials[material].index, 0, 0};
-        lamp_materials_.push_back(material);
-    }
+        if (has_colors_)
+            words_[first_color_ + place / 4][component] = color_word(color);
+        words_[first_surface_ + place / 4][component] = material.index;
+        if (material.emits) {
+            const auto number = static_cast<std::uint32_t>(lamp_materials_.size());
+            words_[first_surface_ + place / 4][component] = gpu::TREE_LAMP_BIT + number;
+            words_.emplace_back(place, material.index, 0, 0);
+            lamp_materials_.push_back(sphere.material);
+        }
+    });
 }
 
 // Boxes come from what is below them, which the order of nodes puts behind them.
@@ -226,6 +264,7 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.first_sphere = first_sphere_;
     frame.first_motion = first_motion_;
     frame.first_surface = first_surface_;
+    frame.first_color = first_color_;
     frame.first_lamp = first_lamp_;
     frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);

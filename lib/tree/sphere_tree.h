@@ -4,6 +4,7 @@
 
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
+#include "lib/scene/sphere_source.h"
 #include "lib/tree/grid.h"
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
@@ -29,10 +30,12 @@ struct PointBox {
 
 class SphereTree {
 public:
-    // At least one sphere. materials: those of the scene, by index. progress is called now and then with the share that
-    // is done; what it throws ends the work.
-    SphereTree(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
-               const std::function<void(double)> &progress);
+    // Over the spheres but those left out, by their indices in ascending order: at least one. materials: those of the
+    // scene, by index. progress is called now and then with the share that is done; what it throws ends the work.
+    SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
+               std::span<const TreeMaterial> materials, const std::function<void(double)> &progress);
+
+    const Grid &grid() const { return grid_; }
 
     // The tree buffer of gpu_layout.h.
     const std::vector<glm::uvec4> &words() const { return words_; }
@@ -45,6 +48,7 @@ public:
     std::uint32_t node_count() const { return first_sphere_ / gpu::TREE_NODE_WORDS; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
+    bool has_colors() const { return has_colors_; }
 
     // Materials of the lamps by number, which is their order in the scene.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
@@ -66,8 +70,12 @@ private:
         double radius;
     };
 
-    void write_spheres(std::span<const Sphere> spheres, std::span<const TreeMaterial> materials,
-                       const TreeShape &shape);
+    struct Extent;
+
+    SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out,
+               std::span<const TreeMaterial> materials, const std::function<void(double)> &progress);
+
+    void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, const TreeShape &shape);
     void write_nodes(const TreeShape &shape);
     TreeSphere sphere_at(std::uint32_t place) const;
     GridBox box_of_place(std::uint32_t place) const;
@@ -78,11 +86,13 @@ private:
 
     Grid grid_;
     bool moves_;
+    bool has_colors_;
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t first_sphere_ = 0; // words of the buffer, each the end of the block before
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;
+    std::uint32_t first_color_ = 0;
     std::uint32_t first_lamp_ = 0;
     bool close_lamps_ = false;
     GridBox box_;

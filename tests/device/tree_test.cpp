@@ -15,6 +15,14 @@ namespace {
 
 using FilmWords = KernelRender::FilmWords;
 
+std::vector<pt_sphere> caller_spheres(const std::vector<pt::Sphere> &spheres) {
+    std::vector<pt_sphere> result;
+    for (const pt::Sphere &s : spheres)
+        result.push_back(
+            {{s.center.x, s.center.y, s.center.z}, s.radius, {s.motion.x, s.motion.y, s.motion.z}, s.material, 0});
+    return result;
+}
+
 std::size_t scene_count() {
     const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
     return wanted ? std::stoul(wanted) : 24;
@@ -67,7 +75,8 @@ struct Compared {
 };
 
 Compared compare(const pt::Scene &scene, const pt::Camera &camera) {
-    const pt::PreparedScene prepared(scene, 1);
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    const pt::PreparedScene prepared({scene.materials, {spheres_of_caller, {}}, scene.planes}, 1);
     // Testing every sphere takes loop trips, of which some drivers allow 65,535.
     const std::size_t spheres = scene.spheres.size();
     KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(spheres > 100 ? 2 : 4)));

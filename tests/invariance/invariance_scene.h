@@ -9,7 +9,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <vector>
+
+// Which scene, and how its spheres are held.
+enum class InvarianceOf { Coursework, ManyLamps, Tree };
+
+inline std::string name_of(InvarianceOf what) {
+    return what == InvarianceOf::Coursework ? "Coursework" : what == InvarianceOf::ManyLamps ? "ManyLamps" : "Tree";
+}
 
 struct InvarianceScene {
     std::vector<pt_material> materials;
@@ -27,6 +35,10 @@ struct InvarianceScene {
                                {source.planes.begin(), source.planes.end()}};
         result.spheres[3].motion[1] = 0.5;
         return result;
+    }
+
+    static InvarianceScene of(InvarianceOf what) {
+        return what == InvarianceOf::Coursework ? coursework() : many_lamps();
     }
 
     // With so many lamps that one is chosen.

@@ -2,6 +2,7 @@
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
+#include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
 
@@ -31,10 +32,13 @@ std::size_t differing_values(const Image &a, const Image &b) {
     return count;
 }
 
-class Invariance : public ContextFixture, public testing::WithParamInterface<bool> {
+class Invariance : public ContextFixture, public testing::WithParamInterface<InvarianceOf> {
 protected:
-    static InvarianceScene scene() {
-        return GetParam() ? InvarianceScene::many_lamps() : InvarianceScene::coursework();
+    static InvarianceScene scene() { return InvarianceScene::of(GetParam()); }
+
+    Context create_fixtures_context() override {
+        const bool has_tree = GetParam() == InvarianceOf::Tree;
+        return create_context([](pt_create_info &) {}, has_tree ? &create_with_tree : &pt_create);
     }
 
     Image image_of(const InvarianceScene &scene) { return render(context(), scene); }
@@ -145,7 +149,7 @@ TEST_P(Invariance, ContextsInOtherThreads) {
     std::vector<std::thread> threads;
     for (int i = 0; i < contexts; ++i)
         threads.emplace_back([&, i] {
-            const Context own = create_context();
+            const Context own = create_fixtures_context();
             for (int repeat = 0; repeat < 2; ++repeat)
                 together[i] = render(own.get(), scene(), static_cast<uint64_t>(i), samples);
         });
@@ -156,8 +160,12 @@ TEST_P(Invariance, ContextsInOtherThreads) {
 }
 
 // Of balls in so great a number that surfaces share materials in the scene's buffer.
-class InvarianceOfLargeScenes : public ContextFixture {
+class InvarianceOfLargeScenes : public ContextFixture, public testing::WithParamInterface<bool> {
 protected:
+    Context create_fixtures_context() override {
+        return create_context([](pt_create_info &) {}, GetParam() ? &create_with_tree : &create_without_tree);
+    }
+
     static InvarianceScene scene() {
         InvarianceScene result = InvarianceScene::coursework();
         result.planes.resize(2);
@@ -189,12 +197,13 @@ protected:
         pt_stats stats{};
         stats.struct_size = sizeof stats;
         EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
-        EXPECT_EQ(stats.features, PT_FEATURE_LAMPS | PT_FEATURE_GLOSS | PT_FEATURE_MOTION | PT_FEATURE_LARGE);
+        EXPECT_EQ(stats.features, PT_FEATURE_LAMPS | PT_FEATURE_GLOSS | PT_FEATURE_MOTION | PT_FEATURE_LARGE |
+                                      (GetParam() ? PT_FEATURE_TREE : 0));
         return image;
     }
 };
 
-TEST_F(InvarianceOfLargeScenes, SharedMaterials) {
+TEST_P(InvarianceOfLargeScenes, SharedMaterials) {
     const Image shared = image_of(scene());
     InvarianceScene own = with_own_materials(scene());
     EXPECT_EQ(differing_values(image_of(own), shared), 0U);
@@ -202,7 +211,11 @@ TEST_F(InvarianceOfLargeScenes, SharedMaterials) {
     EXPECT_GT(differing_values(image_of(own), shared), 0U) << "one ball's material must show";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::Bool(),
-                         [](const auto &param) { return param.param ? "ManyLamps" : "Coursework"; });
+INSTANTIATE_TEST_SUITE_P(Held, InvarianceOfLargeScenes, testing::Bool(),
+                         [](const auto &param) { return param.param ? "InATree" : "InALine"; });
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance,
+                         testing::Values(InvarianceOf::Coursework, InvarianceOf::ManyLamps, InvarianceOf::Tree),
+                         [](const auto &param) { return name_of(param.param); });
 
 } // namespace

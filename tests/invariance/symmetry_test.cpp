@@ -2,6 +2,7 @@
 // with different seeds tell the noise. Run alone with --gtest_filter=Symmetry*.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
+#include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
 
@@ -57,10 +58,13 @@ constexpr double mean_square_t_bound = expected_mean_square_t + 6.0 * 0.14;
 // One false alarm in a million for the blocks of the file's six comparisons.
 const double largest_t_bound = student_bound(1e-6 / (6.0 * blocks), 2 * batch_count - 1);
 
-class Symmetry : public BatchFixture, public testing::WithParamInterface<bool> {
+class Symmetry : public BatchFixture, public testing::WithParamInterface<InvarianceOf> {
 protected:
-    static InvarianceScene scene() {
-        return GetParam() ? InvarianceScene::many_lamps() : InvarianceScene::coursework();
+    static InvarianceScene scene() { return InvarianceScene::of(GetParam()); }
+
+    Context create_fixtures_context() override {
+        const bool has_tree = GetParam() == InvarianceOf::Tree;
+        return create_context([](pt_create_info &) {}, has_tree ? &create_with_tree : &pt_create);
     }
 
     Batches batches_of(const InvarianceScene &scene, uint64_t first_seed) {
@@ -118,7 +122,8 @@ TEST_P(Symmetry, Rotation) {
     expect_same_image(turned, unchanged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Symmetry, testing::Bool(),
-                         [](const auto &param) { return param.param ? "ManyLamps" : "Coursework"; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Symmetry,
+                         testing::Values(InvarianceOf::Coursework, InvarianceOf::ManyLamps, InvarianceOf::Tree),
+                         [](const auto &param) { return name_of(param.param); });
 
 } // namespace

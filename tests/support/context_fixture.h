@@ -1,10 +1,9 @@
 // Tests on a real device through pt.h. The validation layer watches: what it or the library warns of fails the test.
 // From the environment: PT_TEST_DEVICE chooses the device as pt_create_info.device does; with PT_TEST_NO_VALIDATION
-// set, contexts are made without the layer, for leak checks; with PT_TEST_TREE set all spheres are in trees.
+// set, contexts are made without the layer, for leak checks.
 #pragma once
 
 #include "tests/support/image_target.h"
-#include "tests/support/shared_context.h"
 
 #include <pt/devices.h>
 #include <pt/pt.h>
@@ -27,9 +26,11 @@ using Context = std::unique_ptr<pt_context, DestroyContext>;
 class ContextFixture : public testing::Test {
 protected:
     void SetUp() override {
-        context_ = create_context();
+        context_ = create_fixtures_context();
         ASSERT_TRUE(context_);
     }
+
+    virtual Context create_fixtures_context() { return create_context(); }
 
     // The layer reports leaks when a context is destroyed, so that comes first.
     void TearDown() override {
@@ -45,7 +46,7 @@ protected:
     // Another context, with what adjust makes of the fixture's settings. To be destroyed before the test ends.
     Context create_context(
         const std::function<void(pt_create_info &)> &adjust = [](pt_create_info &) {},
-        const Create &create = std::getenv("PT_TEST_TREE") ? &create_with_tree : &pt_create) {
+        const Create &create = &pt_create) {
         pt_create_info info{};
         info.struct_size = sizeof info;
         info.flags = std::getenv("PT_TEST_NO_VALIDATION") ? 0 : PT_CREATE_VALIDATION;

@@ -17,11 +17,19 @@ inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &i
     });
 }
 
-// Spheres are in a tree, however few they are.
-inline pt_result create_with_tree(const pt_create_info *info, pt_context **context) {
+// With a tree from so many spheres on.
+inline pt_result create_with_tree_from(uint32_t spheres, const pt_create_info *info, pt_context **context) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(*info);
-        settings.tree_from = 1;
+        settings.tree_from = spheres;
         *context = std::make_unique<pt_context>(settings).release();
     });
+}
+
+inline pt_result create_with_tree(const pt_create_info *info, pt_context **context) {
+    return create_with_tree_from(1, info, context);
+}
+
+inline pt_result create_without_tree(const pt_create_info *info, pt_context **context) {
+    return create_with_tree_from(UINT32_MAX, info, context);
 }
