@@ -43,7 +43,9 @@ PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tel
 PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
 PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
 PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of the pinhole
-PT_CONSTANT CONSTANT_COUNT = 23;
+PT_CONSTANT ID_LAMP_TREE_LEVELS = 23; // of the tree of lamps, below its top; 0: there is none
+PT_CONSTANT ID_LAMP_TREE_WORDS = 24;  // of the scene buffer that are the tree's
+PT_CONSTANT CONSTANT_COUNT = 25;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -129,6 +131,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
+//   tree              of lamps, if they have one (below), which is read from the storage buffer
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // A scene that would be longer is in the storage buffer, where surfaces of one material share its words:
@@ -136,11 +139,39 @@ PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 //   emission[E]       of the E surfaces that may emit: lamps, skies, and with PLANES_EMIT the planes
 //   motion[spheres]
 //   curvature[planes]
+//   tree
 //   index[S]          four to a word: MATERIAL_INDEX_BITS + the surface's place in the table, as the bits of a float
 //   table             for each material its word of diffuse and, with GLOSS, that of specular
 // Emission is not in the table, as the many lamps of such a scene are asked for it one after the other.
 // The bits of 1.0: any index below 2^30 makes a finite number of them, and none that a device may flush to 0.
 PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
+
+// ---- The tree of lamps (shaders/lamp_tree.glsl) ----------------------------------------------------------------------
+// Its shape depends on the number of lamps alone. Nodes come in groups of four siblings: on top there are one to four
+// groups, below them for each node a group of its children, level by level; the nodes of the last level are slots for
+// lamps. A group has LAMP_TREE_GROUP_WORDS words, each with a component for each sibling:
+//   x, y, z    its middle as the shutter opens: the mean of its lamps' centres by their power
+//   power      the sum of radiance r^2 over its lamps, up to a factor; 0: an empty slot
+//   radius     of a ball about the middle that holds its lamps at any time; of a lamp, its own
+//   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared radii;
+//              of a slot, MATERIAL_INDEX_BITS + its lamp as the bits of a float
+//   x, y, z    way of the middle while the shutter is open (only with MOTION)
+// Then for each lamp, four to a word, MATERIAL_INDEX_BITS + its slot as the bits of a float.
+PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
+
+PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 6 + 3 * motion; }
+
+// Groups on top of a tree of so many levels below them.
+PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
+{
+    return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
+}
+
+// Of all levels together.
+PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
+{
+    return lamp_tree_top_groups(lamp_count, levels) * (((4u << (2u * levels)) - 1u) / 3u);
+}
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
 // Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.

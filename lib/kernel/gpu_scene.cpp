@@ -2,6 +2,7 @@
 #include "lib/kernel/gpu_scene.h"
 
 #include "lib/base/mixed.h"
+#include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/ray_start.h"
 #include "lib/scene/seen_scene.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace pt {
@@ -91,6 +93,22 @@ private:
     const SceneBlocks blocks_;
 };
 
+// The lamps among the surfaces, in the order of the tree.
+std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene) {
+    constexpr std::uint32_t no_lamp = 0xffffffff;
+    std::vector<std::uint32_t> lamp_of_sphere(scene.scene.spheres.size(), no_lamp);
+    for (std::uint32_t lamp = 0; lamp < surfaces.lamp_count; ++lamp)
+        lamp_of_sphere[surfaces.spheres[lamp].index] = lamp;
+    std::vector<TreeLamp> lamps;
+    lamps.reserve(surfaces.lamp_count);
+    for (const std::uint32_t sphere : scene.lamp_order)
+        if (const std::uint32_t lamp = lamp_of_sphere[sphere]; lamp != no_lamp) {
+            const SeenSphere &seen = surfaces.spheres[lamp];
+            lamps.push_back({seen, mean(scene.scene.materials[seen.material].emission), lamp});
+        }
+    return lamps;
+}
+
 std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Features &features) {
     std::vector<glm::vec4> words(SceneBlocks(features).word_count);
     Writer writer(words, features);
@@ -112,6 +130,12 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     }
     for (std::uint32_t i = 0; i < features.table_materials; ++i)
         writer.reflection(i, scene.used_materials[i]);
+    if (features.lamp_tree) {
+        const SceneBlocks blocks(features);
+        write_lamp_tree(
+            std::span(words).subspan(blocks.lamp_tree, lamp_tree_words(features.lamp_count, features.motion)),
+            tree_lamps(surfaces, scene), features.motion);
+    }
     return words;
 }
 

@@ -1,6 +1,7 @@
 // Finds what does not depend on the camera; see prepared_scene.h.
 #include "lib/kernel/prepared_scene.h"
 
+#include "lib/scene/lamp_tree.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 
@@ -36,7 +37,10 @@ double film_unit(const std::vector<Material> &materials) {
 
 } // namespace
 
-PreparedScene::PreparedScene(Scene of) : scene(std::move(of)), sphere_order(order_along_line(scene.spheres)) {
+PreparedScene::PreparedScene(Scene of) :
+    scene(std::move(of)),
+    sphere_order(order_along_line(scene.spheres)),
+    lamp_order(order_in_lamp_tree(scene)) {
     const std::vector<bool> used = is_used(scene);
     for (std::size_t i = 0; i < used.size(); ++i) {
         used_indices.push_back(static_cast<std::uint32_t>(used_materials.size()));

@@ -20,6 +20,7 @@ struct PreparedScene {
     bool gloss;                              // some material in use has a specular lobe
     bool moves;                              // some sphere does
     std::vector<std::uint32_t> sphere_order; // along the line of twins.h
+    std::vector<std::uint32_t> lamp_order;   // of the spheres that emit, in the tree of lamp_tree.h
 
     explicit PreparedScene(Scene of);
 

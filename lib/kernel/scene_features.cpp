@@ -1,8 +1,10 @@
 // Finds the features of a scene; see scene_features.h.
 #include "lib/kernel/scene_features.h"
 
+#include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
+#include "lib/scene/lamp_tree.h"
 
 #include <pt/stats.h>
 
@@ -48,9 +50,21 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
+bool samples_lamps(const RenderSettings &render) {
+    return (render.estimator == PT_ESTIMATOR_MIS || render.estimator == PT_ESTIMATOR_LIGHT) &&
+           render.max_path_length > 1;
+}
+
+// Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of the
+// tree, and then down it to the lamp that is chosen and to one that a direction meets.
+std::uint64_t lamp_trips(const Features &features) {
+    return features.lamp_tree ? gpu::LAMP_TREE_TOP_GROUPS + 2 * LampTreeShape(features.lamp_count).levels()
+                              : 2 * std::uint64_t{features.lamp_count};
+}
+
+// Loop trips of one branch: at each vertex one of a loop, those for the lamps and a walk over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
-    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + features.surface_count();
+    const std::uint64_t vertex = 1 + lamp_trips(features) + features.surface_count();
     return (features.max_path_length - 1) * vertex;
 }
 
@@ -109,6 +123,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features.scene_in_uniform = false;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
+    features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
     return features;
 }
 
@@ -174,17 +189,21 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
+    if (features.lamp_tree) {
+        constants[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(features.lamp_count).levels();
+        constants[gpu::ID_LAMP_TREE_WORDS] =
+            static_cast<std::uint32_t>(lamp_tree_words(features.lamp_count, features.motion));
+    }
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
     // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
-    // first vertex, two walks over the lamps to choose among them, and the branches.
+    // first vertex, what it takes to choose among the lamps there, and the branches.
     const std::uint64_t surfaces = features.surface_count();
     const std::uint32_t branches = branch_count(features);
-    const std::uint64_t first_vertex =
-        further_lamps(features, branches) * (1 + surfaces) + 2 * std::uint64_t{features.lamp_count};
+    const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + surfaces) + lamp_trips(features);
     return 1 + surfaces + first_vertex + branches * loop_trips_per_branch(features);
 }
 
