@@ -182,6 +182,18 @@ TEST(LampTreeWords, LeaveOutTwins) {
     EXPECT_EQ(std::ranges::adjacent_find(lamps), lamps.end());
 }
 
+TEST(LampTreeWords, NodesMoveWithTheirLamps) {
+    pt::Scene scene = lamp_scenes::in_a_box(90, 4);
+    for (pt::Sphere &sphere : scene.spheres)
+        sphere.motion = {4, -2, 8};
+    const pt::GpuScene seen = lamp_scenes::gpu_scene(scene);
+    const pt::LampTreeShape shape(90);
+    for (std::uint64_t group = 0; group < shape.groups_above(shape.levels()); ++group)
+        for (int place = 0; place < 4; ++place)
+            EXPECT_LT(glm::length(held_node(seen, group, place).way - glm::vec3(2, -1, 4)), 1e-6F)
+                << "the shutter is open for half of the unit of time";
+}
+
 // Scaled by a power of two, the tree's shares stay the same: places by that factor, powers by one factor for all.
 TEST(LampTreeWords, ScaleWithTheScene) {
     pt::Scene scene = lamp_scenes::in_a_box(100, 8);
