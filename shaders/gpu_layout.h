@@ -152,14 +152,16 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 // lamps. A group has LAMP_TREE_GROUP_WORDS words, each with a component for each sibling:
 //   x, y, z    its middle as the shutter opens: the mean of its lamps' centres by their power
 //   power      the sum of radiance r^2 over its lamps, up to a factor; 0: an empty slot
-//   radius     of a ball about the middle that holds its lamps at any time; of a lamp, its own
 //   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared radii;
-//              of a slot, MATERIAL_INDEX_BITS + its lamp as the bits of a float
+//              at least a 64th of the square of the radius of a ball about the middle that holds them at any time. Of a
+//              slot, its lamp's radius
 //   x, y, z    way of the middle while the shutter is open (only with MOTION)
-// Then for each lamp, four to a word, MATERIAL_INDEX_BITS + its slot as the bits of a float.
+// Then for each slot, and then for each lamp, four to a word, the other as MATERIAL_INDEX_BITS + its number as the bits of a
+// float.
 PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
+PT_CONSTANT LAMP_TREE_BALL = 64;      // what the spread is at least, as above
 
-PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 6 + 3 * motion; }
+PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
 
 // Groups on top of a tree of so many levels below them.
 PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
@@ -167,7 +169,11 @@ PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
     return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
 }
 
-// Of all levels together.
+// Of the last level, one for each four slots, and of all levels together.
+PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
+{
+    return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
+}
 PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
 {
     return lamp_tree_top_groups(lamp_count, levels) * (((4u << (2u * levels)) - 1u) / 3u);

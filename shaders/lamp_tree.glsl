@@ -13,9 +13,8 @@ const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
 // Four siblings, a component each.
 struct Siblings {
     vec4 x, y, z; // their middles, as seen from the vertex
-    vec4 power;   // 0: there is no such node
-    vec4 radius;  // of a ball about the middle that holds their lamps
-    vec4 spread;  // of their lamps; of lamps, which they are
+    vec4 power;  // 0: there is no such node
+    vec4 spread; // of their lamps; of lamps, their radius
 };
 
 Siblings siblings_of(uint group, Vertex vertex, float time)
@@ -25,12 +24,12 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
     vec4 y = scene_storage.words[word + 1u];
     vec4 z = scene_storage.words[word + 2u];
     if (MOTION == 1) {
-        x += time * scene_storage.words[word + 6u];
-        y += time * scene_storage.words[word + 7u];
-        z += time * scene_storage.words[word + 8u];
+        x += time * scene_storage.words[word + 5u];
+        y += time * scene_storage.words[word + 6u];
+        z += time * scene_storage.words[word + 7u];
     }
     return Siblings(x - vertex.position.x, y - vertex.position.y, z - vertex.position.z,
-                    scene_storage.words[word + 3u], scene_storage.words[word + 4u], scene_storage.words[word + 5u]);
+                    scene_storage.words[word + 3u], scene_storage.words[word + 4u]);
 }
 
 // All that leads to a probability is precise, so that no compiler rounds it in one way where a lamp is chosen and in
@@ -38,36 +37,33 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
 
 // What nodes may send to a vertex, up to a factor that all share: power / (d^2 + s / 2) times the mean of the cosines,
 // with d to the middle and the spread s. Heights over the horizon of the vertex that spread about h have a mean of about
-// (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. The importance is 0 only if the ball that holds the lamps is
-// below the horizon by more than rounding.
+// (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. It is never 0: below the horizon it is taken as a quotient, in
+// which nothing cancels.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
-    const float rounding = 1.0 / 1048576.0;
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
     precise vec4 squared = nodes.x * nodes.x + nodes.y * nodes.y + nodes.z * nodes.z + 0.5 * nodes.spread;
     precise vec4 inverse = inversesqrt(squared);
-    precise vec4 top = height + nodes.radius + rounding * squared * inverse;
-    precise vec4 mean = 0.5 * (height + sqrt(height * height + nodes.spread * (1.0 / 3.0)));
-    precise vec4 cosine = min(max(mean, top * (1.0 / 64.0)) * inverse, vec4(1.0));
-    precise vec4 importance = nodes.power * inverse * inverse * cosine;
-    return vec4(top.x > 0.0 ? importance.x : 0.0, top.y > 0.0 ? importance.y : 0.0,
-                top.z > 0.0 ? importance.z : 0.0, top.w > 0.0 ? importance.w : 0.0);
+    precise vec4 variance = nodes.spread * (1.0 / 3.0);
+    precise vec4 above = abs(height) + sqrt(height * height + variance);
+    precise vec4 below = variance / above;
+    vec4 twice = vec4(height.x < 0.0 ? below.x : above.x, height.y < 0.0 ? below.y : above.y,
+                      height.z < 0.0 ? below.z : above.z, height.w < 0.0 ? below.w : above.w);
+    precise vec4 importance = nodes.power * inverse * inverse * min(0.5 * twice * inverse, vec4(1.0));
+    return importance;
 }
 
-// Of lamps it is the weight that view_lamp() gives them.
-vec4 lamp_importance(Siblings lamps, Vertex vertex)
+// Of lamps it is the weight that view_lamp() gives them. The one on which a vertex lies needs no care: it is at the horizon.
+vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
-    precise vec4 height =
-        lamps.x * vertex.normal.x + lamps.y * vertex.normal.y + lamps.z * vertex.normal.z + lamps.radius;
+    vec4 radius = lamps.spread;
+    precise vec4 height = lamps.x * normal.x + lamps.y * normal.y + lamps.z * normal.z + radius;
     precise vec4 squared = lamps.x * lamps.x + lamps.y * lamps.y + lamps.z * lamps.z;
     precise vec4 inverse = inversesqrt(squared);
     precise vec4 importance = lamps.power * inverse * inverse * min(height * inverse, vec4(1.0));
-    precise vec4 outside = min(height, squared - lamps.radius * lamps.radius);
-    uvec4 lamp = floatBitsToUint(lamps.spread) - MATERIAL_INDEX_BITS;
-    return vec4(outside.x > 0.0 && lamp.x != vertex.surface ? importance.x : 0.0,
-                outside.y > 0.0 && lamp.y != vertex.surface ? importance.y : 0.0,
-                outside.z > 0.0 && lamp.z != vertex.surface ? importance.z : 0.0,
-                outside.w > 0.0 && lamp.w != vertex.surface ? importance.w : 0.0);
+    precise vec4 outside = min(height, squared - radius * radius);
+    return vec4(outside.x > 0.0 ? importance.x : 0.0, outside.y > 0.0 ? importance.y : 0.0,
+                outside.z > 0.0 ? importance.z : 0.0, outside.w > 0.0 ? importance.w : 0.0);
 }
 
 float sum_of(vec4 importance)
@@ -106,10 +102,16 @@ struct LampWalk {
     float probability; // of the choices so far
 };
 
+// Where the words begin that say which lamp a slot has; those that say which slot a lamp has follow them.
+uint lamp_tree_slots()
+{
+    return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+}
+
 LampWalk walk_to(uint lamp)
 {
-    const uint words = lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
-    return LampWalk(false, stored_index(LAMP_TREE + words, lamp), 0.0, 0u, 1.0);
+    const uint slots = lamp_tree_slots() + lamp_tree_slot_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+    return LampWalk(false, stored_index(slots, lamp), 0.0, 0u, 1.0);
 }
 
 LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
@@ -167,8 +169,8 @@ uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
     }
     Siblings lamps = siblings_of(first + node, vertex, time);
     vec4 there = vec4(greaterThan(lamps.power, vec4(0.0)));
-    uint child = take_child(walk, lamp_importance(lamps, vertex), there, walk.slot & 3u);
-    return floatBitsToUint(component_of(lamps.spread, child)) - MATERIAL_INDEX_BITS;
+    uint slot = 4u * node + take_child(walk, lamp_importance(lamps, vertex.normal), there, walk.slot & 3u);
+    return stored_index(lamp_tree_slots(), slot);
 }
 
 #endif

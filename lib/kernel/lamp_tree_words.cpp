@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace pt {
 
@@ -33,12 +32,8 @@ struct Lamp {
 struct Node {
     Ball ball;
     double power = 0.0;
-    float last = 0.0F; // the spread, or which lamp it is
+    float spread = 0.0F; // of a lamp, its radius
 };
-
-float index_bits(std::uint64_t index) {
-    return std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + static_cast<std::uint32_t>(index));
-}
 
 Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
@@ -91,9 +86,10 @@ Node node_of(std::span<const Lamp> lamps) {
         }
     }
     // Between the ends the kernel rounds places to 2^-24 of their size.
-    const double size = std::max(glm::length(middles[0]), glm::length(middles[1])) + radius;
-    node.ball.radius = std::nextafter(static_cast<float>(radius + 0x1p-21 * size), std::numeric_limits<float>::max());
-    node.last = std::max(static_cast<float>(std::max(spreads[0], spreads[1]) / node.power), 0x1p-120F);
+    radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
+    const double spread = std::max(
+        {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});
+    node.spread = std::max(static_cast<float>(spread), 0x1p-120F);
     return node;
 }
 
@@ -107,15 +103,16 @@ public:
         for (int axis = 0; axis < 3; ++axis)
             words_[word + static_cast<std::size_t>(axis)][component] = node.ball.open[axis];
         words_[word + 3][component] = static_cast<float>(node.power);
-        words_[word + 4][component] = node.ball.radius;
-        words_[word + 5][component] = node.last;
+        words_[word + 4][component] = node.spread;
         if (motion_)
             for (int axis = 0; axis < 3; ++axis)
-                words_[word + 6 + static_cast<std::size_t>(axis)][component] = node.ball.way[axis];
+                words_[word + 5 + static_cast<std::size_t>(axis)][component] = node.ball.way[axis];
     }
 
-    void slot(std::uint64_t first_word, std::uint32_t lamp, std::uint64_t slot) {
-        words_[first_word + lamp / 4][static_cast<int>(lamp % 4)] = index_bits(slot);
+    // Of a block of numbers.
+    void number(std::uint64_t first_word, std::uint64_t place, std::uint64_t number) {
+        words_[first_word + place / 4][static_cast<int>(place % 4)] =
+            std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + static_cast<std::uint32_t>(number));
     }
 
 private:
@@ -126,7 +123,8 @@ private:
 } // namespace
 
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
-    return gpu::lamp_tree_group_words(motion ? 1 : 0) * LampTreeShape(lamp_count).all_groups() +
+    const LampTreeShape shape(lamp_count);
+    return gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups() + shape.slots() / 4 +
            (std::uint64_t{lamp_count} + 3) / 4;
 }
 
@@ -143,18 +141,21 @@ void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps
             Node node{};
             if (level < shape.levels()) {
                 node = node_of(std::span(scaled).subspan(first, end - first));
-            } else {
-                node.last = index_bits(0);
-                if (first < end)
-                    node = {scaled[first].ball, scaled[first].power, index_bits(scaled[first].index)};
+            } else if (first < end) {
+                node = {scaled[first].ball, scaled[first].power, scaled[first].ball.radius};
             }
             writer.node(shape.groups_above(level) + i / 4, i % 4, node);
         }
     }
-    const std::uint64_t slot_words = gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups();
-    for (std::uint64_t slot = 0; slot < shape.slots(); ++slot)
-        if (const std::uint32_t first = shape.first_lamp(slot); first < shape.first_lamp(slot + 1))
-            writer.slot(slot_words, scaled[first].index, slot);
+    const std::uint64_t lamp_words = gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups();
+    const std::uint64_t slot_words = lamp_words + shape.slots() / 4;
+    for (std::uint64_t slot = 0; slot < shape.slots(); ++slot) {
+        const std::uint32_t first = shape.first_lamp(slot);
+        const bool is_taken = first < shape.first_lamp(slot + 1);
+        writer.number(lamp_words, slot, is_taken ? scaled[first].index : 0);
+        if (is_taken)
+            writer.number(slot_words, scaled[first].index, slot);
+    }
 }
 
 } // namespace pt

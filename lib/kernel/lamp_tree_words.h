@@ -14,7 +14,7 @@ namespace pt {
 // From so many lamps on, the kernel chooses among them by a tree. (Measured: tests/bench/README.md.)
 constexpr std::uint32_t least_tree_lamps = 32;
 
-// Of all nodes, and of the slots that the lamps are in.
+// Of all nodes, of the lamps in slots, and of the slots of lamps.
 std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion);
 
 // A lamp as the tree has it.

@@ -134,8 +134,10 @@ private:
     bool is_leaf(std::uint64_t group) const { return group >= top_ * ((1U << (2 * levels_)) - 1) / 3; }
 
     std::uint32_t lamp_of(std::uint64_t group, int node) const {
+        const std::uint32_t above = top_ * ((1U << (2 * levels_)) - 1) / 3;
+        const std::uint32_t groups = top_ * ((4U << (2 * levels_)) - 1) / 3;
         return std::bit_cast<std::uint32_t>(
-                   words_[gpu::lamp_tree_group_words(features_.motion ? 1 : 0) * group + 5][node]) -
+                   words_[gpu::lamp_tree_group_words(features_.motion ? 1 : 0) * groups + group - above][node]) -
                gpu::MATERIAL_INDEX_BITS;
     }
 
@@ -144,24 +146,23 @@ private:
         for (int node = 0; node < 4; ++node) {
             glm::dvec3 way(0.0);
             if (features_.motion)
-                way = {number(group, 6, node), number(group, 7, node), number(group, 8, node)};
+                way = {number(group, 5, node), number(group, 6, node), number(group, 7, node)};
             const glm::dvec3 place(number(group, 0, node), number(group, 1, node), number(group, 2, node));
             const glm::dvec3 to = place + double{vertex.time} * way - glm::dvec3(vertex.position);
             const double height = glm::dot(to, glm::dvec3(vertex.normal));
             const double power = number(group, 3, node);
-            const double radius = number(group, 4, node);
+            const double spread = number(group, 4, node);
             double &value = result[static_cast<std::size_t>(node)];
             if (is_leaf(group)) {
                 const double squared = glm::dot(to, to);
-                if (power > 0.0 && height + radius > 0.0 && squared > radius * radius &&
-                    lamp_of(group, node) != vertex.surface)
-                    value = power / squared * std::min(1.0, (height + radius) / std::sqrt(squared));
+                if (power > 0.0 && height + spread > 0.0 && squared > spread * spread)
+                    value = power / squared * std::min(1.0, (height + spread) / std::sqrt(squared));
             } else {
-                const double spread = number(group, 5, node);
                 const double squared = glm::dot(to, to) + spread / 2;
-                const double top = height + radius + 0x1p-20 * std::sqrt(squared);
-                const double mean = std::max((height + std::sqrt(height * height + spread / 3)) / 2, top / 64);
-                value = top > 0.0 ? power / squared * std::min(1.0, mean / std::sqrt(squared)) : 0.0;
+                const double variance = spread / 3;
+                const double root = std::sqrt(height * height + variance);
+                const double mean = height < 0.0 ? variance / (root - height) / 2 : (height + root) / 2;
+                value = power / squared * std::min(1.0, mean / std::sqrt(squared));
             }
         }
         return result;

@@ -67,7 +67,7 @@ TEST(LampTreeOrder, HasEveryLampOnceAndNeighboursTogether) {
 // A node as the kernel reads it.
 struct HeldNode {
     glm::vec3 open, way;
-    float power, radius, last;
+    float power, spread;
 
     glm::vec3 at(float time) const { return open + time * way; } // in float32, as the kernel has it
 };
@@ -78,10 +78,22 @@ HeldNode held_node(const pt::GpuScene &scene, std::uint64_t group, int place) {
     const auto number = [&](std::uint64_t word) {
         return scene.words[first + gpu::lamp_tree_group_words(motion ? 1 : 0) * group + word][place];
     };
-    HeldNode node{{number(0), number(1), number(2)}, glm::vec3(0), number(3), number(4), number(5)};
+    HeldNode node{{number(0), number(1), number(2)}, glm::vec3(0), number(3), number(4)};
     if (motion)
-        node.way = {number(6), number(7), number(8)};
+        node.way = {number(5), number(6), number(7)};
     return node;
+}
+
+// Of the words that say which lamp a slot has.
+std::uint64_t first_slot_word(const pt::GpuScene &scene) {
+    return pt::SceneBlocks(scene.features).lamp_tree + gpu::lamp_tree_group_words(scene.features.motion ? 1 : 0) *
+                                                           pt::LampTreeShape(scene.features.lamp_count).all_groups();
+}
+
+std::uint32_t lamp_of_slot(const pt::GpuScene &scene, std::uint64_t slot) {
+    const float bits = scene.words[first_slot_word(scene) + slot / 4][static_cast<int>(slot % 4)];
+    EXPECT_TRUE(std::isnormal(bits));
+    return std::bit_cast<std::uint32_t>(bits) - gpu::MATERIAL_INDEX_BITS;
 }
 
 // Every node's ball holds its lamps as the kernel sees them at any time, and its power is theirs.
@@ -93,8 +105,7 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
             const pt::GpuScene seen = lamp_scenes::gpu_scene(scene, camera);
             ASSERT_TRUE(seen.features.lamp_tree) << name;
             const pt::LampTreeShape shape(seen.features.lamp_count);
-            const std::uint64_t slots = pt::SceneBlocks(seen.features).lamp_tree +
-                                        gpu::lamp_tree_group_words(seen.features.motion ? 1 : 0) * shape.all_groups();
+            const std::uint64_t slots = first_slot_word(seen) + shape.slots() / 4;
             for (std::uint32_t lamp = 0; lamp < seen.features.lamp_count; ++lamp) {
                 const float bits = seen.words[slots + lamp / 4][static_cast<int>(lamp % 4)];
                 EXPECT_TRUE(std::isnormal(bits));
@@ -102,18 +113,17 @@ TEST(LampTreeWords, NodesHoldTheirLamps) {
                 ASSERT_LT(slot, shape.slots());
                 const HeldNode leaf =
                     held_node(seen, shape.groups_above(shape.levels()) + slot / 4, static_cast<int>(slot % 4));
-                ASSERT_EQ(std::bit_cast<std::uint32_t>(leaf.last), gpu::MATERIAL_INDEX_BITS + lamp) << name;
-                EXPECT_EQ(glm::vec4(leaf.open, leaf.radius), seen.words[lamp]);
+                ASSERT_EQ(lamp_of_slot(seen, slot), lamp) << name;
+                EXPECT_EQ(glm::vec4(leaf.open, leaf.spread), seen.words[lamp]);
                 for (std::uint32_t level = 0; level < shape.levels(); ++level) {
                     const std::uint64_t place = slot >> (2 * (shape.levels() - level));
                     const HeldNode node =
                         held_node(seen, shape.groups_above(level) + place / 4, static_cast<int>(place % 4));
                     EXPECT_GE(node.power, leaf.power) << name;
-                    EXPECT_GT(node.last, 0.0F) << name;
                     for (const float time : {0.0F, 0.3F, 0.5F, 0.8F, 1.0F})
                         EXPECT_LE(glm::length(glm::dvec3(leaf.at(time)) - glm::dvec3(node.at(time))) +
-                                      double{leaf.radius},
-                                  double{node.radius})
+                                      double{leaf.spread},
+                                  8.0 * std::sqrt(double{node.spread}))
                             << name << ", lamp " << lamp << ", level " << level << ", time " << time;
                 }
             }
@@ -155,7 +165,7 @@ TEST(LampTreeFeature, DependsOnTheNumberOfLampsAlone) {
     const pt::Features from = features(lamp_scenes::in_a_box(least, 4));
     EXPECT_TRUE(from.lamp_tree);
     EXPECT_EQ(pt::specialization_constants(from)[gpu::ID_LAMP_TREE_LEVELS], 1U);
-    EXPECT_EQ(pt::specialization_constants(from)[gpu::ID_LAMP_TREE_WORDS], 6 * (2 + 8) + 8U);
+    EXPECT_EQ(pt::specialization_constants(from)[gpu::ID_LAMP_TREE_WORDS], 5 * (2 + 8) + 8 + 8U);
     EXPECT_EQ(pt::loop_trips_per_sample(from), 1U + 32 + 6 + 4 * 2 * (1 + 6 + 32));
     EXPECT_FALSE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_BSDF).lamp_tree);
     EXPECT_TRUE(features(lamp_scenes::in_a_box(least, 4), PT_ESTIMATOR_LIGHT).lamp_tree);
@@ -174,7 +184,7 @@ TEST(LampTreeWords, LeaveOutTwins) {
         if (const HeldNode leaf =
                 held_node(seen, shape.groups_above(shape.levels()) + slot / 4, static_cast<int>(slot % 4));
             leaf.power > 0.0F)
-            lamps.push_back(std::bit_cast<std::uint32_t>(leaf.last) - gpu::MATERIAL_INDEX_BITS);
+            lamps.push_back(lamp_of_slot(seen, slot));
     std::ranges::sort(lamps);
     ASSERT_EQ(lamps.size(), 39U);
     EXPECT_EQ(lamps.front(), 0U);
@@ -210,8 +220,7 @@ TEST(LampTreeWords, ScaleWithTheScene) {
             const HeldNode node = held_node(seen, group, place);
             const HeldNode scaled = held_node(small, group, place);
             EXPECT_EQ(scaled.open * 0x1p40F, node.open);
-            EXPECT_EQ(scaled.radius * 0x1p40F, node.radius);
-            EXPECT_EQ(scaled.last * 0x1p80F, node.last);
+            EXPECT_EQ(scaled.spread * 0x1p80F, node.spread);
             EXPECT_EQ(scaled.power * factor, node.power);
         }
 }
