@@ -149,15 +149,15 @@ PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 // ---- The tree of lamps (shaders/lamp_tree.glsl) ----------------------------------------------------------------------
 // Its shape depends on the number of lamps alone. Nodes come in groups of four siblings: on top there are one to four
 // groups, below them for each node a group of its children, level by level; the nodes of the last level are slots for
-// lamps. A group has LAMP_TREE_GROUP_WORDS words, each with a component for each sibling:
+// lamps. A group has lamp_tree_group_words() words, each with a component for each sibling:
 //   x, y, z    its middle as the shutter opens: the mean of its lamps' centres by their power
 //   power      the sum of radiance r^2 over its lamps, up to a factor; 0: an empty slot
-//   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared radii;
-//              at least a 64th of the square of the radius of a ball about the middle that holds them at any time. Of a
-//              slot, its lamp's radius
+//   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared
+//              radii; at least a 64th of the square of the radius of a ball about the middle that holds them at any
+//              time. Of a slot, its lamp's radius
 //   x, y, z    way of the middle while the shutter is open (only with MOTION)
-// Then for each slot, and then for each lamp, four to a word, the other as MATERIAL_INDEX_BITS + its number as the bits of a
-// float.
+// Then for each slot its lamp, and for each lamp its slot, four to a word: MATERIAL_INDEX_BITS + the number as the bits
+// of a float.
 PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
 PT_CONSTANT LAMP_TREE_BALL = 64;      // what the spread is at least, as above
 

@@ -36,9 +36,9 @@ Siblings siblings_of(uint group, Vertex vertex, float time)
 // another where the probability of that lamp is asked for.
 
 // What nodes may send to a vertex, up to a factor that all share: power / (d^2 + s / 2) times the mean of the cosines,
-// with d to the middle and the spread s. Heights over the horizon of the vertex that spread about h have a mean of about
-// (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. It is never 0: below the horizon it is taken as a quotient, in
-// which nothing cancels.
+// with d to the middle and the spread s. Heights over the horizon of the vertex that spread about h have a mean of
+// about (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. It is never 0: below the horizon it is taken as a
+// quotient, in which nothing cancels.
 vec4 node_importance(Siblings nodes, vec3 normal)
 {
     precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
@@ -53,7 +53,8 @@ vec4 node_importance(Siblings nodes, vec3 normal)
     return importance;
 }
 
-// Of lamps it is the weight that view_lamp() gives them. The one on which a vertex lies needs no care: it is at the horizon.
+// Of lamps it is the weight that view_lamp() gives them. The one on which a vertex lies needs no care: it is at the
+// horizon.
 vec4 lamp_importance(Siblings lamps, vec3 normal)
 {
     vec4 radius = lamps.spread;

@@ -13,7 +13,8 @@ namespace pt {
 
 namespace {
 
-// What the kernel takes of a lamp or node, at the rounding that it does: nodes hold their lamps as the kernel sees them.
+// What the kernel takes of a lamp or node, at the rounding that it does: nodes hold their lamps as the kernel sees
+// them.
 struct Ball {
     glm::vec3 open;
     glm::vec3 way{0.0F};
@@ -39,9 +40,9 @@ Ball ball_of(const SeenSphere &sphere) {
     return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
 }
 
-// Powers in units of the largest one's power of two, times the size of the scene of lamps if that is above 1: so that the
-// kernel's quotients by squared distances stay in the range of float, from 1e-17 to 1e17. Lamps below 2^-40 of the largest
-// one count as that much.
+// Powers in units of the largest one's power of two, times the size of the scene of lamps if that is above 1: so that
+// the kernel's quotients by squared distances stay in the range of float, from 1e-17 to 1e17. Lamps below 2^-40 of the
+// largest one count as that much.
 std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     double largest_power = 0.0;
     double size = 1.0;
@@ -60,8 +61,8 @@ std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
     return scaled;
 }
 
-// The middle is where the power is: its weighted mean moves on a straight line as all lamps do. At any time the distance of
-// a lamp from it is at most the larger one at the two ends.
+// The middle is where the power is: its weighted mean moves on a straight line as all lamps do. At any time the
+// distance of a lamp from it is at most the larger one at the two ends.
 Node node_of(std::span<const Lamp> lamps) {
     Node node;
     glm::dvec3 open(0.0);

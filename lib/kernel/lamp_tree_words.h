@@ -11,7 +11,8 @@
 
 namespace pt {
 
-// From so many lamps on, the kernel chooses among them by a tree. (Measured: tests/bench/README.md.)
+// From so many lamps on, the kernel chooses among them by a tree. (Measured on lavapipe, but for the rays: as fast as
+// looking at all of them with 24 lamps, a third faster with 32.)
 constexpr std::uint32_t least_tree_lamps = 32;
 
 // Of all nodes, of the lamps in slots, and of the slots of lamps.

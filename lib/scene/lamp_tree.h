@@ -1,5 +1,5 @@
-// The tree of a scene's lamps that the kernel descends to choose one of many: its shape, and which lamps are near to each
-// other in it. gpu_layout.h describes its nodes, lib/kernel/lamp_tree_words.h writes them.
+// The tree of a scene's lamps that the kernel descends to choose one of many: its shape, and which lamps are near to
+// each other in it. gpu_layout.h describes its nodes, lib/kernel/lamp_tree_words.h writes them.
 #pragma once
 
 #include "lib/scene/scene.h"
@@ -9,9 +9,9 @@
 
 namespace pt {
 
-// Depends on the number of lamps alone, so that a camera that moves and lamps that do need no other kernel. On top there
-// are one to four groups of four nodes, below each node a group of four; the nodes of the last level are slots for lamps,
-// of which in a tree of more than 16 lamps more than half are taken.
+// Depends on the number of lamps alone, so that a camera that moves and lamps that do need no other kernel. On top
+// there are one to four groups of four nodes, below each node a group of four; the nodes of the last level are slots
+// for lamps, of which in a tree of more than 16 lamps more than half are taken.
 class LampTreeShape {
 public:
     explicit LampTreeShape(std::uint32_t lamp_count);
@@ -35,8 +35,8 @@ private:
     std::uint32_t top_groups_;
 };
 
-// Indices of the spheres that emit, in the order in which they go into the slots, in the middle of their motion's unit of
-// time. Of a scene some of whose spheres are no lamps, as the camera sees them, the others keep their order.
+// Indices of the spheres that emit, in the order in which they go into the slots, in the middle of their motion's unit
+// of time. Of a scene some of whose spheres are no lamps, as the camera sees them, the others keep their order.
 std::vector<std::uint32_t> order_in_lamp_tree(const Scene &scene);
 
 } // namespace pt

@@ -1,5 +1,5 @@
-// Lamps as the device chooses them by the tree: what it states as their probabilities against a reference in double, and
-// its choices against what it states. Run alone with --gtest_filter=LampTree*.
+// Lamps as the device chooses them by the tree: what it states as their probabilities against a reference in double,
+// and its choices against what it states. Run alone with --gtest_filter=LampTree*.
 #include "lamps.spv.h"
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
@@ -334,8 +334,8 @@ TEST(LampTreeChoice, TakesLampsThatCannotBeSampledForNone) {
     }
 }
 
-// Of a sample of the lamps' irradiance: sum w^2 / P over (sum w)^2, less 1. The weights alone have 0, with the uniform share
-// 1 / 9 at most; choice by power has 9 on the ground here.
+// Of a sample of the lamps' irradiance: sum w^2 / P over (sum w)^2, less 1. The weights alone have 0, with the uniform
+// share 1 / 9 at most; choice by power has 9 on the ground here.
 double relative_variance(TreeProbe &probe, const pt::GpuScene &scene, const TreeVertex &vertex) {
     const std::vector<double> weights = lamp_weights(scene, vertex);
     const std::vector<double> probabilities = probe.probabilities(vertex);
@@ -406,8 +406,8 @@ struct LitScene {
     std::uint32_t path_length;
 };
 
-// A floor and balls under lamps that the camera does not see; the last scene is in the storage buffer. Five standard errors
-// at most: a false alarm in 10^6 runs.
+// A floor and balls under lamps that the camera does not see; the last scene is in the storage buffer. Five standard
+// errors at most: a false alarm in 10^6 runs.
 TEST(LampTreeImage, HasTheMeanOfOneWithoutTheTree) {
     for (const auto &[count, motion, path_length] :
          {LitScene{40, 0.0, 4}, LitScene{70, 2.0, 3}, LitScene{500, 0.0, 2}}) {

@@ -1,5 +1,5 @@
-// Scenes of many lamps that are hard to choose among, and what is known of their lamps in double. Used by the tests of the
-// tree of lamps.
+// Scenes of many lamps that are hard to choose among, and what is known of their lamps in double. Used by the tests of
+// the tree of lamps.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
