@@ -29,10 +29,17 @@ uint later_vertex_blocks(uint vertex)
     return first_vertex_blocks() + vertex_blocks(1u, LAMP_COUNT) + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
 }
 
-// From the blocks of a vertex, the first of which is begin: place on the chosen lamp (x, y) and which lamp (z).
-vec3 chosen_lamp_numbers(SampleKey branch, uint begin)
+// From the blocks of a vertex, the first of which is begin: place on the chosen lamp, and which lamp, by all 32 bits of
+// a number.
+struct ChosenLampNumbers {
+    vec2 place;
+    uint which;
+};
+
+ChosenLampNumbers chosen_lamp_numbers(SampleKey branch, uint begin)
 {
-    return sample_block(branch, begin).xyz;
+    uvec4 words = sample_words(branch, begin);
+    return ChosenLampNumbers(vec2(words.xy >> 8u) * NUMBER_STEP, words.z);
 }
 
 // From the last of the count blocks of a vertex: direction (x, y), lobe or cosine (z) and survival (w).

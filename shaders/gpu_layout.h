@@ -47,7 +47,9 @@ PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of
 PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
 PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
 PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
-PT_CONSTANT CONSTANT_COUNT = 26;
+PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0: there is none
+PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
+PT_CONSTANT CONSTANT_COUNT = 28;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -136,6 +138,7 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 //   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
+//   tree              of lamps, if they have one (below), which is read from the storage buffer
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // A scene that would be longer is in the storage buffer, where surfaces of one material share its words:
@@ -143,6 +146,7 @@ PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 //   emission[E]       of the E surfaces that may emit: lamps, skies, and with PLANES_EMIT the planes
 //   motion[spheres]
 //   curvature[planes]
+//   tree
 //   index[S]          four to a word: MATERIAL_INDEX_BITS + the surface's place in the table, as the bits of a float
 //   tree[5]           with TREE: TreeFrame
 //   table             for each material its word of diffuse and, with GLOSS, that of specular
@@ -187,6 +191,39 @@ struct TreeFrame {
     uint reserved[3];
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
+
+// ---- The tree of lamps (shaders/lamp_tree.glsl) ----------------------------------------------------------------------
+// Its shape depends on the number of lamps alone. Nodes come in groups of four siblings: on top there are one to four
+// groups, below them for each node a group of its children, level by level; the nodes of the last level are slots for
+// lamps. A group has lamp_tree_group_words() words, each with a component for each sibling:
+//   x, y, z    its middle as the shutter opens: the mean of its lamps' centres by their power
+//   power      the sum of radiance r^2 over its lamps, up to a factor; 0: an empty slot
+//   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared
+//              radii; at least a 64th of the square of the radius of a ball about the middle that holds them at any
+//              time. Of a slot, its lamp's radius
+//   x, y, z    way of the middle while the shutter is open (only with MOTION)
+// Then for each slot its lamp, and for each lamp its slot, four to a word: MATERIAL_INDEX_BITS + the number as the bits
+// of a float.
+PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
+PT_CONSTANT LAMP_TREE_BALL = 64;      // what the spread is at least, as above
+
+PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
+
+// Groups on top of a tree of so many levels below them.
+PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
+{
+    return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
+}
+
+// Of the last level, one for each four slots, and of all levels together.
+PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
+{
+    return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
+}
+PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
+{
+    return lamp_tree_top_groups(lamp_count, levels) * (((4u << (2u * levels)) - 1u) / 3u);
+}
 
 // ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
 // Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.

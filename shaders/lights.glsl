@@ -4,6 +4,7 @@
 #define LIGHTS_GLSL
 
 #include "intersect.glsl"
+#include "lamp_tree.glsl"
 #include "sampling.glsl"
 #include "vertex.glsl"
 
@@ -46,6 +47,7 @@ struct Lamps {
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
     float in_sight; // lamps with a weight above 0
+    LampTreeTop tree;
 };
 
 Lamps lamps_from(Vertex vertex, float time)
@@ -53,6 +55,10 @@ Lamps lamps_from(Vertex vertex, float time)
     Lamps lamps;
     lamps.vertex = vertex;
     lamps.time = time;
+    if (HAS_LAMP_TREE) {
+        lamps.tree = lamp_tree_top(vertex, time);
+        return lamps;
+    }
     lamps.total_weight = 0.0;
     lamps.in_sight = 0.0;
     uint lamp = 0u;
@@ -93,6 +99,13 @@ float lamp_probability(Lamps lamps, float weight)
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
+// With a tree the uniform share is among all lamps: those in sight are not counted.
+float lamp_probability_by_tree(LampWalk walk)
+{
+    precise float probability = (1.0 - UNIFORM_SHARE) * walk.probability + UNIFORM_SHARE / float(LAMP_COUNT);
+    return probability;
+}
+
 // A lamp, and the probability with which choose() takes it.
 struct LampChoice {
     uint lamp;
@@ -103,15 +116,39 @@ struct LampChoice {
 // Of any lamp, which may differ between invocations.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
+    if (HAS_LAMP_TREE) {
+        LampWalk walk = walk_to(lamp);
+        walk_down(walk, lamps.tree, lamps.vertex, lamps.time);
+        return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
+    }
     LampView view = lamp_among(lamps, lamp);
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
+}
+
+// The lamp that a random number, a multiple of 2^-32, chooses by the tree. It may be one that cannot be sampled, by the
+// uniform share: then there is no light.
+LampChoice choose_by_tree(Lamps lamps, uint number)
+{
+    const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32; ten times as many fit into 32 bits
+    bool uniformly = number < uniform_numbers;
+    uint lamp, low;
+    umulExtended(number * 10u, LAMP_COUNT, lamp, low);
+    uint rest = number - uniform_numbers;
+    LampWalk walk = walk_by(rest + rest / 9u);
+    if (uniformly)
+        walk = walk_to(lamp);
+    lamp = walk_down(walk, lamps.tree, lamps.vertex, lamps.time);
+    return LampChoice(lamp, view_lamp(lamps.vertex, lamp, lamps.time), lamp_probability_by_tree(walk));
 }
 
 // The lamp that a random number chooses. Its low end chooses uniformly among the lamps in sight, the rest by weight:
 // each part walks over its own numbers in the order in which they were summed, so that no small probability is lost to
 // rounding. Where rounding leaves the walk short, the last lamp in sight stands.
-LampChoice choose(Lamps lamps, float u)
+LampChoice choose(Lamps lamps, uint number)
 {
+    if (HAS_LAMP_TREE)
+        return choose_by_tree(lamps, number);
+    float u = float(number >> 8u) * NUMBER_STEP;
     bool uniformly = u < UNIFORM_SHARE;
     float target = uniformly ? u / UNIFORM_SHARE * lamps.in_sight
                              : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;

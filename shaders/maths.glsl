@@ -6,6 +6,10 @@
 
 const float PI = 3.14159265358979;
 
+// Random numbers are multiples of it.
+const float NUMBER_STEP = 1.0 / 16777216.0;
+const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
+
 // 1.5 * 2^23: adding it to |x| < 2^22 leaves round(x) in the low bits of the mantissa. Float-to-int conversion would do
 // too, but is many times slower where it is not a machine instruction.
 const float ROUNDING_BIAS = 12582912.0;

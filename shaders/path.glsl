@@ -69,12 +69,12 @@ float lamp_samples(LampChoice choice, bool every_lamp, float directions)
 }
 
 // Light of one lamp, chosen by what it can contribute, once for each direction that the vertex takes.
-LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps, vec3 numbers,
-                               float directions)
+LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps,
+                               ChosenLampNumbers numbers, float directions)
 {
-    LampChoice choice = choose(lamps, numbers.z);
+    LampChoice choice = choose(lamps, numbers.which);
     float samples = lamp_samples(choice, false, directions);
-    return light_of_lamp(throughput, vertex, material, choice, numbers.xy, samples, directions);
+    return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
 }
 
 // Whether a direction leads to a surface that emits, behind others or not. The last direction of a path finds nothing
@@ -154,7 +154,7 @@ void extend(inout Path path, SampleKey key, float time)
     LampLight lamp = no_lamp_light();
     if (SAMPLE_LAMPS) {
         lamps = lamps_from(vertex, time);
-        vec3 numbers = chosen_lamp_numbers(key, begin);
+        ChosenLampNumbers numbers = chosen_lamp_numbers(key, begin);
         lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, numbers, 1.0);
     }
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
@@ -195,7 +195,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
             lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, branch), place, 1.0, directions);
         }
         if (SAMPLE_ONE_LAMP) {
-            vec3 numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
+            ChosenLampNumbers numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
             lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions);
         }
 

@@ -3,6 +3,7 @@
 #ifndef SAMPLER_GLSL
 #define SAMPLER_GLSL
 
+#include "maths.glsl"
 #include "scene.glsl"
 
 // The points of the sequence, a row of blocks for each sample: coordinates as multiples of 2^-32, the same in every
@@ -43,16 +44,13 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-const float NUMBER_STEP = 1.0 / 16777216.0;
-const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
-
-// The sample's numbers of a block: multiples of 2^-24, so that rounding never gives 1. Each pixel shifts the points of
+// The sample's numbers of a block, as multiples of 2^-32. Each pixel shifts the points of
 // the table by a hash of pixel and block, which compilers take out of loops over samples, as it does not depend on the
 // sample. Sobol points are shifted digit by digit in base 2, by exclusive or: the table has them Owen-scrambled (Owen
 // 1995), once for all pixels, and a shift turns one such scrambling into another. So each pixel has a scrambling of its
 // own, and given the table the errors of pixels are independent. Halton points are rotated by addition modulo 1
 // (Cranley and Patterson 1976).
-vec4 sample_block(SampleKey key, uint block)
+uvec4 sample_words(SampleKey key, uint block)
 {
     const bool all_in_table = path_blocks(MAX_PATH_LENGTH, LAMP_COUNT) <= TABLE_BLOCKS;
     bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table || block < TABLE_BLOCKS);
@@ -61,7 +59,10 @@ vec4 sample_block(SampleKey key, uint block)
         uvec4 point = points.blocks[key.row + block];
         words = SAMPLER == SAMPLER_SOBOL ? point ^ words : SAMPLER == SAMPLER_HALTON_CP ? point + words : point;
     }
-    return vec4(words >> 8u) * NUMBER_STEP;
+    return words;
 }
+
+// The same as multiples of 2^-24, so that rounding never gives 1.
+vec4 sample_block(SampleKey key, uint block) { return vec4(sample_words(key, block) >> 8u) * NUMBER_STEP; }
 
 #endif

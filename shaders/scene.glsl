@@ -28,6 +28,8 @@ layout(constant_id = ID_KNOWN_SIDES) const uint KNOWN_SIDES = 0;
 layout(constant_id = ID_PLANES_MOVE) const uint PLANES_MOVE = 1;
 layout(constant_id = ID_CLOSE_LAMPS) const uint CLOSE_LAMPS = 1;
 layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
+layout(constant_id = ID_LAMP_TREE_LEVELS) const uint LAMP_TREE_LEVELS = 0;
+layout(constant_id = ID_LAMP_TREE_WORDS) const uint LAMP_TREE_WORDS = 0;
 layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_TREE) const uint TREE = 0;
@@ -101,20 +103,25 @@ const uint DIFFUSE = 2u * SURFACE_COUNT;
 const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
+const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
 // ... and those of the storage buffer alone.
-const uint INDICES = CURVATURES + CURVATURE * PLANE_COUNT;
+const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;
 
 #include "tree.glsl"
 
+// One of the indices of a block of the storage buffer, four to a word.
+uint stored_index(uint block, uint index)
+{
+    return floatBitsToUint(scene_storage.words[block + index / 4u][index % 4u]) - MATERIAL_INDEX_BITS;
+}
+
 // Where the words of a surface's material begin in the storage buffer.
 uint material_words(uint surface)
 {
-    if (TREE == 1u && surface >= SURFACE_COUNT)
-        return TABLE + (1u + GLOSS) * tree_material(surface - SURFACE_COUNT);
-    uint bits = floatBitsToUint(scene_storage.words[INDICES + surface / 4u][surface % 4u]);
-    return TABLE + (1u + GLOSS) * (bits - MATERIAL_INDEX_BITS);
+    bool in_tree = TREE == 1u && surface >= SURFACE_COUNT;
+    return TABLE + (1u + GLOSS) * (in_tree ? tree_material(surface - SURFACE_COUNT) : stored_index(INDICES, surface));
 }
 
 // Lamps have numbers of their own: first come those that are not in the tree, of which each is also the surface.

@@ -2,6 +2,7 @@
 #include "lib/kernel/gpu_scene.h"
 
 #include "lib/base/mixed.h"
+#include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/ray_start.h"
 #include "lib/scene/seen_scene.h"
@@ -11,6 +12,7 @@
 #include <bit>
 #include <cstring>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace pt {
@@ -107,6 +109,31 @@ private:
     const SceneBlocks blocks_;
 };
 
+// All lamps in the order of the tree of lamps: those among the surfaces, and those in the tree of spheres, which come
+// last by number.
+std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera) {
+    constexpr std::uint32_t no_lamp = 0xffffffff;
+    const auto sphere_count = static_cast<std::uint32_t>(scene.scene.spheres.size());
+    std::vector<std::uint32_t> lamp_of_sphere(sphere_count, no_lamp);
+    for (std::uint32_t lamp = 0; lamp < surfaces.lamp_count; ++lamp)
+        lamp_of_sphere[surfaces.spheres[lamp].index] = lamp;
+    std::vector<TreeLamp> lamps;
+    lamps.reserve(scene.lamp_order.size());
+    const auto add = [&](const SeenSphere &seen, std::uint32_t lamp) {
+        lamps.push_back({seen, mean(scene.scene.materials[seen.material].emission), lamp});
+    };
+    for (const std::uint32_t sphere : scene.lamp_order) {
+        if (sphere >= sphere_count) {
+            const Sphere in_tree = scene.tree->lamp(sphere - sphere_count);
+            const Material &material = scene.scene.materials[in_tree.material];
+            add(SeenSphere(in_tree, material, camera, sphere), surfaces.lamp_count + sphere - sphere_count);
+        } else if (const std::uint32_t lamp = lamp_of_sphere[sphere]; lamp != no_lamp) {
+            add(surfaces.spheres[lamp], lamp);
+        }
+    }
+    return lamps;
+}
+
 std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera,
                                 const Features &features) {
     std::vector<glm::vec4> words(SceneBlocks(features).word_count);
@@ -131,6 +158,12 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
         writer.reflection(i, scene.used_materials[i]);
     if (scene.tree)
         writer.tree(*scene.tree, camera, scene.scene.materials);
+    if (features.lamp_tree) {
+        const SceneBlocks blocks(features);
+        write_lamp_tree(
+            std::span(words).subspan(blocks.lamp_tree, lamp_tree_words(features.lamp_count, features.motion)),
+            tree_lamps(surfaces, scene, camera), features.motion);
+    }
     return words;
 }
 

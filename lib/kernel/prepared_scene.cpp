@@ -2,6 +2,7 @@
 #include "lib/kernel/prepared_scene.h"
 
 #include "lib/base/digest.h"
+#include "lib/scene/lamp_tree.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
 #include "lib/tree/outlying.h"
@@ -40,6 +41,13 @@ bool does_move(const Sphere &sphere) {
     return sphere.motion != glm::dvec3(0.0);
 }
 
+// With the lamps of a tree behind the scene's own spheres.
+Scene with_lamps(Scene scene, const SphereTree &tree) {
+    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
+        scene.spheres.push_back(tree.lamp(lamp));
+    return scene;
+}
+
 // The tree has materials by their place among those in use.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
@@ -62,7 +70,8 @@ std::string digest_with_tree(const PreparedScene &prepared) {
 PreparedScene::PreparedScene(Scene of) :
     scene(std::move(of)),
     moves(std::ranges::any_of(scene.spheres, does_move)),
-    sphere_order(order_along_line(scene.spheres)) {
+    sphere_order(order_along_line(scene.spheres)),
+    lamp_order(order_in_lamp_tree(scene)) {
     note_materials(is_used(scene));
 }
 
@@ -81,6 +90,7 @@ PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::v
         materials.push_back({prepared.used_indices[i], emits(prepared.scene.materials[i])});
     prepared.tree = std::make_shared<const SphereTree>(checked.spheres, left_out, materials, [](double) {});
     prepared.moves = prepared.moves || prepared.tree->moves();
+    prepared.lamp_order = order_in_lamp_tree(with_lamps(prepared.scene, *prepared.tree));
     return prepared;
 }
 

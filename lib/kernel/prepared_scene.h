@@ -24,6 +24,7 @@ struct PreparedScene {
     std::shared_ptr<const SphereTree> tree;  // most spheres, if there are many; else NULL
     bool moves;                              // some sphere does
     std::vector<std::uint32_t> sphere_order; // along the line of twins.h
+    std::vector<std::uint32_t> lamp_order;   // of the spheres that emit, in the tree of lamp_tree.h
 
     // Without a tree.
     explicit PreparedScene(Scene of);

@@ -1,6 +1,8 @@
 // Adds up the lengths of the blocks; see scene_blocks.h.
 #include "lib/kernel/scene_blocks.h"
 
+#include "lib/kernel/lamp_tree_words.h"
+
 namespace pt {
 
 SceneBlocks::SceneBlocks(const Features &features) {
@@ -11,7 +13,8 @@ SceneBlocks::SceneBlocks(const Features &features) {
     motion =
         features.scene_in_uniform ? (3 + gloss) * surfaces : emission + features.emitting_spheres() + emitting_planes;
     curvature = motion + (features.motion ? features.sphere_count : 0);
-    index = curvature + (features.curvature ? features.plane_count : 0);
+    lamp_tree = curvature + (features.curvature ? features.plane_count : 0);
+    index = lamp_tree + (features.lamp_tree ? lamp_tree_words(features.lamp_count, features.motion) : 0);
     if (features.scene_in_uniform) {
         diffuse = 2 * surfaces;
         specular = 3 * surfaces;

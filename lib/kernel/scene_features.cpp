@@ -1,8 +1,10 @@
 // Finds the features of a scene; see scene_features.h.
 #include "lib/kernel/scene_features.h"
 
+#include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
+#include "lib/scene/lamp_tree.h"
 
 #include <pt/stats.h>
 
@@ -64,9 +66,21 @@ std::uint64_t trips_per_walk(const Features &features) {
     return features.surface_count() + (features.tree ? tree_trips : 0);
 }
 
-// Loop trips of one branch: at each vertex one of a loop, two walks over the lamps and one over the surfaces.
+bool samples_lamps(const RenderSettings &render) {
+    return (render.estimator == PT_ESTIMATOR_MIS || render.estimator == PT_ESTIMATOR_LIGHT) &&
+           render.max_path_length > 1;
+}
+
+// Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of the
+// tree, and then down it to the lamp that is chosen and to one that a direction meets.
+std::uint64_t lamp_trips(const Features &features) {
+    return features.lamp_tree ? gpu::LAMP_TREE_TOP_GROUPS + 2 * LampTreeShape(features.lamp_count).levels()
+                              : 2 * std::uint64_t{features.lamp_count};
+}
+
+// Loop trips of one branch: at each vertex one of a loop, those for the lamps and a walk over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
-    const std::uint64_t vertex = 1 + 2 * std::uint64_t{features.lamp_count} + trips_per_walk(features);
+    const std::uint64_t vertex = 1 + lamp_trips(features) + trips_per_walk(features);
     return (features.max_path_length - 1) * vertex;
 }
 
@@ -133,6 +147,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features.scene_in_uniform = false;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
+    features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
     return features;
 }
 
@@ -201,17 +216,21 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_TREE] = features.tree ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
+    if (features.lamp_tree) {
+        constants[gpu::ID_LAMP_TREE_LEVELS] = LampTreeShape(features.lamp_count).levels();
+        constants[gpu::ID_LAMP_TREE_WORDS] =
+            static_cast<std::uint32_t>(lamp_tree_words(features.lamp_count, features.motion));
+    }
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
 
 std::uint64_t loop_trips_per_sample(const Features &features) {
     // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
-    // first vertex, two walks over the lamps to choose among them, and the branches.
+    // first vertex, what it takes to choose among the lamps there, and the branches.
     const std::uint64_t walk = trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
-    const std::uint64_t first_vertex =
-        further_lamps(features, branches) * (1 + walk) + 2 * std::uint64_t{features.lamp_count};
+    const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
     return 1 + walk + first_vertex + branches * loop_trips_per_branch(features);
 }
 

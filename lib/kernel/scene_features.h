@@ -35,6 +35,7 @@ struct Features {
     bool planes_move;  // some sphere held as a plane moves while the shutter is open
     bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
+    bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
     bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
     bool scene_in_uniform; // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share

@@ -12,7 +12,8 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera) {
     SeenScene seen;
     seen.spheres.reserve(scene.spheres.size());
     for (const Sphere &sphere : scene.spheres)
-        seen.spheres.emplace_back(sphere, scene.materials[sphere.material], camera);
+        seen.spheres.emplace_back(sphere, scene.materials[sphere.material], camera,
+                                  static_cast<std::uint32_t>(seen.spheres.size()));
     seen.planes.reserve(scene.planes.size());
     for (const Plane &plane : scene.planes)
         seen.planes.push_back(curved_plane(plane, camera));

@@ -28,12 +28,13 @@ bool moves_little(const SeenSphere &sphere) {
 
 } // namespace
 
-SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera) :
+SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index) :
     open(sphere.center + camera.shutter_open * sphere.motion - camera.position),
     way((camera.shutter_close - camera.shutter_open) * sphere.motion),
     radius(sphere.radius),
     distance(glm::length(open)),
     material(sphere.material),
+    index(of_index),
     emits(pt::emits(of_sphere)),
     is_flat(is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
 

@@ -15,10 +15,11 @@ struct SeenSphere {
     double radius;
     double distance;        // of the centre as the shutter opens
     std::uint32_t material; // index into Scene::materials
+    std::uint32_t index;    // into Scene::spheres
     bool emits;
     bool is_flat; // so large that it is held better as a plane with a curvature (curved_plane.h)
 
-    SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera);
+    SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
 
     glm::dvec3 close() const { return open + way; }
 

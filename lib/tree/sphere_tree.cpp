@@ -221,6 +221,11 @@ bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     return false;
 }
 
+Sphere SphereTree::lamp(std::uint32_t number) const {
+    const TreeSphere sphere = sphere_at(words_[first_lamp_ + number].x);
+    return {sphere.centre, sphere.radius, sphere.way, lamp_materials_[number]};
+}
+
 bool SphereTree::may_hold(const Camera &camera) const {
     const gpu::TreeFrame seen = frame(camera);
     const double nearly = margin * static_cast<double>(std::max({box_.extent().x, box_.extent().y, box_.extent().z}));

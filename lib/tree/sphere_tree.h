@@ -53,6 +53,9 @@ public:
     // Materials of the lamps by number, which is their order in the scene.
     const std::vector<std::uint32_t> &lamp_materials() const { return lamp_materials_; }
 
+    // The sphere that a lamp is, as the kernel has it.
+    Sphere lamp(std::uint32_t number) const;
+
     // Whether a camera is in a sphere at any time, or so near to it that float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 

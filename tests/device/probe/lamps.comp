@@ -8,7 +8,7 @@
 #include "sampler.glsl"
 
 layout(local_size_x = WORKGROUP_SIZE) in;
-layout(push_constant) uniform Push { vec4 position; vec4 normal; uint surface; uint seed; uint count; };
+layout(push_constant) uniform Push { vec4 position; vec4 normal_time; uint surface; uint seed; uint count; };
 
 struct Drawn {
     vec4 direction_distance;
@@ -26,13 +26,15 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    Vertex vertex = Vertex(position.xyz, normal.xyz, normal.xyz, surface, false);
-    Lamps lamps = lamps_from(vertex, 0.0);
-    vec3 u = sample_block(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u).xyz;
-    LampChoice choice = choose(lamps, u.z);
+    vec3 normal = normal_time.xyz;
+    Vertex vertex = Vertex(position.xyz, normal, normal, surface, false);
+    Lamps lamps = lamps_from(vertex, normal_time.w);
+    uvec4 words = sample_words(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u);
+    vec2 u = vec2(words.xy >> 8u) * NUMBER_STEP;
+    LampChoice choice = choose(lamps, words.z);
     if (index < LAMP_COUNT)
         choice = choice_of(lamps, index);
-    LampSample taken = sample_lamp(choice, u.xy);
+    LampSample taken = sample_lamp(choice, u);
     drawn[index] = Drawn(vec4(taken.shadow.direction, taken.shadow.distance), choice.lamp, taken.density,
                          cone_density(choice_of(lamps, choice.lamp).view), choice.probability);
 }

@@ -1,0 +1,162 @@
+// Adds up the nodes of the tree of lamps; see lamp_tree_words.h.
+#include "lib/kernel/lamp_tree_words.h"
+
+#include "lib/scene/lamp_tree.h"
+#include "shaders/gpu_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace pt {
+
+namespace {
+
+// What the kernel takes of a lamp or node, at the rounding that it does: nodes hold their lamps as the kernel sees
+// them.
+struct Ball {
+    glm::vec3 open;
+    glm::vec3 way{0.0F};
+    float radius = 0.0F;
+
+    // As the shutter opens, and as it closes.
+    std::array<glm::dvec3, 2> ends() const { return {glm::dvec3(open), glm::dvec3(open) + glm::dvec3(way)}; }
+};
+
+struct Lamp {
+    Ball ball;
+    double power;
+    std::uint32_t index;
+};
+
+struct Node {
+    Ball ball;
+    double power = 0.0;
+    float spread = 0.0F; // of a lamp, its radius
+};
+
+Ball ball_of(const SeenSphere &sphere) {
+    return {glm::vec3(sphere.open), glm::vec3(sphere.way), static_cast<float>(sphere.radius)};
+}
+
+// Powers in units of the largest one's power of two, times the size of the scene of lamps if that is above 1: so that
+// the kernel's quotients by squared distances stay in the range of float, from 1e-17 to 1e17. Lamps below 2^-40 of the
+// largest one count as that much.
+std::vector<Lamp> scaled_lamps(std::span<const TreeLamp> lamps) {
+    double largest_power = 0.0;
+    double size = 1.0;
+    std::vector<Lamp> scaled;
+    scaled.reserve(lamps.size());
+    for (const TreeLamp &lamp : lamps) {
+        const double power = lamp.radiance * lamp.sphere.radius * lamp.sphere.radius;
+        scaled.push_back({ball_of(lamp.sphere), power, lamp.lamp});
+        largest_power = std::max(largest_power, power);
+        size = std::max(size, glm::length(lamp.sphere.open - lamps.front().sphere.open));
+    }
+    const double unit = std::exp2(std::floor(std::log2(largest_power)));
+    const double factor = std::exp2(std::floor(std::log2(size)));
+    for (Lamp &lamp : scaled)
+        lamp.power = factor * std::max(lamp.power / unit, 0x1p-40);
+    return scaled;
+}
+
+// The middle is where the power is: its weighted mean moves on a straight line as all lamps do. At any time the
+// distance of a lamp from it is at most the larger one at the two ends.
+Node node_of(std::span<const Lamp> lamps) {
+    Node node;
+    glm::dvec3 open(0.0);
+    glm::dvec3 way(0.0);
+    for (const Lamp &lamp : lamps) {
+        node.power += lamp.power;
+        open += lamp.power * glm::dvec3(lamp.ball.open);
+        way += lamp.power * glm::dvec3(lamp.ball.way);
+    }
+    node.ball.open = glm::vec3(open / node.power);
+    node.ball.way = glm::vec3(way / node.power);
+    const std::array middles = node.ball.ends();
+    double radius = 0.0;
+    std::array<double, 2> spreads{};
+    for (const Lamp &lamp : lamps) {
+        const std::array centres = lamp.ball.ends();
+        const double lamp_radius = lamp.ball.radius;
+        for (std::size_t end = 0; end < 2; ++end) {
+            const double distance = glm::length(centres[end] - middles[end]);
+            radius = std::max(radius, distance + lamp_radius);
+            spreads[end] += lamp.power * (distance * distance + 3.0 * lamp_radius * lamp_radius);
+        }
+    }
+    // Between the ends the kernel rounds places to 2^-24 of their size.
+    radius += 0x1p-21 * (std::max(glm::length(middles[0]), glm::length(middles[1])) + radius);
+    const double spread = std::max(
+        {spreads[0] / node.power, spreads[1] / node.power, radius * radius / gpu::LAMP_TREE_BALL * (1.0 + 0x1p-20)});
+    node.spread = std::max(static_cast<float>(spread), 0x1p-120F);
+    return node;
+}
+
+class Writer {
+public:
+    Writer(std::span<glm::vec4> words, bool motion) : words_(words), motion_(motion) {}
+
+    void node(std::uint64_t group, std::uint64_t place, const Node &node) {
+        const std::uint64_t word = gpu::lamp_tree_group_words(motion_ ? 1 : 0) * group;
+        const auto component = static_cast<int>(place);
+        for (int axis = 0; axis < 3; ++axis)
+            words_[word + static_cast<std::size_t>(axis)][component] = node.ball.open[axis];
+        words_[word + 3][component] = static_cast<float>(node.power);
+        words_[word + 4][component] = node.spread;
+        if (motion_)
+            for (int axis = 0; axis < 3; ++axis)
+                words_[word + 5 + static_cast<std::size_t>(axis)][component] = node.ball.way[axis];
+    }
+
+    // Of a block of numbers.
+    void number(std::uint64_t first_word, std::uint64_t place, std::uint64_t number) {
+        words_[first_word + place / 4][static_cast<int>(place % 4)] =
+            std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + static_cast<std::uint32_t>(number));
+    }
+
+private:
+    std::span<glm::vec4> words_;
+    bool motion_;
+};
+
+} // namespace
+
+std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
+    const LampTreeShape shape(lamp_count);
+    return gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups() + shape.slots() / 4 +
+           (std::uint64_t{lamp_count} + 3) / 4;
+}
+
+void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion) {
+    const LampTreeShape shape(static_cast<std::uint32_t>(lamps.size()));
+    const std::vector<Lamp> scaled = scaled_lamps(lamps);
+    Writer writer(words, motion);
+    for (std::uint32_t level = 0; level <= shape.levels(); ++level) {
+        const std::uint64_t nodes = 4 * shape.groups_of(level);
+        const std::uint64_t slots_of_node = shape.slots() / nodes;
+        for (std::uint64_t i = 0; i < nodes; ++i) {
+            const std::uint32_t first = shape.first_lamp(i * slots_of_node);
+            const std::uint32_t end = shape.first_lamp((i + 1) * slots_of_node);
+            Node node{};
+            if (level < shape.levels()) {
+                node = node_of(std::span(scaled).subspan(first, end - first));
+            } else if (first < end) {
+                node = {scaled[first].ball, scaled[first].power, scaled[first].ball.radius};
+            }
+            writer.node(shape.groups_above(level) + i / 4, i % 4, node);
+        }
+    }
+    const std::uint64_t lamp_words = gpu::lamp_tree_group_words(motion ? 1 : 0) * shape.all_groups();
+    const std::uint64_t slot_words = lamp_words + shape.slots() / 4;
+    for (std::uint64_t slot = 0; slot < shape.slots(); ++slot) {
+        const std::uint32_t first = shape.first_lamp(slot);
+        const bool is_taken = first < shape.first_lamp(slot + 1);
+        writer.number(lamp_words, slot, is_taken ? scaled[first].index : 0);
+        if (is_taken)
+            writer.number(slot_words, scaled[first].index, slot);
+    }
+}
+
+} // namespace pt

@@ -1,0 +1,177 @@
+// A tree over the lamps, for scenes with so many that looking at all of them from every vertex would take most of the
+// time. lights.glsl asks it for a lamp, and for the probability of a lamp. gpu_layout.h says where it is in the scene
+// buffer, lib/scene/lamp_tree.cpp makes it.
+#ifndef LAMP_TREE_GLSL
+#define LAMP_TREE_GLSL
+
+#include "maths.glsl"
+#include "scene.glsl"
+#include "vertex.glsl"
+
+const bool HAS_LAMP_TREE = LAMP_TREE_LEVELS > 0u;
+
+// Four siblings, a component each.
+struct Siblings {
+    vec4 x, y, z; // their middles, as seen from the vertex
+    vec4 power;  // 0: there is no such node
+    vec4 spread; // of their lamps; of lamps, their radius
+};
+
+Siblings siblings_of(uint group, Vertex vertex, float time)
+{
+    uint word = LAMP_TREE + lamp_tree_group_words(MOTION) * group;
+    vec4 x = scene_storage.words[word];
+    vec4 y = scene_storage.words[word + 1u];
+    vec4 z = scene_storage.words[word + 2u];
+    if (MOTION == 1) {
+        x += time * scene_storage.words[word + 5u];
+        y += time * scene_storage.words[word + 6u];
+        z += time * scene_storage.words[word + 7u];
+    }
+    return Siblings(x - vertex.position.x, y - vertex.position.y, z - vertex.position.z,
+                    scene_storage.words[word + 3u], scene_storage.words[word + 4u]);
+}
+
+// All that leads to a probability is precise, so that no compiler rounds it in one way where a lamp is chosen and in
+// another where the probability of that lamp is asked for.
+
+// What nodes may send to a vertex, up to a factor that all share: power / (d^2 + s / 2) times the mean of the cosines,
+// with d to the middle and the spread s. Heights over the horizon of the vertex that spread about h have a mean of
+// about (h + sqrt(h^2 + s / 3)) / 2 if those below it count as 0. It is never 0: below the horizon it is taken as a
+// quotient, in which nothing cancels.
+vec4 node_importance(Siblings nodes, vec3 normal)
+{
+    precise vec4 height = nodes.x * normal.x + nodes.y * normal.y + nodes.z * normal.z;
+    precise vec4 squared = nodes.x * nodes.x + nodes.y * nodes.y + nodes.z * nodes.z + 0.5 * nodes.spread;
+    precise vec4 inverse = inversesqrt(squared);
+    precise vec4 variance = nodes.spread * (1.0 / 3.0);
+    precise vec4 above = abs(height) + sqrt(height * height + variance);
+    precise vec4 below = variance / above;
+    vec4 twice = vec4(height.x < 0.0 ? below.x : above.x, height.y < 0.0 ? below.y : above.y,
+                      height.z < 0.0 ? below.z : above.z, height.w < 0.0 ? below.w : above.w);
+    precise vec4 importance = nodes.power * inverse * inverse * min(0.5 * twice * inverse, vec4(1.0));
+    return importance;
+}
+
+// Of lamps it is the weight that view_lamp() gives them. The one on which a vertex lies needs no care: it is at the
+// horizon.
+vec4 lamp_importance(Siblings lamps, vec3 normal)
+{
+    vec4 radius = lamps.spread;
+    precise vec4 height = lamps.x * normal.x + lamps.y * normal.y + lamps.z * normal.z + radius;
+    precise vec4 squared = lamps.x * lamps.x + lamps.y * lamps.y + lamps.z * lamps.z;
+    precise vec4 inverse = inversesqrt(squared);
+    precise vec4 importance = lamps.power * inverse * inverse * min(height * inverse, vec4(1.0));
+    precise vec4 outside = min(height, squared - radius * radius);
+    return vec4(outside.x > 0.0 ? importance.x : 0.0, outside.y > 0.0 ? importance.y : 0.0,
+                outside.z > 0.0 ? importance.z : 0.0, outside.w > 0.0 ? importance.w : 0.0);
+}
+
+float sum_of(vec4 importance)
+{
+    precise float sum = importance.x + importance.y + importance.z + importance.w;
+    return sum;
+}
+
+// The groups on top as a vertex sees them, which serves all choices that it takes.
+struct LampTreeTop {
+    vec4 importance[LAMP_TREE_TOP_GROUPS]; // of the nodes of each group
+};
+
+LampTreeTop lamp_tree_top(Vertex vertex, float time)
+{
+    const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+    LampTreeTop top;
+    uint group = 0u;
+    [[unroll]] do {
+        top.importance[group] =
+            group < groups ? node_importance(siblings_of(group, vertex, time), vertex.normal) : vec4(0.0);
+        ++group;
+    } while (group < LAMP_TREE_TOP_GROUPS);
+    return top;
+}
+
+// One of four, which may differ between invocations.
+float component_of(vec4 v, uint index) { return index < 2u ? (index == 0u ? v.x : v.y) : (index == 2u ? v.z : v.w); }
+
+// A way down the tree: to a lamp that is given, or one that a random number chooses.
+struct LampWalk {
+    bool chooses;
+    uint slot;         // of the lamp that is given
+    float u;           // what the choices so far have left of the number
+    uint finer;        // hash of the number
+    float probability; // of the choices so far
+};
+
+// Where the words begin that say which lamp a slot has; those that say which slot a lamp has follow them.
+uint lamp_tree_slots()
+{
+    return LAMP_TREE + lamp_tree_group_words(MOTION) * lamp_tree_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+}
+
+LampWalk walk_to(uint lamp)
+{
+    const uint slots = lamp_tree_slots() + lamp_tree_slot_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+    return LampWalk(false, stored_index(slots, lamp), 0.0, 0u, 1.0);
+}
+
+LampWalk walk_by(uint number) { return LampWalk(true, 0u, float(number >> 8u) * NUMBER_STEP, number, 1.0); }
+
+// Goes on to one of four children in proportion to their importance; if none has any, to that of the others. The last
+// one of those with some stands whose predecessors do not exceed the number: none without is ever chosen, whatever
+// rounding does. A choice of probability p leaves the number 1 / p times as coarse. The bits of a hash fill it up, so
+// that lamps which are chosen rarely are so as often as they should be.
+uint take_child(inout LampWalk walk, vec4 importance, vec4 others, uint given)
+{
+    vec4 part = sum_of(importance) > 0.0 ? importance : others;
+    precise float two = part.x + part.y;
+    precise float three = two + part.z;
+    precise float total = three + part.w;
+    float target = walk.u * total;
+    uint child = target >= part.x && part.y > 0.0 ? 1u : 0u;
+    child = target >= two && part.z > 0.0 ? 2u : child;
+    child = target >= three && part.w > 0.0 ? 3u : child;
+    child = walk.chooses ? child : given;
+    float own = component_of(part, child);
+    float before = component_of(vec4(0.0, part.x, two, three), child);
+    walk.finer = walk.finer * 747796405u + 2891336453u;
+    float fill = float(walk.finer >> 8u) * (NUMBER_STEP * NUMBER_STEP);
+    walk.u = clamp((target - before + fill * total) / own, 0.0, LARGEST_NUMBER);
+    precise float probability = walk.probability * (own / total);
+    walk.probability = probability;
+    return child;
+}
+
+// Takes a walk from the top to a lamp. A group on top counts by what its nodes do together.
+uint walk_down(inout LampWalk walk, LampTreeTop top, Vertex vertex, float time)
+{
+    const uint groups = lamp_tree_top_groups(LAMP_COUNT, LAMP_TREE_LEVELS);
+    const vec4 even = vec4(1.0);
+    uint shift = 2u * LAMP_TREE_LEVELS;
+    vec4 sums = vec4(sum_of(top.importance[0]), sum_of(top.importance[1]), sum_of(top.importance[2]),
+                     sum_of(top.importance[3]));
+    vec4 all_groups = vec4(1.0, groups > 1u ? 1.0 : 0.0, groups > 2u ? 1.0 : 0.0, groups > 3u ? 1.0 : 0.0);
+    uint node = take_child(walk, sums, all_groups, walk.slot >> (shift + 2u));
+    vec4 importance = node < 2u ? (node == 0u ? top.importance[0] : top.importance[1])
+                                : (node == 2u ? top.importance[2] : top.importance[3]);
+    node = 4u * node + take_child(walk, importance, even, (walk.slot >> shift) & 3u);
+    uint first = groups; // of the next level's groups
+    uint count = 4u * groups;
+    if (LAMP_TREE_LEVELS > 1u) {
+        uint level = 1u;
+        [[dont_unroll]] do {
+            shift -= 2u;
+            importance = node_importance(siblings_of(first + node, vertex, time), vertex.normal);
+            node = 4u * node + take_child(walk, importance, even, (walk.slot >> shift) & 3u);
+            first += count;
+            count *= 4u;
+            ++level;
+        } while (level < LAMP_TREE_LEVELS);
+    }
+    Siblings lamps = siblings_of(first + node, vertex, time);
+    vec4 there = vec4(greaterThan(lamps.power, vec4(0.0)));
+    uint slot = 4u * node + take_child(walk, lamp_importance(lamps, vertex.normal), there, walk.slot & 3u);
+    return stored_index(lamp_tree_slots(), slot);
+}
+
+#endif
