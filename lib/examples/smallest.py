@@ -141,7 +141,7 @@ class Renderer:
             sphere_count=len(spheres), spheres=(pt_sphere * len(spheres))(*spheres),
             plane_count=len(planes), planes=(pt_plane * len(planes))(*planes),
             sphere_array_count=len(sphere_arrays),
-            sphere_arrays=(pt_sphere_array * len(sphere_arrays))(*sphere_arrays))))
+            sphere_arrays=(pt_sphere_array * len(sphere_arrays))(*sphere_arrays) if sphere_arrays else None)))
 
     def set_camera(self, **fields):
         self._check(self.library.pt_set_camera(self.context, pt_camera(**fields)))

@@ -49,8 +49,9 @@ void change_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count, Chang
 // Every box holds all places of the grid, so that a walk tests every sphere.
 void open_boxes(std::vector<glm::uvec4> &tree, std::uint32_t node_count) {
     change_boxes(tree, node_count, [](glm::uvec4 &head, std::uint32_t *const sides[6]) {
-        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps
-        head = {0xc0000000U, 0xc0000000U, 0xc0000000U, (head.w & ~0x7fffU) | exponents};
+        constexpr std::uint32_t exponents = 23 | 23 << 5 | 23 << 10; // 255 times 2^23 steps, from the lowest place on
+        constexpr std::uint32_t lowest = ~pt::gpu::TREE_REACH + 1;
+        head = {lowest, lowest, lowest, (head.w & ~0x7fffU) | exponents};
         for (int i = 0; i < 6; ++i)
             *sides[i] = i < 3 ? 0U : 0xffffffffU;
     });
