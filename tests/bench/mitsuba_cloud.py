@@ -15,7 +15,8 @@ from sphere_cloud import COLOURS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
-    """The spheres of one colour are a shape of ellipsoids: spheres one by one render at an eighth of the speed."""
+    """The spheres of one colour are a shape of ellipsoids: 10,000 spheres one by one render at an eighth of the speed.
+    With 100,000 the pictures of ellipsoids are too bright, those of spheres are not."""
 
     def __init__(self, variant, cloud, size, lengths):
         self.cloud = cloud

@@ -10,8 +10,8 @@ all alike; figures are medians over the rounds.
 
 scene           seconds of pt_set_scene; of building Mitsuba's scene
 bytes           device memory a sphere: pt_stats.device_bytes, less those of the scene without the cloud
-first           seconds from the scene to its first picture of one sample in memory, at the first path length; kernels are
-                compiled then, as the driver's cache on disk is off (Mitsuba has a cache of its own)
+first           seconds from the scene to its first picture of one sample in memory, at the first path length; kernels
+                are compiled then, as the driver's cache on disk is off (Mitsuba has a cache of its own)
 M/s, M/CPU s    millions of samples a second, and a second of all threads' time, left out on a GPU; a sample is a camera
                 ray, and beyond path length 2 its first vertex is left by 4 paths in pt, by 1 in Mitsuba
 
@@ -19,7 +19,8 @@ With --error-samples a second table compares costs at equal error, at the first 
 (x - r)^2 / (r^2 + 0.01) over pixels and channels, at so many samples, or 4 times as many in Mitsuba, against a
 reference r by the first library of 64 times as many and another seed, whose own error is left in. The ratio is that of
 cost x relMSE, over the first library's: what a program pays for that library's error, as errors fall as 1 / cost. "off
-by" is the difference of the means of a program's pictures and the reference, and by how many standard errors.
+by" is the difference of the means of a program's pictures and the reference, and by how many standard errors; where it
+is above 1% the pictures are not the same, and no ratio is stated.
 """
 
 import argparse
@@ -27,6 +28,7 @@ import array
 import json
 import math
 import os
+import resource
 import statistics
 import subprocess
 import sys
@@ -42,12 +44,12 @@ FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
 from scene_renderer import SceneRenderer, colour, vector  # noqa: E402
 import smallest  # noqa: E402  (found by scene_renderer)
-import resource  # noqa: E402
 
 PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
 MOST_SAMPLES = 1 << 14
 MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
+ALIKE = 0.01  # pictures whose means differ by more are not compared
 
 
 def parse_arguments():
@@ -261,7 +263,8 @@ def print_errors(errors, options):
     for error in errors:
         off, deviations = error["off_by"]
         rows.append([f"{error['count']:,}", error["program"], str(error["samples"]), f"{error['cost']:.2f}",
-                     f"{error['rel_mse']:.2g}", f"{error['ratio']:.2f}", f"{off:+.2%} ({deviations:+.1f})"])
+                     f"{error['rel_mse']:.2g}", f"{error['ratio']:.2f}" if abs(off) < ALIKE else "-",
+                     f"{off:+.2%} ({deviations:+.1f})"])
     print(f"\nat path length {options.lengths[0]}\n")
     print_table(rows)
 

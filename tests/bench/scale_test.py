@@ -48,9 +48,10 @@ class RealDevice(unittest.TestCase):
     def test_it_runs(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "scale.json"
-            done = subprocess.run([sys.executable, "-B", FOLDER / "scale.py", "--library", f"one={LIBRARY}", "--library",
-                                   f"other={LIBRARY}", "--counts", "10,2e3", "--size", "32x16", "--rounds", "2",
-                                   "--seconds", "0.001", "--path-lengths", "3", "--error-samples", "2", "--json", path],
+            done = subprocess.run([sys.executable, "-B", FOLDER / "scale.py", "--library", f"one={LIBRARY}",
+                                   "--library", f"other={LIBRARY}", "--counts", "10,2e3", "--size", "32x16",
+                                   "--rounds", "2", "--seconds", "0.001", "--path-lengths", "3",
+                                   "--error-samples", "2", "--json", path],
                                   text=True, capture_output=True)
             self.assertEqual(done.returncode, 0, done.stderr)
             report = json.loads(path.read_text(encoding="utf-8"))

@@ -18,8 +18,8 @@ def surroundings():
 
 
 class SphereCloud:
-    """Columns: centers x, y, z and radii as float, materials as indices into MATERIALS. Neighbours overlap at times; the
-    share of the space that is filled is the same for all counts."""
+    """Columns: centers x, y, z and radii as float, materials as indices into MATERIALS. Neighbours overlap at times;
+    the share of the space that is filled is the same for all counts."""
 
     def __init__(self, count):
         uniform = random.Random(SEED).uniform
