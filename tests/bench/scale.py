@@ -1,0 +1,289 @@
+"""Measures what scenes of many spheres cost: clouds of 10 to a million of them over a floor with one lamp.
+
+    python3 tests/bench/scale.py --library pt=build/lib/libpt.so
+    DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 python3 tests/bench/scale.py --library old=OLD/libpt.so \\
+        --library pt=build/lib/libpt.so --mitsuba mitsuba/bin/python --counts 10,1e3,1e5
+
+Libraries take the spheres by columns (pt_scene.sphere_arrays); Mitsuba is any Python that can import it
+(peer_mitsuba.py says how to install it). All are measured in turn in every round, so that a disturbed machine is so for
+all alike; figures are medians over the rounds.
+
+scene           seconds of pt_set_scene; of building Mitsuba's scene
+bytes           device memory a sphere: pt_stats.device_bytes, less those of the scene without the cloud
+first           seconds from the scene to its first picture of one sample in memory, at the first path length; kernels
+                are compiled then, as the driver's cache on disk is off (Mitsuba has a cache of its own)
+M/s, M/CPU s    millions of samples a second, and a second of all threads' time, left out on a GPU; a sample is a camera
+                ray, and beyond path length 2 its first vertex is left by 4 paths in pt, by 1 in Mitsuba
+
+With --error-samples a second table compares costs at equal error, at the first path length: relMSE, the mean of
+(x - r)^2 / (r^2 + 0.01) over pixels and channels, at so many samples, or 4 times as many in Mitsuba, against a
+reference r by the first library of 64 times as many and another seed, whose own error is left in. The ratio is that of
+cost x relMSE, over the first library's: what a program pays for that library's error, as errors fall as 1 / cost. "off
+by" is the difference of the means of a program's pictures and the reference, and by how many standard errors; where it
+is above 1% the pictures are not the same, and no ratio is stated.
+"""
+
+import argparse
+import array
+import json
+import math
+import os
+import resource
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")  # before a driver is loaded
+
+from sphere_cloud import SphereCloud, surroundings  # noqa: E402
+from table import print_table  # noqa: E402
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
+from scene_renderer import SceneRenderer, colour, vector  # noqa: E402
+import smallest  # noqa: E402  (found by scene_renderer)
+
+PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
+MOST_SAMPLES = 1 << 14
+MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
+REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
+ALIKE = 0.01  # pictures whose means differ by more are not compared
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--library", action="append", required=True, metavar="NAME=FILE")
+    parser.add_argument("--mitsuba", metavar="PYTHON", help="interpreter that can import Mitsuba (default: without it)")
+    parser.add_argument("--mitsuba-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
+    parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
+    parser.add_argument("--counts", default="10,30,100,1e3,1e4,1e5,1e6", metavar="N,...", help="of spheres")
+    parser.add_argument("--path-lengths", default="3,6", metavar="L,...")
+    parser.add_argument("--size", default="256x128", metavar="WxH", help="default: 256x128")
+    parser.add_argument("--seconds", type=float, default=0.5, help="wall time of a measurement (default: 0.5)")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--error-samples", type=int, metavar="S", help="compare errors too, at S samples")
+    parser.add_argument("--error-counts", type=float, default=1e5, metavar="N", help="up to N spheres (default: 1e5)")
+    parser.add_argument("--json", metavar="FILE", help="write all figures")
+    options = parser.parse_args()
+    options.counts = [int(float(count)) for count in options.counts.split(",")]
+    options.lengths = [int(length) for length in options.path_lengths.split(",")]
+    options.width, options.height = map(int, options.size.split("x"))
+    return options
+
+
+def cpu_seconds():
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Library:
+    """A context with a cloud, and what that took."""
+
+    def __init__(self, name, path, cloud, options):
+        os.environ["PT_LIBRARY"] = path
+        self.name, self.options = name, options
+        scene = surroundings()
+        self.renderer = SceneRenderer(scene)
+        device = smallest.pt_device_info()
+        self.renderer._check(self.renderer.library.pt_get_context_device(self.renderer.context, device))
+        self.device, self.on_cpu = device.name.decode(), device.kind == PT_DEVICE_CPU
+        self.render(options.lengths[0], 1)
+        before = self.renderer.stats().device_bytes
+        self.scene_seconds = self.set_scene(scene, cloud)
+        start = time.perf_counter()
+        self.render(options.lengths[0], 1)
+        self.first_seconds = self.scene_seconds + time.perf_counter() - start
+        self.bytes = (self.renderer.stats().device_bytes - before) / cloud.count
+
+    def set_scene(self, scene, cloud):
+        names = list(scene["materials"])
+        materials = [smallest.pt_material(diffuse=colour(m.get("diffuse", 0)), emission=colour(m.get("emission", 0)))
+                     for m in scene["materials"].values()]
+        lamps = [smallest.pt_sphere(vector(s["center"]), s["radius"], material=names.index(s["material"]))
+                 for s in scene["spheres"]]
+        planes = [smallest.pt_plane(vector(p["normal"]), p["offset"], names.index(p["material"]))
+                  for p in scene["planes"]]
+
+        def column(values, components, kind):
+            return smallest.pt_column(values.buffer_info()[0], components * values.itemsize, kind)
+
+        spheres = smallest.pt_sphere_array(count=cloud.count,
+                                           center=column(cloud.centers, 3, smallest.PT_TYPE_FLOAT32),
+                                           radius=column(cloud.radii, 1, smallest.PT_TYPE_FLOAT32),
+                                           material=column(cloud.materials, 1, smallest.PT_TYPE_UINT32))
+        start = time.perf_counter()
+        self.renderer.set_scene(materials, lamps, planes, [spheres])
+        return time.perf_counter() - start
+
+    def render(self, length, samples, seed=0):
+        """Wall and CPU seconds of the samples, and the picture."""
+        self.renderer.set_render(self.options.width, self.options.height, max_path_length=length, seed=seed)
+        start, before = time.perf_counter(), cpu_seconds()
+        self.renderer.accumulate(samples)
+        after, end = cpu_seconds(), time.perf_counter()
+        return end - start, after - before, self.renderer.image()
+
+    def close(self):
+        self.renderer.__exit__()
+
+
+class Mitsuba:
+    """A process that renders with Mitsuba."""
+
+    name, bytes, on_cpu = "Mitsuba", None, True
+
+    def __init__(self, cloud, options):
+        self.options = options
+        self.on_cpu = not options.variant.startswith("cuda")
+        self.process = subprocess.Popen(
+            [options.mitsuba, "-B", os.path.join(FOLDER, "mitsuba_cloud.py"), "--variant", options.variant, "--size",
+             options.size, "--path-lengths", options.path_lengths],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        answer = self.ask(count=cloud.count)
+        self.scene_seconds, self.device = answer["seconds"], "Mitsuba " + answer["version"]
+        self.first_seconds = self.scene_seconds + self.render(options.lengths[0], 1)[0]
+
+    def ask(self, **asked):
+        self.process.stdin.write(json.dumps(asked) + "\n")
+        self.process.stdin.flush()
+        line = self.process.stdout.readline()
+        if not line:
+            raise SystemExit(f"Mitsuba ended with status {self.process.wait()}")
+        return json.loads(line)
+
+    def render(self, length, samples, seed=0):
+        with tempfile.NamedTemporaryFile() as file:
+            answer = self.ask(length=length, samples=samples, seed=seed, image=file.name)
+            image = array.array("f", file.read())
+        return answer["seconds"], answer["cpu_seconds"], image
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def choose_samples(program, length, options):
+    """A power of four, as Mitsuba's sampler rounds up other numbers, that takes a quarter of the wished time or more;
+    compiles too."""
+    samples = 4
+    program.render(length, samples)
+    while samples < MOST_SAMPLES and program.render(length, samples)[0] < options.seconds / 4:
+        samples *= 4
+    return samples
+
+
+def measure_rates(programs, options):
+    """(program, path length) -> samples a wall second and a CPU second."""
+    rates, samples_of_picture = {}, options.width * options.height
+    for length in options.lengths:
+        samples = [choose_samples(program, length, options) for program in programs]
+        times = [[] for _ in programs]
+        for number in range(options.rounds):
+            for program, count, of_program in zip(programs, samples, times):
+                of_program.append(program.render(length, count, number)[:2])
+        for program, count, of_program in zip(programs, samples, times):
+            rates[program.name, length] = [count * samples_of_picture / statistics.median(column)
+                                           for column in zip(*of_program)]
+    return rates
+
+
+def relative_error(image, reference):
+    return math.fsum((x - r) ** 2 / (r * r + 0.01) for x, r in zip(image, reference)) / len(reference)
+
+
+def difference_of_means(image, reference):
+    """As a share of the reference's mean, and in standard errors, by the differences of the pixels."""
+    pixels = [sum(image[i:i + 3]) - sum(reference[i:i + 3]) for i in range(0, len(image), 3)]
+    mean = statistics.fmean(pixels)
+    error = statistics.pstdev(pixels, mean) / math.sqrt(len(pixels))
+    return mean / (3 * statistics.fmean(reference)), mean / error if error else 0.0
+
+
+def measure_errors(programs, options):
+    """Program -> samples, cost, relMSE, ratio of cost x relMSE, difference of means."""
+    length, figures = options.lengths[0], {}
+    count = REFERENCE_FACTOR * options.error_samples
+    reference = programs[0].render(length, count, REFERENCE_SEED)[2]
+    rounds = {program.name: [] for program in programs}
+    for number in range(options.rounds):
+        for program in programs:
+            samples = options.error_samples * (MITSUBA_FACTOR if isinstance(program, Mitsuba) else 1)
+            rounds[program.name].append((samples, *program.render(length, samples, number + 1)))
+    for name, of_program in rounds.items():
+        mean = [statistics.fmean(values) for values in zip(*(image for *_, image in of_program))]
+        figures[name] = {"samples": of_program[0][0],
+                         "cost": statistics.median(one[2 if programs[0].on_cpu else 1] for one in of_program),
+                         "rel_mse": statistics.fmean(relative_error(one[3], reference) for one in of_program),
+                         "off_by": difference_of_means(mean, reference)}
+    of_first = figures[programs[0].name]
+    for of_program in figures.values():
+        of_program["ratio"] = of_program["cost"] * of_program["rel_mse"] / (of_first["cost"] * of_first["rel_mse"])
+    return figures
+
+
+def measure_count(count, options, report):
+    cloud = SphereCloud(count)
+    programs = [Library(*library.split("=", 1), cloud, options) for library in options.library]
+    report["devices"] = list(dict.fromkeys(program.device for program in programs))
+    try:
+        if options.mitsuba and count <= options.mitsuba_counts:
+            programs.append(Mitsuba(cloud, options))
+        rates = measure_rates(programs, options)
+        for program in programs:
+            report["costs"].append({
+                "count": count, "program": program.name, "scene": program.scene_seconds, "bytes": program.bytes,
+                "first": program.first_seconds, "on_cpu": program.on_cpu,
+                "rates": {length: rates[program.name, length] for length in options.lengths}})
+        if options.error_samples and count <= options.error_counts:
+            report["errors"] += [{"count": count, "program": name, **figures}
+                                 for name, figures in measure_errors(programs, options).items()]
+    finally:
+        for program in programs:
+            program.close()
+
+
+def print_costs(costs, options):
+    heading = ["spheres", "", "scene", "bytes", "first"]
+    for length in options.lengths:
+        heading += [f"L {length}: M/s", f"L {length}: M/CPU s"]
+    rows = [heading]
+    for cost in costs:
+        row = [f"{cost['count']:,}", cost["program"], f"{cost['scene']:.2g}",
+               "-" if cost["bytes"] is None else f"{cost['bytes']:.0f}", f"{cost['first']:.2f}"]
+        for wall, cpu in cost["rates"].values():
+            row += [f"{wall / 1e6:.3g}", f"{cpu / 1e6:.3g}" if cost["on_cpu"] else "-"]
+        rows.append(row)
+    print_table(rows)
+
+
+def print_errors(errors, options):
+    rows = [["spheres", "", "samples", "cost, s", "relMSE", "cost x relMSE", "off by"]]
+    for error in errors:
+        off, deviations = error["off_by"]
+        rows.append([f"{error['count']:,}", error["program"], str(error["samples"]), f"{error['cost']:.2f}",
+                     f"{error['rel_mse']:.2g}", f"{error['ratio']:.2f}" if abs(off) < ALIKE else "-",
+                     f"{off:+.2%} ({deviations:+.1f})"])
+    print(f"\nat path length {options.lengths[0]}\n")
+    print_table(rows)
+
+
+def main():
+    options = parse_arguments()
+    report = {"size": options.size, "rounds": options.rounds, "costs": [], "errors": []}
+    for count in options.counts:
+        print(f"{count:,} spheres", file=sys.stderr, flush=True)
+        measure_count(count, options, report)
+    print(f"{', '.join(report['devices'])}, {options.size}, medians of {options.rounds} rounds\n")
+    print_costs(report["costs"], options)
+    if report["errors"]:
+        print_errors(report["errors"], options)
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(report, file, indent=1)
+            file.write("\n")
+
+
+if __name__ == "__main__":
+    main()
