@@ -9,6 +9,10 @@
 // Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
 bool walk_was_cut = false;
 
+// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and is seen
+// if its surface is lower: boxes are entered up to 2^-22 of the advance later.
+const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
+
 void keep_closer_of_tree(inout Hit hit, float distance, uint surface)
 {
     bool closer = distance < hit.distance || (distance == hit.distance && distance < NO_HIT && surface < hit.surface);
@@ -81,7 +85,7 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             height += group.count > 0u ? 1 : 0;
             vec3 inverse = in_shadow ? shadow_inverse : path_inverse;
             float before = in_shadow ? shadow.distance : hit.distance;
-            Entered entered = enter_node(node, ray, inverse, before - ray.advance);
+            Entered entered = enter_node(node, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
             group = entered.inner;
             first_place = entered.first_place;
             spheres = entered.spheres;
