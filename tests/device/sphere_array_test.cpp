@@ -4,6 +4,7 @@
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
 
 #include <pt/errors.h>
 #include <pt/film.h>
@@ -98,8 +99,13 @@ struct Heap {
     }
 };
 
+// Without a tree, in which colours are rounded (tree_render_test.cpp).
 class SphereArrayRender : public ContextFixture {
 protected:
+    Context create_fixtures_context() override {
+        return create_context([](pt_create_info &) {}, &create_without_tree);
+    }
+
     void set_scene(const pt_scene &scene) {
         ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
     }

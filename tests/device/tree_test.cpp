@@ -106,4 +106,23 @@ TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
     EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
 }
 
+// A heap of balls that overlap, with a lamp, at the end of a floor on which the camera is 10^5 times as far away: in the
+// middle of a narrow view, where nearly all depths are rounded to a few, and at the horizon of a wide one.
+TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
+    TreeScenes scenes(9);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
+                       {glm::vec3(0.7F, 0.4F, 0.2F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    scene.planes.push_back({{0, 1, 0}, 2.5, 1});
+    for (std::uint32_t i = 0; i < 90; ++i)
+        scene.spheres.push_back({{scenes.uniform(-2, 2), scenes.uniform(-2, 2), scenes.uniform(-2, 2)},
+                                 scenes.uniform(0.1, 0.9),
+                                 glm::dvec3(0.0),
+                                 i == 40 ? 0U : 1U});
+    for (const double tan_half_fov : {1e-5, 0.5}) {
+        const pt::Camera camera{{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
+        EXPECT_TRUE(compare(scene, camera).same) << tan_half_fov;
+    }
+}
+
 } // namespace
