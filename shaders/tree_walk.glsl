@@ -66,6 +66,7 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
     const Group root = Group(0u, 0u, 1u);
     const Group nothing = Group(0u, 0u, 0u);
     uint stack[TREE_STACK_SIZE];
+    const int ended = -1; // a height that tells: of done itself compilers know that it is true after the loop
     int height = 0;
     Group group = in_shadow || follows_path ? root : nothing;
     uint first_place = 0u;
@@ -114,10 +115,10 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             in_shadow = false;
             group = follows_path ? root : nothing;
             spheres = 0u;
-            height = 0;
+            height = done ? ended : 0;
         }
     } while (!done);
-    walk_was_cut = walk_was_cut || !done;
+    walk_was_cut = walk_was_cut || height != ended;
 }
 
 #endif

@@ -125,4 +125,29 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     }
 }
 
+// More spheres than a driver follows loop trips, all of them tested: what it cuts is told.
+TEST(Tree, WalksThatADriverCutsAreTold) {
+    const std::uint64_t budget = probe_device().limits().loop_trip_budget;
+    if (budget > 1'000'000)
+        GTEST_SKIP() << "this driver does not end loops";
+    TreeScenes scenes(10);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(1.0F), 0.0F},
+                       {glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    for (std::uint64_t i = 0; i < 2 * budget; ++i)
+        scene.spheres.push_back(
+            {{scenes.uniform(-2, 2), scenes.uniform(-2, 2), 0}, 1e-3, glm::dvec3(0.0), i == 0 ? 0U : 1U});
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    const pt::PreparedScene prepared({scene.materials, {spheres_of_caller, {}}, {}}, 1);
+    const pt::Camera camera{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(2)));
+    render.take(1);
+    Probe probe = render.probe_of_tree();
+    const FilmWords walked = render.film_by(probe);
+    EXPECT_NO_THROW(render.radiance(walked));
+    open_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords cut = render.film_by(probe);
+    EXPECT_ANY_THROW(render.radiance(cut)) << (cut == walked ? "nothing was cut" : "what was cut was not told");
+}
+
 } // namespace
