@@ -33,7 +33,7 @@ vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
 }
 
 // The same as seen from the camera.
-vec4 tree_sphere(uint place, float time) 
+vec4 tree_sphere(uint place, float time)
 {
     return tree_sphere_from(tree_camera(), -tree_shift() / tree_step(), place, time);
 }

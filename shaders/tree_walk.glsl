@@ -9,6 +9,10 @@
 // Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
 bool walk_was_cut = false;
 
+// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and is seen
+// if its surface is lower: boxes are entered up to 2^-22 of the advance later.
+const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
+
 void keep_closer_of_tree(inout Hit hit, float distance, uint surface)
 {
     bool closer = distance < hit.distance || (distance == hit.distance && distance < NO_HIT && surface < hit.surface);
@@ -62,6 +66,7 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
     const Group root = Group(0u, 0u, 1u);
     const Group nothing = Group(0u, 0u, 0u);
     uint stack[TREE_STACK_SIZE];
+    const int ended = -1; // a height that tells: of done itself compilers know that it is true after the loop
     int height = 0;
     Group group = in_shadow || follows_path ? root : nothing;
     uint first_place = 0u;
@@ -81,7 +86,7 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             height += group.count > 0u ? 1 : 0;
             vec3 inverse = in_shadow ? shadow_inverse : path_inverse;
             float before = in_shadow ? shadow.distance : hit.distance;
-            Entered entered = enter_node(node, ray, inverse, before - ray.advance);
+            Entered entered = enter_node(node, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
             group = entered.inner;
             first_place = entered.first_place;
             spheres = entered.spheres;
@@ -110,10 +115,10 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             in_shadow = false;
             group = follows_path ? root : nothing;
             spheres = 0u;
-            height = 0;
+            height = done ? ended : 0;
         }
     } while (!done);
-    walk_was_cut = walk_was_cut || !done;
+    walk_was_cut = walk_was_cut || height != ended;
 }
 
 #endif

@@ -195,13 +195,15 @@ std::pair<Part, Part> divided(const Part &part, std::uint32_t depth) {
     return halved(part);
 }
 
-// Twins have equal centres, so that no cut comes between them before all that is left is at one point, or few.
 Part without_twins(Part part, const TreeRules &rules) {
-    if (part.items.size() > tree_width && !part.centres.is_point())
-        return part;
-    std::ranges::sort(part.items, {}, [](const TreeItem &item) { return std::tuple(item.centre_radius, item.sphere); });
+    std::ranges::sort(part.items, [&](const TreeItem &a, const TreeItem &b) {
+        if (a.centre_radius != b.centre_radius)
+            return a.centre_radius < b.centre_radius;
+        const std::strong_ordering order = rules.order(a.sphere, b.sphere);
+        return order < 0 || (order == 0 && a.sphere < b.sphere);
+    });
     const auto are_twins = [&](const TreeItem &a, const TreeItem &b) {
-        return a.centre_radius == b.centre_radius && rules.are_twins(a.sphere, b.sphere);
+        return a.centre_radius == b.centre_radius && rules.order(a.sphere, b.sphere) == 0;
     };
     const auto twins = std::ranges::unique(part.items, are_twins);
     part.items = part.items.first(part.items.size() - twins.size());
@@ -216,9 +218,28 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// The children of a node: of its parts the one with the largest surface is divided until there are enough.
-Children children_of(const Part &node, std::uint32_t depth) {
+// Whether a part is to be divided before another: the one with the larger surface, and deep in the tree the one with more
+// spheres, so that no child has more than a quarter of the node's.
+bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
+    return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
+}
+
+// The part that is to be divided next, or NULL.
+Part *next_of(std::span<Part> parts, std::uint32_t depth) {
+    Part *next = nullptr;
+    for (Part &part : parts)
+        if (part.items.size() > 1 && (next == nullptr || goes_before(part, *next, depth)))
+            next = &part;
+    return next;
+}
+
+// The children of a node: of its parts one after the other is divided until there are enough. Twins have equal centres, so
+// that no cut comes between them before all that is left is at one point, or few. Halving might, so they are looked for
+// before it begins.
+Children children_of(Part node, const TreeRules &rules, std::uint32_t depth) {
     Children children;
+    if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)
+        node = without_twins(node, rules);
     if (node.items.size() <= tree_width) {
         for (std::size_t i = 0; i < node.items.size(); ++i)
             children.add({node.items.subspan(i, 1), {}});
@@ -226,12 +247,14 @@ Children children_of(const Part &node, std::uint32_t depth) {
     }
     children.add(node);
     while (children.count < tree_width) {
-        Part *largest = nullptr;
-        for (Part &child : children.all())
-            if (child.items.size() > 1 && (largest == nullptr || child.surface > largest->surface))
-                largest = &child;
-        const auto [first, second] = divided(*largest, depth);
-        *largest = first;
+        Part *const next = next_of(children.all(), depth);
+        if (next == nullptr)
+            break;
+        auto [first, second] = divided(*next, depth);
+        for (Part *const part : {&first, &second})
+            if (part->items.size() > 1 && part->centres.is_point() && depth < free_depth)
+                *part = without_twins(*part, rules);
+        *next = first;
         children.add(second);
     }
     return children;
@@ -252,7 +275,7 @@ TreeShape tree_shape(std::vector<TreeItem> items, const TreeRules &rules) {
         const Task task = tasks.back();
         tasks.pop_back();
         shape.depth = std::max(shape.depth, task.depth);
-        Children children = children_of(without_twins(task.part, rules), task.depth);
+        Children children = children_of(task.part, rules, task.depth);
 
         TreeLinks &links = shape.nodes[task.node];
         links.first_child = static_cast<std::uint32_t>(shape.nodes.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -34,8 +35,9 @@ struct TreeShape {
 
 // What else the shape depends on.
 struct TreeRules {
-    // Whether nothing tells two spheres apart: of such twins the one with the lower number is kept.
-    std::function<bool(std::uint32_t, std::uint32_t)> are_twins;
+    // Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number is
+    // kept.
+    std::function<std::strong_ordering(std::uint32_t, std::uint32_t)> order;
     // Called now and then with the share of the spheres that have their places. What it throws ends the work.
     std::function<void(double)> progress;
 };

@@ -4,9 +4,12 @@
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <cstddef>
+#include <limits>
 
 namespace pt {
 
@@ -35,19 +38,22 @@ void for_each_of(const SphereSource &spheres, std::span<const std::uint32_t> lef
 struct SphereTree::Extent {
     glm::dvec3 low{std::numeric_limits<double>::infinity()};
     glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    double largest_radius = 0.0;
     bool moves = false;
 
     void add(const Sphere &sphere) {
         const glm::dvec3 end = sphere.center + sphere.motion;
         low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
         high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
+        largest_radius = std::max(largest_radius, sphere.radius);
         moves = moves || sphere.motion != glm::dvec3(0.0);
     }
 
-    // With a step more than needed on either side, for rounding to places.
+    // With a step more than needed on either side, for rounding to places. Of balls that are all but points where they are
+    // the box may be nothing but rounding.
     Grid grid() const {
         const glm::dvec3 half = 0.5 * high - 0.5 * low;
-        return {0.5 * low + 0.5 * high, std::max({half.x, half.y, half.z}) * (1.0 + 0x1p-28)};
+        return {0.5 * low + 0.5 * high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};
     }
 
     static Extent of(const SphereSource &spheres, std::span<const std::uint32_t> left_out) {
@@ -60,9 +66,37 @@ struct SphereTree::Extent {
 
 namespace {
 
+glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
+    return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
+}
+
+glm::uvec4 motion_word(const Sphere &sphere) {
+    const glm::vec3 way = glm::vec3(sphere.motion) + 0.0F; // -0 is made +0, for twins
+    return {std::bit_cast<std::uint32_t>(way.x), std::bit_cast<std::uint32_t>(way.y),
+            std::bit_cast<std::uint32_t>(way.z), 0};
+}
+
+glm::ivec3 centre_of(const glm::uvec4 &word) {
+    return {std::bit_cast<int>(word.x), std::bit_cast<int>(word.y), std::bit_cast<int>(word.z)};
+}
+
+glm::dvec3 way_of(const glm::uvec4 &word) {
+    return {std::bit_cast<float>(word.x), std::bit_cast<float>(word.y), std::bit_cast<float>(word.z)};
+}
+
+// What the kernel has of a sphere.
+std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid) {
+    const glm::uvec4 place = sphere_word(sphere, grid);
+    const glm::uvec4 motion = motion_word(sphere);
+    return {place.x, place.y, place.z, place.w, motion.x, motion.y, motion.z};
+}
+
+// Of the sphere as the kernel has it, so that twins have equal ones.
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
-    const glm::vec3 centre((sphere.center + 0.5 * sphere.motion - grid.middle) / grid.step);
-    const double radius = sphere.radius + 0.5 * glm::length(sphere.motion);
+    const glm::uvec4 word = sphere_word(sphere, grid);
+    const glm::dvec3 half_way = 0.5 * way_of(motion_word(sphere));
+    const glm::vec3 centre(glm::dvec3(centre_of(word)) + half_way / grid.step);
+    const double radius = double{std::bit_cast<float>(word.w)} + glm::length(half_way);
     return {centre.x, centre.y, centre.z, static_cast<float>(radius / grid.step)};
 }
 
@@ -75,28 +109,10 @@ std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std:
     return items;
 }
 
-glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
-    return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
-}
-
 // Ten bits for the root of each component, which keep dark colours apart as well as bright ones.
 std::uint32_t color_word(const glm::vec3 &color) {
     const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
     return steps.r | steps.g << 10 | steps.b << 20;
-}
-
-glm::uvec4 motion_word(const Sphere &sphere) {
-    const glm::vec3 way(sphere.motion);
-    return {std::bit_cast<std::uint32_t>(way.x), std::bit_cast<std::uint32_t>(way.y),
-            std::bit_cast<std::uint32_t>(way.z), 0};
-}
-
-glm::ivec3 centre_of(const glm::uvec4 &word) {
-    return {std::bit_cast<int>(word.x), std::bit_cast<int>(word.y), std::bit_cast<int>(word.z)};
-}
-
-glm::dvec3 way_of(const glm::uvec4 &word) {
-    return {std::bit_cast<float>(word.x), std::bit_cast<float>(word.y), std::bit_cast<float>(word.z)};
 }
 
 } // namespace
@@ -110,11 +126,10 @@ SphereTree::SphereTree(const Extent &extent, const SphereSource &spheres, std::s
     grid_(extent.grid()),
     moves_(extent.moves),
     has_colors_(spheres.has_colors()) {
-    const auto are_twins = [&](std::uint32_t a, std::uint32_t b) {
-        return sphere_word(spheres[a], grid_) == sphere_word(spheres[b], grid_) &&
-               motion_word(spheres[a]) == motion_word(spheres[b]);
+    const auto order = [&](std::uint32_t a, std::uint32_t b) {
+        return words_of(spheres[a], grid_) <=> words_of(spheres[b], grid_);
     };
-    TreeShape shape = tree_shape(items_of(spheres, left_out, grid_), {are_twins, progress});
+    TreeShape shape = tree_shape(items_of(spheres, left_out, grid_), {order, progress});
     depth_ = shape.depth;
     write_spheres(spheres, materials, shape);
     shape.spheres = {};
@@ -253,7 +268,9 @@ bool SphereTree::finds_close_lamps() const {
             const double difference = apart + std::abs(sphere.radius - other.radius);
             return other_place != place && difference < two_spheres * std::min(sphere.radius, other.radius);
         };
-        if (any_in(box_of_place(place), is_close))
+        // A sphere that nearly coincides with the lamp holds its centre.
+        const glm::ivec3 centre = centre_of(words_[first_sphere_ + place]);
+        if (any_in({centre, centre}, is_close))
             return true;
     }
     return false;

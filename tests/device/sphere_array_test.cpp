@@ -99,7 +99,7 @@ struct Heap {
     }
 };
 
-// Without a tree, which holds colours less precisely than materials.
+// Without a tree, in which colours are rounded (tree_render_test.cpp).
 class SphereArrayRender : public ContextFixture {
 protected:
     Context create_fixtures_context() override {

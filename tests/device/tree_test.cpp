@@ -107,4 +107,48 @@ TEST(Tree, WalksFindWhatTestingEverySphereFinds) {
     EXPECT_GT(caught, scene_count() / 4) << "boxes that are too small are not noticed";
 }
 
+// A heap of balls that overlap, with a lamp, at the end of a floor on which the camera is 10^5 times as far away: in the
+// middle of a narrow view, where nearly all depths are rounded to a few, and at the horizon of a wide one.
+TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
+    TreeScenes scenes(9);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(20.0F), 0.0F},
+                       {glm::vec3(0.7F, 0.4F, 0.2F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    scene.planes.push_back({{0, 1, 0}, 2.5, 1});
+    for (std::uint32_t i = 0; i < 90; ++i)
+        scene.spheres.push_back({{scenes.uniform(-2, 2), scenes.uniform(-2, 2), scenes.uniform(-2, 2)},
+                                 scenes.uniform(0.1, 0.9),
+                                 glm::dvec3(0.0),
+                                 i == 40 ? 0U : 1U});
+    for (const double tan_half_fov : {1e-5, 0.5}) {
+        const pt::Camera camera{{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
+        EXPECT_TRUE(compare(scene, camera).same) << tan_half_fov;
+    }
+}
+
+// More spheres than a driver follows loop trips, all of them tested: what it cuts is told.
+TEST(Tree, WalksThatADriverCutsAreTold) {
+    const std::uint64_t budget = probe_device().limits().loop_trip_budget;
+    if (budget > 1'000'000)
+        GTEST_SKIP() << "this driver does not end loops";
+    TreeScenes scenes(10);
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(1.0F), 0.0F},
+                       {glm::vec3(0.5F), glm::vec3(0.0F), glm::vec3(0.0F), 0.0F}};
+    for (std::uint64_t i = 0; i < 2 * budget; ++i)
+        scene.spheres.push_back(
+            {{scenes.uniform(-2, 2), scenes.uniform(-2, 2), 0}, 1e-3, glm::dvec3(0.0), i == 0 ? 0U : 1U});
+    const std::vector<pt_sphere> spheres_of_caller = caller_spheres(scene.spheres);
+    const pt::PreparedScene prepared({scene.materials, {spheres_of_caller, {}}, {}}, 1);
+    const pt::Camera camera{{0, 0, 5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+    KernelRender render(pt::gpu_scene(prepared, camera, KernelRender::settings(2)));
+    render.take(1);
+    Probe probe = render.probe_of_tree();
+    const FilmWords walked = render.film_by(probe);
+    EXPECT_NO_THROW(render.radiance(walked));
+    open_boxes(render.tree(), prepared.tree->node_count());
+    const FilmWords cut = render.film_by(probe);
+    EXPECT_ANY_THROW(render.radiance(cut)) << (cut == walked ? "nothing was cut" : "what was cut was not told");
+}
+
 } // namespace

@@ -135,7 +135,8 @@ typedef struct pt_sphere_array {
     pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
     pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
     /** R, G, B in [0, 1], by which the diffuse of the sphere's material is multiplied; FLOAT32 or FLOAT64, linear like all
-     * colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. */
+     * colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. Held to a
+     * thousandth where spheres are in a tree (PT_FEATURE_TREE). */
     pt_column color;
 } pt_sphere_array;
 

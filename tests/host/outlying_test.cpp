@@ -1,0 +1,68 @@
+// Which spheres are kept out of a tree.
+#include "lib/tree/outlying.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+namespace outlying {
+
+namespace {
+
+std::vector<pt_sphere> heap(std::size_t count) {
+    std::mt19937 engine(11);
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    std::vector<pt_sphere> spheres;
+    for (std::size_t i = 0; i < count; ++i)
+        spheres.push_back({{share(engine), share(engine), share(engine)}, 0.1, {0, 0, 0}, 0, 0});
+    return spheres;
+}
+
+std::vector<std::uint32_t> outlying_of(const std::vector<pt_sphere> &spheres) {
+    return pt::outlying_spheres(pt::SphereSource(spheres, {}));
+}
+
+using Indices = std::vector<std::uint32_t>;
+
+TEST(Outlying, AreAGroundASunAndWhatMovesFarAway) {
+    std::vector<pt_sphere> spheres = heap(1000);
+    EXPECT_EQ(outlying_of(spheres), Indices());
+    spheres[3] = {{0, -1e6, 0}, 1e6 - 1, {0, 0, 0}, 0, 0};
+    EXPECT_EQ(outlying_of(spheres), Indices({3}));
+    spheres[900] = {{0, 1e9, 0}, 1, {0, 0, 0}, 0, 0};
+    spheres[0].motion[1] = 1000;
+    EXPECT_EQ(outlying_of(spheres), Indices({0, 3, 900}));
+    spheres[1].center[0] = 15; // not 16 times as far as the others
+    EXPECT_EQ(outlying_of(spheres), Indices({0, 3, 900}));
+}
+
+TEST(Outlying, AreSixteenAtTheMost) {
+    for (const std::uint32_t far : {15U, 16U, 17U}) {
+        std::vector<pt_sphere> spheres = heap(100);
+        Indices expected;
+        for (std::uint32_t i = 0; i < far; ++i) {
+            spheres[5 * i].center[0] = 1e4 + i;
+            expected.push_back(5 * i);
+        }
+        EXPECT_EQ(outlying_of(spheres), far <= 16 ? expected : Indices()) << far;
+    }
+}
+
+TEST(Outlying, LeaveHalfOfTheSpheres) {
+    std::vector<pt_sphere> spheres = heap(1);
+    EXPECT_EQ(outlying_of(spheres), Indices());
+    spheres.push_back({{1e6, 0, 0}, 1, {0, 0, 0}, 0, 0});
+    EXPECT_LE(outlying_of(spheres).size(), 1U);
+    EXPECT_EQ(outlying_of(std::vector<pt_sphere>(50, spheres[0])), Indices()) << "all are equal";
+    for (const std::size_t count : {2U, 3U, 7U, 40U}) {
+        std::vector<pt_sphere> progression = heap(count);
+        for (std::size_t i = 0; i < count; ++i)
+            progression[i].center[0] = std::pow(100.0, static_cast<double>(i % 8));
+        EXPECT_LE(outlying_of(progression).size(), count / 2);
+    }
+}
+
+} // namespace
+
+} // namespace outlying

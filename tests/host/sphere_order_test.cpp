@@ -1,0 +1,176 @@
+// The shape of a tree: every sphere has one place, links are in order, and no input makes the tree deeper than the
+// kernel's stack.
+#include "lib/tree/sphere_order.h"
+#include "shaders/gpu_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sphere_orders {
+
+namespace {
+
+using Ball = std::array<float, 4>;
+
+std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball(std::uint32_t)> &ball) {
+    std::vector<pt::TreeItem> items;
+    for (std::uint32_t i = 0; i < count; ++i)
+        items.push_back({ball(i), i});
+    return items;
+}
+
+pt::TreeRules no_twins() {
+    return {[](std::uint32_t a, std::uint32_t b) { return a <=> b; }, [](double) {}};
+}
+
+// Links consecutive in order of the nodes, each node but the root a child of one before it, and depth as is told.
+void expect_well_linked(const pt::TreeShape &shape) {
+    std::vector<std::uint32_t> depths(shape.nodes.size(), 0);
+    std::vector<bool> placed(shape.spheres.size());
+    depths[0] = 1;
+    std::uint32_t deepest = 0;
+    for (std::size_t node = 0; node < shape.nodes.size(); ++node) {
+        const pt::TreeLinks &links = shape.nodes[node];
+        ASSERT_GT(depths[node], 0U) << "a node before the one whose child it is";
+        deepest = std::max(deepest, depths[node]);
+        ASSERT_LE(links.inner_count, links.child_count);
+        ASSERT_LE(links.child_count, pt::tree_width);
+        ASSERT_GE(links.child_count, shape.nodes.size() > 1 ? 2 : 1);
+        for (std::uint32_t i = 0; i < links.inner_count; ++i) {
+            ASSERT_GT(links.first_child + i, node);
+            ASSERT_LT(links.first_child + i, shape.nodes.size());
+            ASSERT_EQ(depths[links.first_child + i], 0U) << "a child of two nodes";
+            depths[links.first_child + i] = depths[node] + 1;
+        }
+        for (std::uint32_t i = links.inner_count; i < links.child_count; ++i) {
+            const std::uint32_t place = links.first_place + i - links.inner_count;
+            ASSERT_LT(place, placed.size());
+            ASSERT_FALSE(placed[place]) << "a place of two nodes";
+            placed[place] = true;
+        }
+    }
+    EXPECT_TRUE(std::ranges::all_of(placed, [](bool is) { return is; }));
+    EXPECT_EQ(shape.depth, deepest);
+    EXPECT_LE(shape.depth, pt::gpu::TREE_STACK_SIZE);
+}
+
+void expect_each_once(std::vector<std::uint32_t> spheres, std::uint32_t count) {
+    ASSERT_EQ(spheres.size(), count);
+    std::ranges::sort(spheres);
+    for (std::uint32_t i = 0; i < count; ++i)
+        ASSERT_EQ(spheres[i], i);
+}
+
+struct Kind {
+    const char *name;
+    std::function<Ball(std::uint32_t)> ball;
+};
+
+constexpr std::uint32_t many = 100'000;
+
+std::vector<Kind> kinds() {
+    const auto share = [](std::uint32_t i) { return static_cast<float>(i) / static_cast<float>(many); };
+    return {{"one point",
+             [=](std::uint32_t i) {
+                 return Ball{1, 2, 3, 1 + share(i)};
+             }},
+            {"one point, radii in progression",
+             [=](std::uint32_t i) {
+                 return Ball{0, 0, 0, std::exp2(20 * share(i))};
+             }},
+            {"equal",
+             [](std::uint32_t) {
+                 return Ball{1, 2, 3, 4};
+             }},
+            {"progression",
+             [=](std::uint32_t i) {
+                 return Ball{std::exp2(120 * share(i) - 90), 0, 0, 1e-30F};
+             }},
+            {"progression of balls that touch",
+             [=](std::uint32_t i) {
+                 const float x = std::exp2(60 * share(i) - 30);
+                 return Ball{x, 0, 0, x * 1e-4F};
+             }},
+            {"progression in space",
+             [=](std::uint32_t i) {
+                 const float x = std::exp2(60 * share(i) - 30);
+                 return Ball{i % 3 == 0 ? x : 0, i % 3 == 1 ? x : 0, i % 3 == 2 ? x : 0, x * 0.1F};
+             }},
+            {"progression of points, each many times",
+             [](std::uint32_t i) {
+                 return Ball{std::exp2(static_cast<float>(i % 60)), 0, 0, 1.0F};
+             }},
+            {"line",
+             [=](std::uint32_t i) {
+                 return Ball{share(i), 0, 0, 1e-6F};
+             }},
+            {"line backwards",
+             [=](std::uint32_t i) {
+                 return Ball{0, -share(i), 0, 1e-6F};
+             }},
+            {"one huge",
+             [=](std::uint32_t i) {
+                 return Ball{share(i * 7919 % many), share(i), 0, i == 5 ? 1e9F : 1e-3F};
+             }},
+            {"two heaps", [=](std::uint32_t i) {
+                 return Ball{(i % 2 == 0 ? 1e9F : 0) + share(i), 0, 0, 1};
+             }}};
+}
+
+TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
+    for (const Kind &kind : kinds())
+        for (const std::uint32_t count : {1U, 2U, 4U, 5U, 17U, 1000U, many}) {
+            SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(count));
+            const pt::TreeShape shape = pt::tree_shape(items_of(count, kind.ball), no_twins());
+            expect_each_once(shape.spheres, count);
+            expect_well_linked(shape);
+        }
+}
+
+// Of three kinds of spheres at each of a few points, in turns: the first of each kind stays, also where the tree is deep.
+TEST(SphereOrder, LeavesTheFirstOfTwins) {
+    constexpr std::uint32_t different = 3 * 50;
+    const auto ball = [](std::uint32_t i) {
+        const std::uint32_t point = i % different / 3;
+        return Ball{std::exp2(2.0F * static_cast<float>(point) - 60.0F), 0, 0, 1e-20F};
+    };
+    const auto kind = [](std::uint32_t i) { return i % different; };
+    pt::TreeRules rules = no_twins();
+    rules.order = [&](std::uint32_t a, std::uint32_t b) { return kind(a) <=> kind(b); };
+    const pt::TreeShape shape = pt::tree_shape(items_of(20 * different, ball), rules);
+    expect_each_once(shape.spheres, different);
+    expect_well_linked(shape);
+}
+
+TEST(SphereOrder, TellsItsProgress) {
+    const auto ball = [](std::uint32_t i) { return Ball{static_cast<float>(i), 0, 0, 1}; };
+    double share = 0.0;
+    int calls = 0;
+    pt::TreeRules rules = no_twins();
+    rules.progress = [&](double now) {
+        EXPECT_GE(now, share);
+        share = now;
+        ++calls;
+    };
+    pt::tree_shape(items_of(1000, ball), rules);
+    EXPECT_EQ(share, 1.0);
+    EXPECT_GT(calls, 100);
+    rules.progress = [&](double now) {
+        if (now > 0.5)
+            throw std::runtime_error("that is enough");
+    };
+    EXPECT_THROW(pt::tree_shape(items_of(1000, ball), rules), std::runtime_error);
+}
+
+} // namespace
+
+} // namespace sphere_orders

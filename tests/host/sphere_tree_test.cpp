@@ -1,0 +1,245 @@
+// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and what is known
+// of a camera errs on the safe side.
+#include "lib/tree/sphere_tree.h"
+#include "lib/tree/tree_node.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace sphere_trees {
+
+namespace {
+
+const std::vector<pt::TreeMaterial> two_materials = {{0, false}, {1, true}};
+
+std::vector<pt_sphere> heap(std::size_t count, double motion) {
+    std::mt19937 engine(17);
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    std::vector<pt_sphere> spheres;
+    for (std::size_t i = 0; i < count; ++i)
+        spheres.push_back({{5 + share(engine), share(engine), share(engine) - 3},
+                           0.01 * std::exp(2.0 * share(engine)),
+                           {motion * share(engine), motion * share(engine), 0},
+                           i % 10 == 3 ? 1U : 0U,
+                           0});
+    return spheres;
+}
+
+pt::SphereTree tree_of(const std::vector<pt_sphere> &spheres) {
+    return {pt::SphereSource(spheres, {}), {}, two_materials, [](double) {}};
+}
+
+pt::Camera camera_at(const glm::dvec3 &position, double open = 0.0, double close = 1.0) {
+    return {position, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, open, close};
+}
+
+// What the buffer has of a place.
+struct Held {
+    glm::ivec3 centre;
+    glm::dvec3 way; // in steps
+    double radius;  // in steps
+};
+
+Held held(const pt::SphereTree &tree, std::uint32_t place) {
+    const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
+    const glm::uvec4 &word = tree.words()[frame.first_sphere + place];
+    const double step = tree.grid().step;
+    Held sphere{glm::ivec3(word.x, word.y, word.z), glm::dvec3(0.0), double{std::bit_cast<float>(word.w)} / step};
+    if (tree.moves()) {
+        const glm::uvec4 &way = tree.words()[frame.first_motion + place];
+        for (int axis = 0; axis < 3; ++axis)
+            sphere.way[axis] = double{std::bit_cast<float>(way[axis])} / step;
+    }
+    return sphere;
+}
+
+void expect_holds(const pt::GridBox &box, const Held &sphere) {
+    for (const double time : {0.0, 0.3, 1.0}) {
+        const glm::dvec3 centre = glm::dvec3(sphere.centre) + time * sphere.way;
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::dvec3(box.low), centre - sphere.radius)));
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(centre + sphere.radius, glm::dvec3(box.high))));
+    }
+}
+
+// Goes down from a node with the boxes on the way to it. Tells how many spheres it has met.
+std::size_t expect_boxes_hold(const pt::SphereTree &tree, std::uint32_t node, std::vector<pt::GridBox> &boxes) {
+    const std::span<const glm::uvec4> words(tree.words());
+    const pt::TreeNodeView view(words.subspan(std::size_t{node} * pt::gpu::TREE_NODE_WORDS));
+    std::size_t met = 0;
+    for (std::uint32_t child = 0; child < view.child_count(); ++child) {
+        boxes.push_back(view.box(child));
+        if (child < view.inner_count()) {
+            met += expect_boxes_hold(tree, view.first_child() + child, boxes);
+        } else {
+            const Held sphere = held(tree, view.first_place() + child - view.inner_count());
+            for (const pt::GridBox &box : boxes)
+                expect_holds(box, sphere);
+            ++met;
+        }
+        boxes.pop_back();
+    }
+    return met;
+}
+
+TEST(SphereTree, BoxesHoldTheirSpheresAtAllTimes) {
+    for (const double motion : {0.0, 1e-3, 2.0}) {
+        const pt::SphereTree tree = tree_of(heap(2000, motion));
+        EXPECT_EQ(tree.sphere_count(), 2000U);
+        EXPECT_EQ(tree.moves(), motion > 0.0);
+        std::vector<pt::GridBox> boxes;
+        EXPECT_EQ(expect_boxes_hold(tree, 0, boxes), 2000U);
+    }
+}
+
+// Coordinates within reach but for the rounding of radii and ways to floats: half of 2^-23 of up to 2^30 steps each.
+TEST(SphereTree, StaysWithinReach) {
+    for (const double scale : {1e-18, 1.0, 1e17})
+        for (const double motion : {0.0, 1.0}) {
+            std::vector<pt_sphere> spheres = heap(100, motion);
+            for (pt_sphere &sphere : spheres) {
+                sphere.radius *= scale;
+                for (int axis = 0; axis < 3; ++axis) {
+                    sphere.center[axis] *= scale;
+                    sphere.motion[axis] *= scale;
+                }
+            }
+            spheres[0].radius = 3 * scale / 1.0000003;
+            const pt::SphereTree tree = tree_of(spheres);
+            const pt::PointBox bounds = tree.bounds();
+            const double reach = (pt::Grid::reach + 98.0) * tree.grid().step;
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_LE(bounds.high[axis] - tree.grid().middle[axis], reach);
+                EXPECT_GE(bounds.low[axis] - tree.grid().middle[axis], -reach);
+            }
+        }
+}
+
+// Balls so small that double precision hardly tells where they are: steps are no larger for it.
+TEST(SphereTree, HasStepsThatSuitBallsAllInOnePoint) {
+    std::vector<pt_sphere> spheres;
+    for (int i = 0; i < 40; ++i)
+        spheres.push_back({{1e6, 0, 0}, 1e-12 * (40 + i), {0, 0, 0}, 0, 0});
+    EXPECT_LT(tree_of(spheres).grid().step, 1e-18);
+}
+
+TEST(SphereTree, NumbersLampsInTheScenesOrder) {
+    const std::vector<pt_sphere> spheres = heap(500, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    ASSERT_EQ(tree.lamp_materials(), std::vector<std::uint32_t>(50, 1));
+    const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
+    for (std::uint32_t lamp = 0; lamp < 50; ++lamp) {
+        const glm::uvec4 &word = tree.words()[frame.first_lamp + lamp];
+        const pt_sphere &sphere = spheres[10 * lamp + 3];
+        EXPECT_EQ(held(tree, word.x).centre, tree.grid().place({sphere.center[0], sphere.center[1], sphere.center[2]}));
+        EXPECT_EQ(word.y, 1U);
+        EXPECT_EQ(tree.words()[frame.first_surface + word.x / 4][static_cast<int>(word.x % 4)],
+                  pt::gpu::TREE_LAMP_BIT + lamp);
+    }
+}
+
+// Twins among balls that float32 takes for them: that move to and fro along the same way, or are a step of the grid apart.
+TEST(SphereTree, KeepsTheFirstOfTwins) {
+    std::vector<pt_sphere> spheres = heap(100, 0.0);
+    spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps
+    const pt_sphere forth{{5.5, 0, -3}, 0.1, {0.25, 0, 0}, 0, 0};
+    const pt_sphere back{{5.75, 0, -3}, 0.1, {-0.25, -0.0, 0}, 0, 0};
+    for (int i = 0; i < 5; ++i) {
+        spheres.push_back(forth);
+        spheres.back().center[0] += i * 1e-12; // the same place
+        spheres.back().material = i == 0 ? 1 : 0;
+        spheres.push_back(back);
+        spheres.back().motion[2] = i % 2 == 0 ? 0.0 : -0.0;
+    }
+    const pt::SphereTree tree = tree_of(spheres);
+    EXPECT_EQ(tree.sphere_count(), 102U);
+    EXPECT_EQ(tree.lamp_materials().size(), 11U) << "not the first one was kept";
+}
+
+TEST(SphereTree, TellsWhetherItMayHoldACamera) {
+    std::vector<pt_sphere> spheres = heap(300, 0.0);
+    spheres.push_back({{20, 0, 0}, 2, {0, 0, 0}, 0, 0});
+    spheres.push_back({{0, 30, 0}, 1, {10, 0, 0}, 0, 0});
+    const pt::SphereTree tree = tree_of(spheres);
+    EXPECT_TRUE(tree.may_hold(camera_at({20, 0, 0})));
+    EXPECT_TRUE(tree.may_hold(camera_at({20, 1.9, 0})));
+    EXPECT_TRUE(tree.may_hold(camera_at({20, 2.0 * (1.0 + 0x1p-17), 0}))) << "float32 may not tell";
+    EXPECT_FALSE(tree.may_hold(camera_at({20, 2.0 * (1.0 + 0x1p-14), 0})));
+    EXPECT_FALSE(tree.may_hold(camera_at({1e12, 0, 0})));
+    EXPECT_FALSE(tree.may_hold(camera_at({-1e300, 1e300, 0})));
+    const glm::dvec3 on_the_way(5, 30.5, 0);
+    EXPECT_TRUE(tree.may_hold(camera_at(on_the_way)));
+    EXPECT_TRUE(tree.may_hold(camera_at(on_the_way, 0.5, 0.5)));
+    EXPECT_TRUE(tree.may_hold(camera_at(on_the_way, 0.3, 0.6)));
+    EXPECT_FALSE(tree.may_hold(camera_at(on_the_way, 0.0, 0.2)));
+    EXPECT_FALSE(tree.may_hold(camera_at(on_the_way, 0.7, 1.0)));
+}
+
+TEST(SphereTree, KnowsLampsThatNearlyCoincideWithSpheres) {
+    std::vector<pt_sphere> spheres;
+    for (int i = 0; i < 40; ++i)
+        spheres.push_back({{3.0 * i, 0, 0}, 1, {0, 0, 0}, i == 20 ? 1U : 0U, 0});
+    EXPECT_FALSE(tree_of(spheres).has_close_lamps());
+    spheres.push_back({{3, 0.01, 0}, 1, {0, 0, 0}, 0, 0});
+    EXPECT_FALSE(tree_of(spheres).has_close_lamps()) << "neither is a lamp";
+    for (const double apart : {0.24, 0.26}) {
+        spheres.back() = {{60, apart, 0}, 1, {0, 0, 0}, 0, 0};
+        EXPECT_EQ(tree_of(spheres).has_close_lamps(), apart < 0.25) << "beside it by " << apart;
+        spheres.back() = {{60, 0, 0}, 1 + apart, {0, 0, 0}, 0, 0};
+        EXPECT_EQ(tree_of(spheres).has_close_lamps(), apart < 0.25) << "about it by " << apart;
+        spheres.back() = {{60, 0, 0}, 1, {0, apart, 0}, 0, 0};
+        EXPECT_EQ(tree_of(spheres).has_close_lamps(), apart < 0.25) << "moves by " << apart;
+    }
+}
+
+// 16 bytes and 4 of material, and with all four children there is a node of 48 for three spheres; with some empty, for two.
+TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
+    std::vector<pt_sphere> spheres = heap(100'000, 0.0);
+    for (pt_sphere &sphere : spheres)
+        sphere.material = 0;
+    const std::size_t plain = tree_of(spheres).words().size() * sizeof(glm::uvec4);
+    EXPECT_LE(plain, 48U * spheres.size() + 1024);
+
+    std::vector<float> colors(3 * spheres.size(), 0.5F);
+    pt_sphere_array array{};
+    array.struct_size = sizeof array;
+    array.count = static_cast<std::uint32_t>(spheres.size());
+    array.center = {spheres[0].center, sizeof spheres[0], PT_TYPE_FLOAT64};
+    array.radius = {&spheres[0].radius, sizeof spheres[0], PT_TYPE_FLOAT64};
+    array.color = {colors.data(), 12, PT_TYPE_FLOAT32};
+    const pt::SphereTree colored(pt::SphereSource({}, {&array, 1}), {}, two_materials, [](double) {});
+    EXPECT_EQ(colored.words().size() * sizeof(glm::uvec4), plain + 4 * spheres.size());
+    const pt::gpu::TreeFrame frame = colored.frame(camera_at(glm::dvec3(0.0)));
+    // The root of 1/2 times 1023 is 723.4.
+    EXPECT_EQ(colored.words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
+}
+
+// (p - camera) step + shift, evaluated in double, is off by no more than the rounding of shift to a float; of a camera far
+// away shift is about the distance.
+TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
+    const std::vector<pt_sphere> spheres = heap(100, 0.0);
+    const pt::SphereTree tree = tree_of(spheres);
+    const double step = tree.grid().step;
+    for (const glm::dvec3 &position : {glm::dvec3(5, 0.1, -3), glm::dvec3(6.1, 0.3, -2), glm::dvec3(5, 3, 1e3)}) {
+        const pt::gpu::TreeFrame frame = tree.frame(camera_at(position));
+        const bool far = position.z > 100;
+        EXPECT_EQ(frame.camera == glm::ivec3(0), far);
+        const double bound = 0.5 * step + (far ? 0x1p-24 * 1e3 : 0x1p-24 * step) + 1e-15;
+        for (const std::uint32_t lamp : {0U, 4U, 9U}) {
+            const std::uint32_t place = tree.words()[frame.first_lamp + lamp].x;
+            const glm::dvec3 from_camera =
+                glm::dvec3(held(tree, place).centre - frame.camera) * step + glm::dvec3(frame.shift);
+            const pt_sphere &sphere = spheres[10 * lamp + 3];
+            for (int axis = 0; axis < 3; ++axis)
+                EXPECT_LE(std::abs(from_camera[axis] - (sphere.center[axis] - position[axis])), bound);
+        }
+    }
+}
+
+} // namespace
+
+} // namespace sphere_trees
