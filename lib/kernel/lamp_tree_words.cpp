@@ -94,9 +94,9 @@ Node node_of(std::span<const Lamp> lamps) {
     return node;
 }
 
-class Writer {
+class LampTreeWriter {
 public:
-    Writer(std::span<glm::vec4> words, bool motion) : words_(words), motion_(motion) {}
+    LampTreeWriter(std::span<glm::vec4> words, bool motion) : words_(words), motion_(motion) {}
 
     void node(std::uint64_t group, std::uint64_t place, const Node &node) {
         const std::uint64_t word = gpu::lamp_tree_group_words(motion_ ? 1 : 0) * group;
@@ -132,7 +132,7 @@ std::uint64_t lamp_tree_words(std::uint32_t lamp_count, bool motion) {
 void write_lamp_tree(std::span<glm::vec4> words, std::span<const TreeLamp> lamps, bool motion) {
     const LampTreeShape shape(static_cast<std::uint32_t>(lamps.size()));
     const std::vector<Lamp> scaled = scaled_lamps(lamps);
-    Writer writer(words, motion);
+    LampTreeWriter writer(words, motion);
     for (std::uint32_t level = 0; level <= shape.levels(); ++level) {
         const std::uint64_t nodes = 4 * shape.groups_of(level);
         const std::uint64_t slots_of_node = shape.slots() / nodes;
