@@ -66,6 +66,6 @@ struct SpherePlace {
     std::int32_t component; // -1: of no array
 };
 
-SpherePlace place_of_sphere(const Scene &scene, std::size_t index);
+SpherePlace place_of_sphere(const Scene &scene, std::size_t position);
 
 } // namespace pt

@@ -205,8 +205,9 @@ Part without_twins(Part part, const TreeRules &rules) {
     const auto are_twins = [&](const TreeItem &a, const TreeItem &b) {
         return a.centre_radius == b.centre_radius && rules.order(a.sphere, b.sphere) == 0;
     };
-    const auto twins = std::ranges::unique(part.items, are_twins);
-    part.items = part.items.first(part.items.size() - twins.size());
+    // Not of std::ranges: what that returns is more than Clang 14 can take.
+    const auto twins = std::unique(part.items.begin(), part.items.end(), are_twins);
+    part.items = part.items.first(static_cast<std::size_t>(twins - part.items.begin()));
     return part;
 }
 
