@@ -1,7 +1,6 @@
 // Finds what does not depend on the camera; see prepared_scene.h.
 #include "lib/kernel/prepared_scene.h"
 
-#include "lib/base/digest.h"
 #include "lib/scene/lamp_tree.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/twins.h"
@@ -56,12 +55,8 @@ std::string digest_with_tree(const PreparedScene &prepared) {
     digest.add(prepared.tree->grid().step);
     for (const glm::uvec4 &word : prepared.tree->words())
         digest.add(std::span<const std::uint32_t>(&word.x, 4));
-    for (const Material &material : prepared.used_materials) {
-        digest.add(material.diffuse);
-        digest.add(material.specular);
-        digest.add(material.emission);
-        digest.add(static_cast<double>(material.glossiness));
-    }
+    for (const Material &material : prepared.used_materials)
+        add(digest, material);
     return digest.text();
 }
 

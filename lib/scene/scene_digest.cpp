@@ -1,7 +1,6 @@
 // Tells scenes apart by what is in them; see scene_digest.h.
 #include "lib/scene/scene_digest.h"
 
-#include "lib/base/digest.h"
 #include "lib/scene/distinct_materials.h"
 
 #include <vector>
@@ -23,7 +22,7 @@ public:
         const bool is_first = numbers_[material] == unknown && number(material);
         digest_.add(std::uint64_t{numbers_[material]});
         if (is_first)
-            add(materials_[material]);
+            pt::add(digest_, materials_[material]);
     }
 
 private:
@@ -36,13 +35,6 @@ private:
         return first == index;
     }
 
-    void add(const Material &material) {
-        digest_.add(material.diffuse);
-        digest_.add(material.specular);
-        digest_.add(material.emission);
-        digest_.add(static_cast<double>(material.glossiness));
-    }
-
     Digest &digest_;
     const std::vector<Material> &materials_;
     DistinctMaterials distinct_;
@@ -51,6 +43,13 @@ private:
 };
 
 } // namespace
+
+void add(Digest &digest, const Material &material) {
+    digest.add(material.diffuse);
+    digest.add(material.specular);
+    digest.add(material.emission);
+    digest.add(static_cast<double>(material.glossiness));
+}
 
 std::string digest_of(const Scene &scene) {
     Digest digest;

@@ -1,6 +1,7 @@
 // The digest of a scene, by which films tell whether they show the same one.
 #pragma once
 
+#include "lib/base/digest.h"
 #include "lib/scene/scene.h"
 
 #include <string>
@@ -11,5 +12,8 @@ namespace pt {
 // which materials no surface has, and in which order, or how often, the others are listed, does not matter.
 // Takes almost as long as pt_set_scene: 0.4 ms for 10,000 spheres.
 std::string digest_of(const Scene &scene);
+
+// Adds all of a material to a digest.
+void add(Digest &digest, const Material &material);
 
 } // namespace pt

@@ -19,10 +19,6 @@ namespace {
 constexpr double same_size = 0x1p-18;
 // Of its distance from the camera: four times the spacing of the numbers that hold its centre.
 constexpr double same_place = 0x1p-21;
-// Spheres that differ by more than this share of their radii are two, however far away. A distance d is known to a few
-// roundings, 2^-22 d, and that is as much only from d = 2^20 radii on: there the rounding of a centre, 2^-24 d, is a
-// 16th of the radius, and shows whatever is done about twins.
-constexpr double two_spheres = 0.25;
 // Planes that differ by more than this share are told apart by their vertices, whose places are known to 2^-22 of their
 // distance. Planes at this angle to each other are nearer than that in a band of 2^-22 / 2^-8 = 2^-14 of the distance
 // about the line where they meet; parallel ones, this share of the camera's height above them apart, from 2^14 heights

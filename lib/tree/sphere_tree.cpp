@@ -1,6 +1,7 @@
 // Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
+#include "lib/scene/twins.h"
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
@@ -17,9 +18,6 @@ namespace {
 
 // Nearer to a surface than this share of the radius, float32 may take the camera to be on the other side.
 constexpr double margin = 0x1p-16;
-
-// As in twins.cpp.
-constexpr double two_spheres = 0.25;
 
 // Of the spheres that are in the tree: calls use(index, sphere, color) for each, in order.
 template <typename Use>
