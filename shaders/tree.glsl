@@ -2,14 +2,17 @@
 #ifndef TREE_GLSL
 #define TREE_GLSL
 
-layout(set = 0, binding = BINDING_TREE) readonly buffer TreeStorage { uvec4 words[]; } tree;
+layout(set = 0, binding = BINDING_TREE_NODES) uniform usamplerBuffer tree_nodes;
+layout(set = 0, binding = BINDING_TREE_SPHERES) uniform usamplerBuffer tree_spheres;
+
+uvec4 tree_node_word(uint index) { return texelFetch(tree_nodes, int(index)); }
+uvec4 tree_word(uint index) { return texelFetch(tree_spheres, int(index)); }
 
 // The scene buffer's words as they are where they are no floats.
 layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneBits { uvec4 words[]; } scene_bits;
 
 // Of TreeFrame.
 ivec3 tree_camera() { return ivec3(scene_bits.words[TREE_FRAME].xyz); }
-uint tree_first_sphere() { return scene_bits.words[TREE_FRAME].w; }
 vec3 tree_shift() { return scene_storage.words[TREE_FRAME + 1u].xyz; }
 float tree_step() { return scene_storage.words[TREE_FRAME + 1u].w; }
 vec3 tree_middle() { return scene_storage.words[TREE_FRAME + 2u].xyz; }
@@ -23,10 +26,10 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 // Centre and radius of the sphere at a place and a time, as seen from a place of the grid and so many steps from there.
 vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
 {
-    uvec4 word = tree.words[tree_first_sphere() + place];
+    uvec4 word = tree_word(place);
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
     if (MOTION == 1) {
-        vec3 way = uintBitsToFloat(tree.words[tree_first_motion() + place].xyz);
+        vec3 way = uintBitsToFloat(tree_word(tree_first_motion() + place).xyz);
         centre += (tree_shutter_open() + time * tree_shutter_time()) * way;
     }
     return vec4(centre, uintBitsToFloat(word.w));
@@ -40,7 +43,7 @@ vec4 tree_sphere(uint place, float time)
 
 uint tree_surface(uint place)
 {
-    return tree.words[tree_first_surface() + place / 4u][place % 4u];
+    return tree_word(tree_first_surface() + place / 4u)[place % 4u];
 }
 
 // The number among the tree's lamps, or no less than TREE_LAMPS.
@@ -50,20 +53,20 @@ uint tree_lamp(uint place)
     return (word & TREE_LAMP_BIT) != 0u ? word - TREE_LAMP_BIT : NO_SURFACE;
 }
 
-uint tree_lamp_place(uint lamp) { return tree.words[tree_first_lamp() + lamp].x; }
+uint tree_lamp_place(uint lamp) { return tree_word(tree_first_lamp() + lamp).x; }
 
 // The place of a sphere's material in the table.
 uint tree_material(uint place)
 {
     uint word = tree_surface(place);
     bool is_lamp = TREE_LAMPS > 0u && (word & TREE_LAMP_BIT) != 0u;
-    return is_lamp ? tree.words[tree_first_lamp() + (word - TREE_LAMP_BIT)].y : word;
+    return is_lamp ? tree_word(tree_first_lamp() + (word - TREE_LAMP_BIT)).y : word;
 }
 
 // By what the diffuse reflection of its material is multiplied.
 vec3 tree_color(uint place)
 {
-    uint word = tree.words[tree_first_color() + place / 4u][place % 4u];
+    uint word = tree_word(tree_first_color() + place / 4u)[place % 4u];
     vec3 root = vec3(uvec3(word, word >> 10, word >> 20) & TREE_COLOR_STEPS) / float(TREE_COLOR_STEPS);
     return root * root;
 }

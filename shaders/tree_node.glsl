@@ -97,9 +97,9 @@ struct Entered {
 
 Entered enter_node(uint node, GridRay ray, vec3 inverse, float before)
 {
-    uvec4 head = tree.words[3u * node];
-    uvec4 links = tree.words[3u * node + 1u];
-    uvec4 sides = tree.words[3u * node + 2u];
+    uvec4 head = tree_node_word(3u * node);
+    uvec4 links = tree_node_word(3u * node + 1u);
+    uvec4 sides = tree_node_word(3u * node + 2u);
     uvec3 low = uvec3(links.z, links.w, sides.x);
     uvec3 high = sides.yzw;
     bvec3 backwards = lessThan(inverse, vec3(0.0));

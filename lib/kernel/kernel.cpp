@@ -70,16 +70,30 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
-    tree_(tree ? *tree : scene_),
+    tree_(tree),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
             "points of a slice") {
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
-    for (DeviceFilm::Strip &strip : film_.strips()) {
-        // No kernel touches the pass before there is one.
-        const std::array buffers = {&scene_, &scene_, &strip.words, &strip.words, &points_, &tree_};
-        sets_.push_back(trace.bind(buffers));
-    }
+    for (const DeviceFilm::Strip &strip : film_.strips()) // no kernel touches the pass before there is one
+        sets_.push_back(bound(trace, strip, strip.words));
+}
+
+// What reads the tree is not in the kernel of a scene without one, but its bindings are.
+vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip,
+                                    const vulkan::Buffer &pass) const {
+    const vulkan::Buffer &tree = tree_ ? *tree_ : scene_;
+    const std::uint64_t node_bytes = tree_ ? gpu_scene_->tree->node_words().size_bytes() : vulkan::texel_bytes;
+    const std::uint64_t first_sphere = tree_ ? node_bytes : 0;
+    const std::uint64_t sphere_bytes = tree_ ? gpu_scene_->tree->sphere_words().size_bytes() : vulkan::texel_bytes;
+    const std::array ranges = {vulkan::BufferRange(scene_),
+                               vulkan::BufferRange(scene_),
+                               vulkan::BufferRange(strip.words),
+                               vulkan::BufferRange(pass),
+                               vulkan::BufferRange(points_),
+                               vulkan::BufferRange(tree.handle(), 0, node_bytes),
+                               vulkan::BufferRange(tree.handle(), first_sphere, sphere_bytes)};
+    return trace.bind(ranges);
 }
 
 bool Kernel::can_show(const GpuScene &scene) const {
@@ -256,10 +270,8 @@ void Kernel::prepare_pass() {
         return;
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     std::vector<vulkan::DescriptorSet> sets;
-    for (DeviceFilm::Strip &strip : film_.strips()) {
-        const std::array buffers = {&scene_, &scene_, &strip.words, &*strip.pass, &points_, &tree_};
-        sets.push_back(trace.bind(buffers));
-    }
+    for (const DeviceFilm::Strip &strip : film_.strips())
+        sets.push_back(bound(trace, strip, *strip.pass));
     pass_sets_ = std::move(sets);
 }
 

@@ -76,6 +76,8 @@ private:
     std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count, SampleRange hull);
     void upload_points(const std::vector<Batch> &batches);
     void prepare_pass();
+    vulkan::DescriptorSet bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip,
+                                const vulkan::Buffer &pass) const;
     void upload_scene();
     bool scene_fits_commands() const;
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
@@ -96,7 +98,7 @@ private:
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    vulkan::Buffer &tree_;                         // any, where there is none
+    vulkan::Buffer *tree_;                         // NULL if there is none
     vulkan::Buffer points_;                        // tables of the slices under way
     std::vector<vulkan::DescriptorSet> sets_;      // one per strip of the film
     std::vector<vulkan::DescriptorSet> pass_sets_; // likewise with the pass, if there has been one

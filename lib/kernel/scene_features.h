@@ -23,6 +23,7 @@ struct Features {
     std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
     std::uint32_t lamp_count;   // emitting ones of sphere_count, and of the tree, that can be sampled
     std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
+    bool many_spheres;          // so many that paths branch less
     std::uint32_t max_path_length;
     std::uint32_t estimator;
     std::uint32_t sampler;
@@ -67,8 +68,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the
 // noise, and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework
-// scene with six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where scene
-// and path are so long that a sample is a long job by itself, they do not branch: some drivers stop a kernel after
+// scene with six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are
+// many spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
+// share are less of the work: there are 2 branches. Where scene and path are so long that a sample is a long job by itself, they do not branch: some drivers stop a kernel after
 // 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 

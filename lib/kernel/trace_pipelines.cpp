@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,        vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eStorageBuffer,        vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
+                                 vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eUniformTexelBuffer,
+                                 vk::DescriptorType::eUniformTexelBuffer};
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
                                                  std::uint32_t sharers) {

@@ -142,15 +142,16 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
     tree_buffer_.reset();
     if (tree) {
         const auto words = std::as_bytes(std::span(tree->words()));
-        const std::uint64_t limit = device_.limits().max_storage_buffer_range;
-        if (words.size() > limit)
+        const std::size_t needed = std::max(tree->node_words().size(), tree->sphere_words().size());
+        const std::uint64_t limit = device_.limits().max_texel_count;
+        if (needed > limit)
             throw Error(PT_ERROR_UNSUPPORTED,
                         BrokenRule{.subject = "scene",
                                    .member = "sphere_count",
                                    .value = std::to_string(tree->sphere_count()),
-                                   .rule = "the tree over these spheres takes " + std::to_string(words.size()) +
-                                           " bytes, and this device can bind " + std::to_string(limit)});
-        tree_buffer_.emplace(device_, vulkan::BufferUse::Storage, words.size(), "tree");
+                                   .rule = "the tree over these spheres takes " + std::to_string(needed) +
+                                           " texels, and this device can bind " + std::to_string(limit)});
+        tree_buffer_.emplace(device_, vulkan::BufferUse::Texels, words.size(), "tree");
         tree_buffer_->upload(words, 0);
     }
     tree_ = tree;

@@ -145,7 +145,9 @@ void SphereTree::write_spheres(const SphereSource &spheres, std::span<const Tree
 
     sphere_count_ = static_cast<std::uint32_t>(shape.spheres.size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
-    first_sphere_ = static_cast<std::uint32_t>(shape.nodes.size()) * gpu::TREE_NODE_WORDS;
+    node_count_ = static_cast<std::uint32_t>(shape.nodes.size());
+    first_sphere_ =
+        (node_count_ * gpu::TREE_NODE_WORDS + gpu::TREE_ALIGNMENT - 1) / gpu::TREE_ALIGNMENT * gpu::TREE_ALIGNMENT;
     first_motion_ = first_sphere_ + sphere_count_;
     first_surface_ = first_motion_ + (moves_ ? sphere_count_ : 0);
     first_color_ = first_surface_ + quarter;
@@ -281,11 +283,10 @@ gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);
     frame.shift = glm::vec3(grid_.point(frame.camera) - camera.position);
     frame.step = static_cast<float>(grid_.step);
-    frame.first_sphere = first_sphere_;
-    frame.first_motion = first_motion_;
-    frame.first_surface = first_surface_;
-    frame.first_color = first_color_;
-    frame.first_lamp = first_lamp_;
+    frame.first_motion = first_motion_ - first_sphere_;
+    frame.first_surface = first_surface_ - first_sphere_;
+    frame.first_color = first_color_ - first_sphere_;
+    frame.first_lamp = first_lamp_ - first_sphere_;
     frame.middle = glm::vec3(grid_.middle - camera.position);
     frame.shutter_open = static_cast<float>(camera.shutter_open);
     frame.shutter_time = static_cast<float>(camera.shutter_close - camera.shutter_open);

@@ -37,15 +37,17 @@ public:
 
     const Grid &grid() const { return grid_; }
 
-    // The tree buffer of gpu_layout.h.
+    // The tree buffer of gpu_layout.h, all of it, and its parts.
     const std::vector<glm::uvec4> &words() const { return words_; }
+    std::span<const glm::uvec4> node_words() const { return std::span(words_).first(first_sphere_); }
+    std::span<const glm::uvec4> sphere_words() const { return std::span(words_).subspan(first_sphere_); }
 
     // The tree as a camera sees it.
     gpu::TreeFrame frame(const Camera &camera) const;
 
     // Spheres in it, without twins, and nodes, of which so many are on the way to the deepest.
     std::uint32_t sphere_count() const { return sphere_count_; }
-    std::uint32_t node_count() const { return first_sphere_ / gpu::TREE_NODE_WORDS; }
+    std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
     bool has_colors() const { return has_colors_; }
@@ -92,6 +94,7 @@ private:
     bool has_colors_;
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
+    std::uint32_t node_count_ = 0;
     std::uint32_t first_sphere_ = 0; // words of the buffer, each the end of the block before
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;

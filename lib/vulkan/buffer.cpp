@@ -63,7 +63,9 @@ Allocation allocate(const Device &device, BufferUse use, std::uint64_t bytes) {
     }
     vk::BufferUsageFlags usage = Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::UniformOrStorage)
-        usage |= Usage::eUniformBuffer;
+        usage |= Usage::eUniformBuffer | Usage::eUniformTexelBuffer;
+    if (use == BufferUse::Texels)
+        usage |= Usage::eUniformTexelBuffer;
     if (device.policy().share_memory) {
         constexpr std::array<vk::MemoryPropertyFlags, 3> wanted = {Property::eDeviceLocal | host_readable,
                                                                    Property::eDeviceLocal, vk::MemoryPropertyFlags{}};

@@ -13,7 +13,8 @@ namespace pt::vulkan {
 
 enum class BufferUse {
     Storage,          // kernels read and write it
-    UniformOrStorage, // kernels read it either way
+    UniformOrStorage, // kernels read it as either, or as texels
+    Texels,           // kernels read it as texels
     Streamed,         // kernels read it as uniform; the host writes it often, and never waits to do so
     HostWritten,      // kernels read it; the host writes it in place, and never waits to do so
     HostRead          // copied to or written by kernels, and read by the host in place once that has ended

@@ -103,6 +103,12 @@ DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
                                  bindings_[i] == vk::DescriptorType::eUniformBufferDynamic;
             const std::uint64_t uniform_bytes =
                 std::min<std::uint64_t>(device_->limits().max_uniform_range, ranges[i].bytes);
+            if (bindings_[i] == vk::DescriptorType::eUniformTexelBuffer)
+                set.views_.push_back({*device_, device_->handle().createBufferView({.buffer = ranges[i].buffer,
+                                                                                    .format = texel_format,
+                                                                                    .offset = ranges[i].offset,
+                                                                                    .range = ranges[i].bytes})});
+            const vk::BufferView view = set.views_.empty() ? vk::BufferView() : *set.views_.back();
             const vk::DescriptorBufferInfo info{.buffer = ranges[i].buffer,
                                                 .offset = ranges[i].offset,
                                                 .range = uniform ? uniform_bytes : ranges[i].bytes};
@@ -110,7 +116,8 @@ DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
                                                                           .dstBinding = i,
                                                                           .descriptorCount = 1,
                                                                           .descriptorType = bindings_[i],
-                                                                          .pBufferInfo = &info},
+                                                                          .pBufferInfo = &info,
+                                                                          .pTexelBufferView = &view},
                                                    {});
         }
         return set;

@@ -8,10 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace pt::vulkan {
 
-// A part of a buffer, for a storage binding. Its offset is a multiple of Limits::storage_buffer_alignment.
+// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, or for a texel buffer
+// of 256 bytes, the most that a device asks for.
 struct BufferRange {
     BufferRange() = default; // none
     explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -22,6 +24,10 @@ struct BufferRange {
     std::uint64_t bytes = 0;
 };
 
+// Kernels read texel buffers as words of four integers.
+inline constexpr vk::Format texel_format = vk::Format::eR32G32B32A32Uint;
+inline constexpr std::uint64_t texel_bytes = 16;
+
 // Buffers bound to a kernel. They must outlive the last dispatch with it.
 class DescriptorSet {
 public:
@@ -29,6 +35,7 @@ public:
 
 private:
     friend class ComputePipeline;
+    std::vector<DeviceObject<vk::raii::BufferView>> views_;
     DeviceObject<vk::raii::DescriptorPool> pool_;
     vk::DescriptorSet set_; // freed with its pool
 };

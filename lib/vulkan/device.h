@@ -21,6 +21,7 @@ namespace pt::vulkan {
 
 struct Limits {
     std::uint64_t max_storage_buffer_range; // bytes that one binding can see
+    std::uint64_t max_texel_count;          // that one binding can see
     std::uint64_t max_allocation_bytes;
     std::uint32_t max_uniform_range;        // bytes that a uniform binding can see: 16 to 64 KiB, a multiple of 256
     std::uint32_t max_workgroup_count;      // along x
@@ -41,7 +42,7 @@ struct DevicePolicy {
     // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
     // the rest. By default an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;
-    std::uint32_t tree_from = 50;   // spheres: with as many, a tree is as fast as testing each, on CPUs and GPUs alike
+    std::uint32_t tree_from;        // spheres: with as many, a tree is as fast as testing each
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 

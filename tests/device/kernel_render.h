@@ -71,7 +71,8 @@ public:
     }
 
     FilmWords film_by(Probe &probe) const {
-        probe.set_tree(tree_);
+        const std::size_t nodes = scene_.tree ? scene_.tree->node_words().size() : 0;
+        probe.set_tree(std::span(tree_).first(nodes), std::span(tree_).subspan(nodes));
         std::vector<std::uint32_t> indices(most_samples);
         std::iota(indices.begin(), indices.end(), 0U);
         probe.set_points(pt::point_table(PT_SAMPLER_SOBOL, seed, indices, pt::point_layout(scene_.features)));

@@ -32,9 +32,10 @@ struct SharedDevice {
     }
 };
 
-constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer, vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer};
+constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,     vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer,     vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eUniformBuffer,     vk::DescriptorType::eUniformTexelBuffer,
+                                 vk::DescriptorType::eUniformTexelBuffer};
 
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
@@ -59,20 +60,23 @@ void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> outp
     ASSERT_LE(points_.size(), probe_point_blocks);
     Buffer scene(device, BufferUse::UniformOrStorage, std::max(scene_bytes, scene_.size() * sizeof(glm::vec4)),
                  "scene of a probe");
-    Buffer tree(device, BufferUse::Storage, std::max<std::size_t>(tree_.size(), 1) * sizeof(glm::uvec4),
-                "tree of a probe");
+    Buffer nodes(device, BufferUse::Texels, std::max<std::size_t>(tree_nodes_.size(), 1) * sizeof(glm::uvec4),
+                 "nodes of a probe");
+    Buffer spheres(device, BufferUse::Texels, std::max<std::size_t>(tree_spheres_.size(), 1) * sizeof(glm::uvec4),
+                   "spheres of a probe");
     Buffer points(device, BufferUse::Streamed, probe_point_blocks * sizeof(pt::PointBlock), "points of a probe");
     Buffer in(device, BufferUse::Storage, std::max<std::size_t>(input.size(), 16), "input of a probe");
     Buffer out(device, BufferUse::Storage, output.size() + guard_bytes, "output of a probe");
     out.upload(output, 0);
     in.upload(input, 0);
     scene.upload(std::as_bytes(std::span(scene_)), 0);
-    tree.upload(std::as_bytes(std::span(tree_)), 0);
+    nodes.upload(std::as_bytes(std::span(tree_nodes_)), 0);
+    spheres.upload(std::as_bytes(std::span(tree_spheres_)), 0);
     points.upload(std::as_bytes(std::span(points_)), 0);
     std::vector<std::byte> guard(guard_bytes, guard_value);
     out.upload(guard, output.size());
 
-    const std::array buffers = {&scene, &scene, &out, &in, &points, &tree};
+    const std::array buffers = {&scene, &scene, &out, &in, &points, &nodes, &spheres};
     const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);

@@ -28,7 +28,10 @@ public:
     // What the following runs find in the scene buffer (bindings 0 and 1), in the tree buffer (binding 5) and in the
     // table of points (binding 4), which holds up to probe_point_blocks.
     void set_scene(std::span<const glm::vec4> words) { scene_.assign(words.begin(), words.end()); }
-    void set_tree(std::span<const glm::uvec4> words) { tree_.assign(words.begin(), words.end()); }
+    void set_tree(std::span<const glm::uvec4> nodes, std::span<const glm::uvec4> spheres) {
+        tree_nodes_.assign(nodes.begin(), nodes.end());
+        tree_spheres_.assign(spheres.begin(), spheres.end());
+    }
     void set_points(std::span<const pt::PointBlock> blocks) { points_.assign(blocks.begin(), blocks.end()); }
 
     // Gives the kernel input (binding 3) and push constants, runs one invocation per item of invocations, and returns
@@ -49,6 +52,7 @@ public:
 private:
     pt::vulkan::ComputePipeline pipeline_;
     std::vector<glm::vec4> scene_;
-    std::vector<glm::uvec4> tree_;
+    std::vector<glm::uvec4> tree_nodes_;
+    std::vector<glm::uvec4> tree_spheres_;
     std::vector<pt::PointBlock> points_;
 };

@@ -42,6 +42,8 @@
     X(DestroyPipelineCache, Destroys)                                                                                  \
     X(CreateBuffer, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                               \
     X(DestroyBuffer, Destroys)                                                                                         \
+    X(CreateBufferView, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY)                           \
+    X(DestroyBufferView, Destroys)                                                                                     \
     X(GetBufferMemoryRequirements, None)                                                                               \
     X(AllocateMemory, Creates, VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY, VK_ERROR_TOO_MANY_OBJECTS)  \
     X(FreeMemory, Destroys)                                                                                            \

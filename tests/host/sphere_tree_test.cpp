@@ -47,11 +47,11 @@ struct Held {
 
 Held held(const pt::SphereTree &tree, std::uint32_t place) {
     const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
-    const glm::uvec4 &word = tree.words()[frame.first_sphere + place];
+    const glm::uvec4 &word = tree.sphere_words()[place];
     const double step = tree.grid().step;
     Held sphere{glm::ivec3(word.x, word.y, word.z), glm::dvec3(0.0), double{std::bit_cast<float>(word.w)} / step};
     if (tree.moves()) {
-        const glm::uvec4 &way = tree.words()[frame.first_motion + place];
+        const glm::uvec4 &way = tree.sphere_words()[frame.first_motion + place];
         for (int axis = 0; axis < 3; ++axis)
             sphere.way[axis] = double{std::bit_cast<float>(way[axis])} / step;
     }
@@ -133,11 +133,11 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     ASSERT_EQ(tree.lamp_materials(), std::vector<std::uint32_t>(50, 1));
     const pt::gpu::TreeFrame frame = tree.frame(camera_at(glm::dvec3(0.0)));
     for (std::uint32_t lamp = 0; lamp < 50; ++lamp) {
-        const glm::uvec4 &word = tree.words()[frame.first_lamp + lamp];
+        const glm::uvec4 &word = tree.sphere_words()[frame.first_lamp + lamp];
         const pt_sphere &sphere = spheres[10 * lamp + 3];
         EXPECT_EQ(held(tree, word.x).centre, tree.grid().place({sphere.center[0], sphere.center[1], sphere.center[2]}));
         EXPECT_EQ(word.y, 1U);
-        EXPECT_EQ(tree.words()[frame.first_surface + word.x / 4][static_cast<int>(word.x % 4)],
+        EXPECT_EQ(tree.sphere_words()[frame.first_surface + word.x / 4][static_cast<int>(word.x % 4)],
                   pt::gpu::TREE_LAMP_BIT + lamp);
     }
 }
@@ -215,7 +215,7 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.words().size() * sizeof(glm::uvec4), plain + 4 * spheres.size());
     const pt::gpu::TreeFrame frame = colored.frame(camera_at(glm::dvec3(0.0)));
     // The root of 1/2 times 1023 is 723.4.
-    EXPECT_EQ(colored.words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
+    EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
 // (p - camera) step + shift, evaluated in double, is off by no more than the rounding of shift to a float; of a camera far
@@ -230,7 +230,7 @@ TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
         EXPECT_EQ(frame.camera == glm::ivec3(0), far);
         const double bound = 0.5 * step + (far ? 0x1p-24 * 1e3 : 0x1p-24 * step) + 1e-15;
         for (const std::uint32_t lamp : {0U, 4U, 9U}) {
-            const std::uint32_t place = tree.words()[frame.first_lamp + lamp].x;
+            const std::uint32_t place = tree.sphere_words()[frame.first_lamp + lamp].x;
             const glm::dvec3 from_camera =
                 glm::dvec3(held(tree, place).centre - frame.camera) * step + glm::dvec3(frame.shift);
             const pt_sphere &sphere = spheres[10 * lamp + 3];
