@@ -23,14 +23,6 @@ namespace {
 // and six vertices: what 4 win in error they cost in time with 60, and with 1000 or more they lose a third.)
 constexpr std::size_t least_many_spheres = 64;
 
-// Whether the camera is in a sphere at any time, or so near to it that float32 cannot tell.
-bool is_at_or_in(const SeenSphere &sphere) {
-    constexpr double margin = 1.0 + 0x1p-16;
-    const double length = glm::dot(sphere.way, sphere.way);
-    const double nearest = length > 0.0 ? std::clamp(-glm::dot(sphere.open, sphere.way) / length, 0.0, 1.0) : 0.0;
-    return !(glm::length(sphere.open + nearest * sphere.way) > sphere.radius * margin);
-}
-
 // Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
 // no plane comes between two points of it.
 bool is_in_region(const std::vector<CurvedPlane> &planes, const SeenSphere &sphere) {
@@ -53,7 +45,7 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
 // Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
 // line both ends tell.
 bool holds_camera(const SeenSphere &sphere) {
-    constexpr double margin = 1.0 - 0x1p-16;
+    constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;
 }
 
@@ -116,6 +108,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
     const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
     const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
+    const auto is_at_camera = [](const SeenSphere &sphere) { return may_hold_origin(sphere); };
     const SphereTree *const tree = scene.tree.get();
     const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
 
@@ -130,7 +123,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.lamp_count = surfaces.lamp_count + tree_lamps;
     features.sky_count = surfaces.sky_count;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.inside = std::ranges::any_of(surfaces.spheres, is_at_or_in) || (tree && tree->may_hold(camera));
+    features.inside = std::ranges::any_of(surfaces.spheres, is_at_camera) || (tree && tree->may_hold(camera));
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.

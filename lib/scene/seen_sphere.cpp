@@ -29,9 +29,8 @@ bool moves_little(const SeenSphere &sphere) {
 } // namespace
 
 SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index) :
-    open(sphere.center + camera.shutter_open * sphere.motion - camera.position),
-    way((camera.shutter_close - camera.shutter_open) * sphere.motion),
-    radius(sphere.radius),
+    MovingBall{sphere.center + camera.shutter_open * sphere.motion - camera.position,
+               (camera.shutter_close - camera.shutter_open) * sphere.motion, sphere.radius},
     distance(glm::length(open)),
     material(sphere.material),
     index(of_index),

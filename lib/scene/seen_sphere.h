@@ -2,17 +2,15 @@
 #pragma once
 
 #include "lib/scene/camera.h"
+#include "lib/scene/moving_ball.h"
 #include "lib/scene/scene.h"
 
 #include <cstdint>
 
 namespace pt {
 
-// Places are relative to the camera.
-struct SeenSphere {
-    glm::dvec3 open; // the centre as the shutter opens
-    glm::dvec3 way;  // of the centre while the shutter is open, on a straight line
-    double radius;
+// From the shutter's opening to its closing, relative to the camera.
+struct SeenSphere : MovingBall {
     double distance;        // of the centre as the shutter opens
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // into Scene::spheres
@@ -20,8 +18,6 @@ struct SeenSphere {
     bool is_flat; // so large that it is held better as a plane with a curvature (curved_plane.h)
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);
-
-    glm::dvec3 close() const { return open + way; }
 
     // Of the camera above the surface as the shutter opens, negative inside.
     double height() const { return distance - radius; }

@@ -41,11 +41,6 @@ double reach(const SeenSphere &sphere) {
     return sphere.is_flat ? 4.0 * same_size * sphere.radius : tolerance(sphere);
 }
 
-// The largest distance of a point of one sphere from the other.
-double difference(const SeenSphere &a, const SeenSphere &b) {
-    return std::max(glm::length(a.open - b.open), glm::length(a.close() - b.close())) + std::abs(a.radius - b.radius);
-}
-
 bool are_alike(const CurvedPlane &a, const CurvedPlane &b, double tolerance) {
     const double offset = std::max(std::abs(a.offset), std::abs(b.offset));
     const double curvature = std::max(a.curvature, b.curvature);
@@ -137,8 +132,7 @@ bool has_close_lamps(const std::vector<SeenSphere> &spheres, const Line &line, c
     for (std::size_t i = 0; i < line.size(); ++i) {
         const SeenSphere &lamp = spheres[line.index(i)];
         const auto is_close = [&](std::uint32_t other) {
-            const double apart = two_spheres * std::min(lamp.radius, spheres[other].radius);
-            return !is_twin[other] && difference(lamp, spheres[other]) < apart;
+            return !is_twin[other] && nearly_coincide(lamp, spheres[other]);
         };
         if (lamp.emits && !is_twin[line.index(i)] && line.any_near(i, two_spheres * lamp.radius, is_close))
             return true;

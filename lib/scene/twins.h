@@ -9,11 +9,6 @@
 
 namespace pt {
 
-// Spheres that differ by more than this share of their radii are two, however far away. A distance d is known to a few
-// roundings, 2^-22 d, and that is as much only from d = 2^20 radii on: there the rounding of a centre, 2^-24 d, is a
-// 16th of the radius, and shows whatever is done about twins.
-inline constexpr double two_spheres = 0.25;
-
 // Indices of spheres in the order of their places along the line by which near ones are found. Sorting is most of the
 // work, and what the camera sees has nearly the same order, whatever the camera.
 std::vector<std::uint32_t> order_along_line(const std::vector<Sphere> &spheres);

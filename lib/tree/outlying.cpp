@@ -10,9 +10,13 @@ namespace pt {
 
 namespace {
 
-constexpr std::size_t most_outlying = 16; // each costs every ray a test
+// Each costs every ray a test. So many take as long as a walk through a tree (DevicePolicy::tree_from), and a picture
+// takes twice as long at most. In the tree they would cost more: there boxes are larger by 2^-19 of what all of it
+// reaches, and rays test all spheres that are nearer to each other than that.
+constexpr std::size_t most_outlying = 50;
 
-constexpr double much_farther = 16.0; // so that a grid loses four bits at the most
+// What is less far off stays in the tree and costs its grid up to four of 29 bits, which leaves more than float32 has.
+constexpr double much_farther = 16.0;
 
 // Medians of the coordinates of a thousand spheres or so.
 glm::dvec3 middle_of(const SphereSource &spheres) {

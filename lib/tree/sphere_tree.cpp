@@ -1,7 +1,6 @@
 // Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
-#include "lib/scene/twins.h"
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
@@ -15,9 +14,6 @@
 namespace pt {
 
 namespace {
-
-// Nearer to a surface than this share of the radius, float32 may take the camera to be on the other side.
-constexpr double margin = 0x1p-16;
 
 // Of the spheres that are in the tree: calls use(index, sphere, color) for each, in order.
 template <typename Use>
@@ -191,7 +187,8 @@ void SphereTree::write_nodes(const TreeShape &shape) {
     box_ = boxes.front();
 }
 
-SphereTree::TreeSphere SphereTree::sphere_at(std::uint32_t place) const {
+// A sphere as the kernel has it, from time 0 to 1.
+MovingBall SphereTree::ball_at(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
     return {grid_.point(centre_of(word)), moves_ ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
             std::bit_cast<float>(word.w)};
@@ -237,36 +234,31 @@ bool SphereTree::any_in(const GridBox &box, Property &&property) const {
 }
 
 Sphere SphereTree::lamp(std::uint32_t number) const {
-    const TreeSphere sphere = sphere_at(words_[first_lamp_ + number].x);
-    return {sphere.centre, sphere.radius, sphere.way, lamp_materials_[number]};
+    const MovingBall ball = ball_at(words_[first_lamp_ + number].x);
+    return {ball.open, ball.radius, ball.way, lamp_materials_[number]};
 }
 
 bool SphereTree::may_hold(const Camera &camera) const {
     const gpu::TreeFrame seen = frame(camera);
-    const double nearly = margin * static_cast<double>(std::max({box_.extent().x, box_.extent().y, box_.extent().z}));
+    const double nearly =
+        side_margin * static_cast<double>(std::max({box_.extent().x, box_.extent().y, box_.extent().z}));
     const auto around = static_cast<int>(nearly) + 1;
     if (!meet(box_, {seen.camera - around, seen.camera + around}) || is_far(camera))
         return false;
     return any_in({seen.camera - around, seen.camera + around}, [&](std::uint32_t place) {
-        const TreeSphere sphere = sphere_at(place);
-        const glm::dvec3 open = sphere.centre + camera.shutter_open * sphere.way - camera.position;
-        const glm::dvec3 way = (camera.shutter_close - camera.shutter_open) * sphere.way;
-        const double length = glm::dot(way, way);
-        const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;
-        return glm::length(open + nearest * way) <= sphere.radius * (1.0 + margin) + grid_.step;
+        const MovingBall ball = ball_at(place);
+        const MovingBall as_seen{ball.open + camera.shutter_open * ball.way - camera.position,
+                                 (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
+        return may_hold_origin(as_seen, grid_.step);
     });
 }
 
 bool SphereTree::finds_close_lamps() const {
     for (std::uint32_t lamp = 0; lamp < lamp_materials_.size(); ++lamp) {
         const std::uint32_t place = words_[first_lamp_ + lamp].x;
-        const TreeSphere sphere = sphere_at(place);
-        const auto is_close = [&](std::uint32_t other_place) {
-            const TreeSphere other = sphere_at(other_place);
-            const double apart = std::max(glm::length(sphere.centre - other.centre),
-                                          glm::length(sphere.centre + sphere.way - other.centre - other.way));
-            const double difference = apart + std::abs(sphere.radius - other.radius);
-            return other_place != place && difference < two_spheres * std::min(sphere.radius, other.radius);
+        const MovingBall ball = ball_at(place);
+        const auto is_close = [&](std::uint32_t other) {
+            return other != place && nearly_coincide(ball, ball_at(other));
         };
         // A sphere that nearly coincides with the lamp holds its centre.
         const glm::ivec3 centre = centre_of(words_[first_sphere_ + place]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lib/scene/camera.h"
+#include "lib/scene/moving_ball.h"
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "lib/tree/grid.h"
@@ -68,13 +69,6 @@ public:
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // A sphere as the kernel has it.
-    struct TreeSphere {
-        glm::dvec3 centre; // at time 0
-        glm::dvec3 way;
-        double radius;
-    };
-
     struct Extent;
 
     SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out,
@@ -82,7 +76,7 @@ private:
 
     void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, const TreeShape &shape);
     void write_nodes(const TreeShape &shape);
-    TreeSphere sphere_at(std::uint32_t place) const;
+    MovingBall ball_at(std::uint32_t place) const;
     GridBox box_of_place(std::uint32_t place) const;
     bool is_far(const Camera &camera) const;
     bool finds_close_lamps() const;

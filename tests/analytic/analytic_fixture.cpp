@@ -1,11 +1,23 @@
 // See analytic_fixture.h.
 #include "tests/analytic/analytic_fixture.h"
 
+#include "tests/analytic/contexts.h"
+
 #include <bit>
 #include <cstdio>
 #include <fstream>
 
 namespace analytic {
+
+Context AnalyticFixture::create_fixtures_context() {
+    return create_context([](pt_create_info &) {}, &create);
+}
+
+void AnalyticFixture::TearDown() {
+    const bool has_tree = (stats().features & PT_FEATURE_TREE) != 0;
+    EXPECT_TRUE(has_tree || !always_tree);
+    BatchFixture::TearDown();
+}
 
 Image AnalyticFixture::image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render,
                                 std::uint32_t sample_count) {

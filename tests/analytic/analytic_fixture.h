@@ -22,6 +22,11 @@ struct Image {
 
 class AnalyticFixture : public BatchFixture {
 protected:
+    Context create_fixtures_context() override;
+
+    // That the last scene had a tree, where all are to have one.
+    void TearDown() override;
+
     Image image_of(const pt_scene &scene, const pt_camera &camera, const pt_render &render, std::uint32_t sample_count);
 
     // Prints where it is.

@@ -1,6 +1,7 @@
 // Pixels of scenes whose radiance is known exactly (tests/data/analytic/README.md), each judged by the standard
 // deviation that a sample of it has and by the noise of batches. Run one alone with --gtest_filter=*contact*.
 #include "tests/analytic/analytic_fixture.h"
+#include "tests/analytic/contexts.h"
 #include "tests/analytic/crop.h"
 #include "tests/analytic/scenes.h"
 
@@ -22,7 +23,7 @@ constexpr std::uint32_t batch_count = 16;
 // Samples of a batch: as many as the time allows, a power of two, for which the Sobol points are best. Every surface
 // costs.
 std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
-    constexpr double paths = 1U << 21;
+    const double paths = (1U << 21) / samples_for_one;
     const double surfaces = static_cast<double>(scene.spheres.size() + scene.planes.size());
     const double samples = paths / (batch_count * crop.width * crop.height * (1.0 + 0.05 * surfaces));
     return std::bit_floor(static_cast<std::uint32_t>(std::clamp(samples, surfaces > 100.0 ? 2.0 : 16.0, 4096.0)));
@@ -31,7 +32,6 @@ std::uint32_t samples_for(const Crop &crop, const cli::SceneFile &scene) {
 struct Measurement {
     std::uint32_t sample_count; // of all batches
     Estimate radiance;
-    Image image;
 };
 
 Image mean_image(const Batches &batches, const Crop &crop) {
@@ -81,17 +81,27 @@ void print(const std::string &scene, const Pixel &pixel, const Measurement &meas
 
 class PixelFixture : public AnalyticFixture {
 protected:
-    Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples) {
+    // Of all rows, or of one piece of them, which has the same bits.
+    Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
+                   std::uint32_t row_count = 0) {
         set_up(scene.scene(), cropped(scene.camera, *scene.height, crop.height));
-        return render_batches(render_of(crop.width, crop.height, *scene.max_path_length), batch_count, samples);
+        pt_render settings = render_of(crop.width, crop.height, *scene.max_path_length);
+        settings.first_row = first_row;
+        settings.row_count = row_count;
+        return render_batches(settings, batch_count, samples);
     }
 
     Measurement measure(const cli::SceneFile &scene, const Pixel &pixel) {
         const Crop crop = crop_around(*scene.width, *scene.height, pixel.x, pixel.y);
         const std::uint32_t samples = samples_for(crop, scene);
-        const Batches batches = render(scene, crop, samples);
-        return {batch_count * samples, estimate_of_pixel(batches, std::size_t{crop.y} * crop.width + crop.x),
-                mean_image(batches, crop)};
+        return {batch_count * samples, estimate_of_pixel(render(scene, crop, samples, crop.y, 1), crop.x)};
+    }
+
+    // The image around a pixel, as a file.
+    void keep_surroundings(const cli::SceneFile &scene, const Pixel &pixel, const std::string &name) {
+        const Crop crop = crop_around(*scene.width, *scene.height, pixel.x, pixel.y);
+        keep(mean_image(render(scene, crop, samples_for(crop, scene)), crop),
+             name + "-" + std::to_string(pixel.x) + "-" + std::to_string(pixel.y));
     }
 };
 
@@ -125,7 +135,7 @@ TEST_P(Analytic, PixelsAreExact) {
         EXPECT_TRUE(exact) << pixel.x << ", " << pixel.y << ": " << measured.radiance.mean << " +- "
                            << measured.radiance.standard_error << ", expected " << pixel.exact.radiance;
         if (!exact)
-            keep(measured.image, expectation.scene + "-" + std::to_string(pixel.x) + "-" + std::to_string(pixel.y));
+            keep_surroundings(scene, pixel, expectation.scene);
         else if (!sees_errors && resolves(measured, pixel.exact)) {
             sees_errors = true; // once for a scene: it takes another render
             expect_to_see_errors(scene, pixel, measured);
@@ -147,7 +157,8 @@ class WholeImage : public PixelFixture, public testing::WithParamInterface<std::
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {
     const cli::SceneFile scene = read_scene(GetParam());
     const Crop whole{*scene.width, *scene.height, 0, 0};
-    const std::uint32_t samples = (1U << 22) / (whole.width * whole.height * batch_count) + 1;
+    const std::uint32_t paths = (1U << 22) / samples_for_one;
+    const std::uint32_t samples = paths / (whole.width * whole.height * batch_count) + 1;
     const Batches batches = render(scene, whole, samples);
     int misplaced = 0; // negative control: of each pixel, the ones on the other sides of both axes
     for (const Expectation &expectation : read_expectations())

@@ -12,7 +12,7 @@ namespace analytic {
 
 // The smallest image about the same middle that holds a pixel. A pinhole's pixels do not know how many others there
 // are: with the distance of the image plane, height / (2 tan(fov / 2)) pixels, kept, they have the same rays. So a
-// pixel costs what its crop does, not what its image does.
+// pixel costs what a row of its crop does, not what its image does.
 struct Crop {
     std::uint32_t width;
     std::uint32_t height;

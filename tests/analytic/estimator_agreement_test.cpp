@@ -21,7 +21,7 @@ constexpr std::uint32_t estimator_batch_count = 24;
 constexpr std::uint32_t width = 32;
 constexpr std::uint32_t height = 16;
 
-class EstimatorAgreement : public BatchFixture, public testing::WithParamInterface<const char *> {
+class EstimatorAgreement : public AnalyticFixture, public testing::WithParamInterface<const char *> {
 protected:
     static pt_render render_of(std::uint32_t max_path_length, std::uint32_t estimator) {
         pt_render render = ::render_of(width, height, max_path_length);

@@ -37,7 +37,7 @@ import time
 
 os.environ.update(MESA_SHADER_CACHE_DISABLE="true", __GL_SHADER_DISK_CACHE="0")  # before a driver is loaded
 
-from sphere_cloud import SphereCloud, surroundings  # noqa: E402
+from sphere_cloud import SphereCloud  # noqa: E402
 from table import print_table  # noqa: E402
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
@@ -84,7 +84,7 @@ class Library:
     def __init__(self, name, path, cloud, options):
         os.environ["PT_LIBRARY"] = path
         self.name, self.options = name, options
-        scene = surroundings()
+        scene = cloud.surroundings()
         self.renderer = SceneRenderer(scene)
         device = smallest.pt_device_info()
         self.renderer._check(self.renderer.library.pt_get_context_device(self.renderer.context, device))

@@ -32,3 +32,6 @@ class SphereCloud:
                                  uniform(-EXTENT[2] / 2, EXTENT[2] / 2)))
             self.radii.append(largest * uniform(0.4, 1))
             self.materials.append(first + i % len(COLOURS))
+
+    def surroundings(self):
+        return surroundings()

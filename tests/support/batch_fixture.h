@@ -70,7 +70,8 @@ protected:
                 ++render.seed;
             EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
             accumulate(samples);
-            std::vector<float> image(std::size_t{3} * render.width * render.height);
+            const std::uint32_t rows = render.row_count ? render.row_count : render.height - render.first_row;
+            std::vector<float> image(std::size_t{3} * render.width * rows);
             readback(image);
             EXPECT_EQ(stats().rejected_samples, 0U);
             std::vector<double> red(image.size() / 3);

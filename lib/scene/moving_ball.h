@@ -1,0 +1,40 @@
+// A ball that moves on a straight line, and what can be said of such without knowing what it is made of.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pt {
+
+struct MovingBall {
+    glm::dvec3 open; // the centre at first
+    glm::dvec3 way;  // of the centre from then to the end
+    double radius;
+
+    glm::dvec3 close() const { return open + way; }
+};
+
+// Nearer to a surface than this share of the radius, float32 may take a point to be on the other side.
+inline constexpr double side_margin = 0x1p-16;
+
+// Balls that differ by more than this share of their radii are two, however far away. A distance d is known to a few
+// roundings, 2^-22 d, and that is as much only from d = 2^20 radii on: there the rounding of a centre, 2^-24 d, is a
+// 16th of the radius, and shows whatever is done about twins.
+inline constexpr double two_spheres = 0.25;
+
+// Whether the origin is in the ball at any time, or so near to it that float32 cannot tell; slack: how much farther still.
+inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
+    const double length = glm::dot(ball.way, ball.way);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(ball.open, ball.way) / length, 0.0, 1.0) : 0.0;
+    return !(glm::length(ball.open + nearest * ball.way) > ball.radius * (1.0 + side_margin) + slack);
+}
+
+// Whether no point of either is far from the other, for their size.
+inline bool nearly_coincide(const MovingBall &a, const MovingBall &b) {
+    const double apart = std::max(glm::length(a.open - b.open), glm::length(a.close() - b.close()));
+    return apart + std::abs(a.radius - b.radius) < two_spheres * std::min(a.radius, b.radius);
+}
+
+} // namespace pt

@@ -1,0 +1,103 @@
+// Lamps that the device chooses by the tree, against what it states as their probabilities. Run alone with
+// --gtest_filter=LampTree*.
+#include "tests/device/lamp_tree_probe.h"
+#include "tests/device/lamp_tree_reference.h"
+#include "tests/support/lamp_scenes.h"
+#include "tests/support/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+TEST(LampTreeChoice, ReportsTheProbabilityThatIsStatedForTheLampBitByBit) {
+    for (const auto &[name, scene] : lamp_scenes::all()) {
+        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
+        TreeProbe probe(gpu_scene);
+        const std::uint32_t lamp_count = gpu_scene.features.lamp_count;
+        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
+            const std::vector<TreeDrawn> drawn = probe.draw(vertex, 1U << 14);
+            for (std::size_t i = lamp_count; i < drawn.size(); ++i) {
+                ASSERT_LT(drawn[i].lamp, lamp_count) << name;
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(drawn[i].probability),
+                          std::bit_cast<std::uint32_t>(drawn[drawn[i].lamp].probability))
+                    << name << ", lamp " << drawn[i].lamp;
+            }
+        }
+    }
+}
+
+// Lamps that are expected less than 20 times share a cell, which also tells whether rare ones are as rare as they say.
+struct Frequencies {
+    std::vector<double> observed, expected, wrong;
+};
+
+Frequencies frequencies(const std::vector<TreeDrawn> &drawn, std::uint32_t lamp_count) {
+    std::vector<double> counts(lamp_count);
+    for (std::size_t i = lamp_count; i < drawn.size(); ++i)
+        ++counts.at(drawn[i].lamp);
+    const auto total = static_cast<double>(drawn.size() - lamp_count);
+    Frequencies cells;
+    std::array<double, 3> rest{};
+    bool is_up = false;
+    for (std::uint32_t lamp = 0; lamp < lamp_count; ++lamp) {
+        const double expected = total * static_cast<double>(drawn[lamp].probability);
+        is_up = !is_up;
+        const std::array<double, 3> cell = {counts[lamp], expected, expected * (is_up ? 1.1 : 0.9)};
+        if (expected < 20.0) {
+            for (std::size_t i = 0; i < 3; ++i)
+                rest[i] += cell[i];
+            continue;
+        }
+        cells.observed.push_back(cell[0]);
+        cells.expected.push_back(cell[1]);
+        cells.wrong.push_back(cell[2]);
+    }
+    if (rest[1] >= 20.0) {
+        cells.observed.push_back(rest[0]);
+        cells.expected.push_back(rest[1]);
+        cells.wrong.push_back(rest[2]);
+    }
+    return cells;
+}
+
+// One false alarm in a million, over the 72 chi-squares of this file together.
+TEST(LampTreeChoice, FollowsTheStatedProbability) {
+    const double bound = statistics::normal_quantile(1e-6 / 72);
+    for (const auto &[name, scene] : lamp_scenes::all()) {
+        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
+        TreeProbe probe(gpu_scene);
+        const std::uint32_t lamp_count = gpu_scene.features.lamp_count;
+        std::uint32_t seed = 100;
+        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
+            const Frequencies cells = frequencies(probe.draw(vertex, 1U << 18, seed++), lamp_count);
+            EXPECT_LT(statistics::chi_square_deviate(cells.observed, cells.expected), bound) << name << ' ' << seed;
+            EXPECT_GT(statistics::chi_square_deviate(cells.observed, cells.wrong), bound)
+                << "probabilities wrong by 10% must show";
+        }
+    }
+}
+
+// What it says of a lamp that cannot be sampled is no light, also where that is so of all.
+TEST(LampTreeChoice, TakesLampsThatCannotBeSampledForNone) {
+    for (const auto &[name, scene] : lamp_scenes::all()) {
+        const pt::GpuScene gpu_scene = lamp_scenes::gpu_scene(scene);
+        TreeProbe probe(gpu_scene);
+        for (const TreeVertex &vertex : tree_vertices(gpu_scene)) {
+            const std::vector<double> weights = lamp_weights(gpu_scene, vertex);
+            for (const TreeDrawn &sample : probe.draw(vertex, 256)) {
+                EXPECT_TRUE(std::isfinite(sample.density) && std::isfinite(sample.probability)) << name;
+                EXPECT_EQ(sample.density > 0.0F, weights.at(sample.lamp) > 0.0) << name << ", lamp " << sample.lamp;
+                EXPECT_EQ(sample.distance > 0.0F, sample.density > 0.0F) << name;
+            }
+        }
+    }
+}
+
+} // namespace

@@ -1,0 +1,137 @@
+// The memory of a device's buffers, what kernels are bound to, and what is refused.
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/compute_pipeline.h"
+#include "lib/vulkan/device.h"
+#include "tests/device/vulkan_fixture.h"
+
+#include "lib/base/error.h"
+#include "tests/device/recurrence.h"
+#include "tests/support/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace {
+
+using pt::vulkan::Buffer;
+using pt::vulkan::BufferUse;
+using pt::vulkan::ComputePipeline;
+using pt::vulkan::DescriptorSet;
+using VulkanTest = VulkanFixture;
+
+TEST_F(VulkanTest, CountsAllocatedBytes) {
+    const std::uint64_t before = device().allocated_bytes();
+    {
+        Buffer first(device(), BufferUse::Storage, 4096, "first");
+        EXPECT_EQ(device().allocated_bytes(), before + 4096);
+        Buffer second(device(), BufferUse::UniformOrStorage, 1024, "second");
+        EXPECT_EQ(device().allocated_bytes(), before + 5120);
+        first = std::move(second);
+        EXPECT_EQ(device().allocated_bytes(), before + 1024);
+        EXPECT_EQ(first.size(), 1024U);
+    }
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+TEST_F(VulkanTest, CountsWhatTransfersTake) {
+    pt::vulkan::DevicePolicy policy = pt::vulkan::default_policy(device().info());
+    policy.share_memory = false;
+    device_with(policy);
+    const std::uint64_t before = device().allocated_bytes();
+    {
+        Buffer buffer(device(), BufferUse::Storage, 4096, "test");
+        const std::array<std::byte, 4> word{};
+        buffer.upload(word, 0);
+        buffer.upload(word, 4);
+        EXPECT_EQ(device().allocated_bytes(), before + 2 * 4096) << "the buffer, and one for its transfers";
+    }
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
+    const ComputePipeline pipeline(device(), recurrence_spirv,
+                                   std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer},
+                                   4, {});
+    Buffer buffer(device(), BufferUse::UniformOrStorage, 1024, "test");
+    const std::array buffers = {&buffer, &buffer};
+    DescriptorSet set = pipeline.bind(buffers);
+    set = pipeline.bind(buffers);
+    const std::uint32_t steps = 1;
+    device().submit([&](const vk::raii::CommandBuffer &commands) {
+        pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1);
+    });
+}
+
+// A streamed buffer holds offsets for dispatches of one submission: each sees the one that its dynamic offset says.
+TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
+    constexpr std::array bindings = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
+    constexpr std::array keep_the_sum = {1U, 0U};
+    const ComputePipeline pipeline(device(), recurrence_spirv, bindings, 4, keep_the_sum);
+    const std::uint32_t range = device().limits().max_uniform_range;
+    Buffer offsets(device(), BufferUse::Streamed, std::uint64_t{3} * range, "offsets");
+    Buffer values(device(), BufferUse::Storage, 64 * 4, "values");
+    const DescriptorSet set = pipeline.bind(std::array{&offsets, &values});
+    const std::uint32_t steps = 1;
+    for (const std::uint32_t round : {0U, 1U}) { // the second writes over what the first has read
+        std::uint32_t expected = 0;
+        for (std::uint32_t part = 0; part < 3; ++part) {
+            const std::array words = {1000 * round + 10 * part + 1, 0U, 0U, 0U};
+            offsets.upload(std::as_bytes(std::span(words)), std::uint64_t{part} * range);
+            expected += part == 1 ? 0 : words[0];
+        }
+        clear_all(device(), values);
+        device().submit([&](const vk::raii::CommandBuffer &commands) {
+            for (const std::uint32_t part : {2U, 0U}) {
+                pipeline.dispatch(commands, set, std::as_bytes(std::span(&steps, 1)), 1, std::array{part * range});
+                pt::vulkan::barrier_between_commands(commands);
+            }
+        });
+        EXPECT_EQ(download(values, 0, 64), std::vector<std::uint32_t>(64, expected));
+    }
+}
+
+TEST_F(VulkanTest, ABufferLargerThanAnAllocationMayBeIsRefused) {
+    const std::uint64_t before = device().allocated_bytes();
+    const std::uint64_t bytes = device().limits().max_allocation_bytes + 4;
+    const pt::Error error = error_of([&] { Buffer(device(), BufferUse::Storage, bytes, "film"); });
+    EXPECT_EQ(error.code(), PT_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_TRUE(names(error, std::to_string(bytes)) && names(error, "film")) << error.what();
+    EXPECT_EQ(device().allocated_bytes(), before);
+}
+
+#ifndef __SANITIZE_ADDRESS__ // its own memory is beyond any limit
+TEST_F(VulkanTest, AnAllocationThatTheDriverRefusesIsAnErrorWithoutTrace) {
+    if (device().info().kind != PT_DEVICE_CPU)
+        GTEST_SKIP() << "a limit on the process's memory limits CPU devices only";
+    const std::uint64_t before = device().allocated_bytes();
+    rlimit unlimited{};
+    ASSERT_EQ(getrlimit(RLIMIT_AS, &unlimited), 0);
+    const rlimit none_left{1, unlimited.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &none_left), 0);
+    std::optional<pt::Error> error;
+    try {
+        Buffer(device(), BufferUse::Storage, 1U << 30, "film");
+    } catch (const pt::Error &thrown) {
+        error = thrown;
+    }
+    ASSERT_EQ(setrlimit(RLIMIT_AS, &unlimited), 0);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error->code(), PT_ERROR_OUT_OF_DEVICE_MEMORY);
+    EXPECT_TRUE(names(*error, "1073741824 bytes for the film")) << error->what();
+    EXPECT_EQ(device().allocated_bytes(), before);
+    messages_.clear(); // the driver reports it too
+    clear_all(device(), Buffer(device(), BufferUse::Storage, 1U << 20, "film"));
+}
+#endif
+
+} // namespace

@@ -1,0 +1,89 @@
+// Spheres of structs and of columns, read in their order.
+#include "lib/scene/scene.h"
+#include "lib/scene/sphere_source.h"
+#include "tests/host/particles.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sphere_arrays {
+
+namespace {
+
+// Structs and arrays of all sizes in one scene, empty ones among them, read in every way.
+TEST(SphereSource, ReadsInOrderAcrossArrays) {
+    std::vector<float> center(3 * 2000);
+    std::vector<float> color(3 * 2000);
+    for (std::size_t i = 0; i < center.size(); ++i) {
+        center[i] = static_cast<float>(i + 1);
+        color[i] = static_cast<float>(i) / static_cast<float>(center.size());
+    }
+    const float radius = 0.5F;
+    std::vector<pt_sphere_array> arrays;
+    std::size_t first = 0;
+    for (const std::uint32_t count : {0U, 1U, 300U, 0U, 0U, 700U, 2U, 0U}) {
+        pt_sphere_array array{};
+        array.struct_size = sizeof array;
+        array.count = count;
+        array.center = {&center[3 * first], 12, PT_TYPE_FLOAT32};
+        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+        if (count != 300)
+            array.color = {&color[3 * first], 12, PT_TYPE_FLOAT32};
+        arrays.push_back(array);
+        first += count;
+    }
+    const std::vector<pt_sphere> structs(5, pt_sphere{{9, 9, 9}, 3, {1, 0, 0}, 1, 0});
+    const pt::SphereSource source(structs, arrays);
+    ASSERT_EQ(source.size(), 5 + first);
+    EXPECT_TRUE(source.has_colors());
+    std::size_t next = 0;
+    source.for_each([&](std::size_t index, const pt::Sphere &sphere, const glm::vec3 &own_color) {
+        ASSERT_EQ(index, next++);
+        expect_equal(sphere, source[index]);
+        EXPECT_EQ(own_color, source.color(index));
+        if (index < 5) {
+            expect_equal(sphere, {{9, 9, 9}, 3, {1, 0, 0}, 1});
+            EXPECT_EQ(own_color, glm::vec3(1));
+            return;
+        }
+        const float *at = &center[3 * (index - 5)];
+        expect_equal(sphere, {{at[0], at[1], at[2]}, 0.5, {0, 0, 0}, 0});
+        const float *shade = &color[3 * (index - 5)];
+        const bool is_colored = index < 6 || index >= 306;
+        EXPECT_EQ(own_color, is_colored ? glm::vec3(shade[0], shade[1], shade[2]) : glm::vec3(1)) << index;
+    });
+    EXPECT_EQ(next, source.size());
+    const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
+    EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
+}
+
+TEST(SphereSource, MayBeEmpty) {
+    const pt::SphereSource source({}, {});
+    EXPECT_EQ(source.size(), 0U);
+    EXPECT_FALSE(source.has_colors());
+    EXPECT_TRUE(source.array_starts().empty());
+    source.for_each([](std::size_t, const pt::Sphere &, const glm::vec3 &) { FAIL(); });
+}
+
+TEST(Scene, KnowsWhereTheCallerHasASphere) {
+    pt::Scene scene;
+    scene.array_starts = {2, 2, 5};
+    const auto place = [&](std::size_t index) {
+        const pt::SpherePlace found = pt::place_of_sphere(scene, index);
+        return std::string(found.subject) + ' ' + std::to_string(found.index) + ' ' + std::to_string(found.component);
+    };
+    EXPECT_EQ(place(0), "spheres 0 -1");
+    EXPECT_EQ(place(1), "spheres 1 -1");
+    EXPECT_EQ(place(2), "sphere_arrays 1 0");
+    EXPECT_EQ(place(4), "sphere_arrays 1 2");
+    EXPECT_EQ(place(5), "sphere_arrays 2 0");
+    EXPECT_EQ(place(9), "sphere_arrays 2 4");
+}
+
+} // namespace
+
+} // namespace sphere_arrays
