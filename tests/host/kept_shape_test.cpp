@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace kept_shapes {
@@ -246,6 +247,18 @@ TEST(KeptShape, IsTakenFromTheSceneBefore) {
         changes[i](changed[777]);
         EXPECT_NE(prepared(changed, nullptr).digest(), digest) << i;
     }
+}
+
+TEST(KeptShape, HasLampsOfTheirMaterials) {
+    std::vector<pt::Material> materials(3, pt::Material{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0});
+    materials[1].emission = glm::vec3(1);
+    materials[2].emission = glm::vec3(2);
+    Spheres spheres = heap(ball_count, 0.0); // of the first two
+    spheres[0].material = 2;
+    const auto digest = [&] { return pt::PreparedScene({materials, pt::SphereSource(spheres, {}), {}}, 50).digest(); };
+    const std::string before = digest();
+    spheres[3].material = 2;
+    EXPECT_NE(digest(), before);
 }
 
 } // namespace

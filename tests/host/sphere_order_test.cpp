@@ -181,7 +181,6 @@ TEST(SphereOrder, TellsHowFarItIs) {
     }
 }
 
-// Also while it looks for twins, which takes longest where all are in one point.
 TEST(SphereOrder, EndsWhereItIsAskedTo) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);
@@ -192,6 +191,15 @@ TEST(SphereOrder, EndsWhereItIsAskedTo) {
         EXPECT_EQ(told.shares.size(), 1U);
         EXPECT_LT(told.shares.back(), 0.5);
     }
+}
+
+// Before anything is divided, where all are in one point and are sorted, to look for twins.
+TEST(SphereOrder, EndsAmongTwinsToo) {
+    Told told{.shares = {}, .stop_at = 0.0};
+    pt::WorkProgress progress(&Told::receive, &told);
+    progress.enter(1.0, pt::shape_work(many));
+    EXPECT_THROW(pt::tree_shape(items_of(many, kinds().front().ball), by_number, progress), pt::Cancelled);
+    EXPECT_EQ(told.shares, std::vector<double>{0.0});
 }
 
 } // namespace
