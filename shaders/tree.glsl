@@ -2,8 +2,10 @@
 #ifndef TREE_GLSL
 #define TREE_GLSL
 
-layout(set = 0, binding = BINDING_TREE_NODES) uniform usamplerBuffer tree_nodes;
-layout(set = 0, binding = BINDING_TREE_SPHERES) uniform usamplerBuffer tree_spheres;
+#extension GL_EXT_samplerless_texture_functions : require
+
+layout(set = 0, binding = BINDING_TREE_NODES) uniform utextureBuffer tree_nodes;
+layout(set = 0, binding = BINDING_TREE_SPHERES) uniform utextureBuffer tree_spheres;
 
 uvec4 tree_node_word(uint index) { return texelFetch(tree_nodes, int(index)); }
 uvec4 tree_word(uint index) { return texelFetch(tree_spheres, int(index)); }
@@ -23,16 +25,24 @@ uint tree_first_color() { return scene_bits.words[TREE_FRAME + 3u].z; }
 uint tree_first_lamp() { return scene_bits.words[TREE_FRAME + 3u].w; }
 float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 
-// Centre and radius of the sphere at a place and a time, as seen from a place of the grid and so many steps from there.
-vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
+// The place of a sphere's centre on the grid, and the bits of its radius.
+uvec4 tree_sphere_word(uint place) { return tree_word(place); }
+
+// Centre and radius of the sphere at a place, which has this word, at a time: as seen from a place of the grid and so many
+// steps from there.
+vec4 tree_sphere_of(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
-    uvec4 word = tree_word(place);
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();
     if (MOTION == 1) {
         vec3 way = uintBitsToFloat(tree_word(tree_first_motion() + place).xyz);
         centre += (tree_shutter_open() + time * tree_shutter_time()) * way;
     }
     return vec4(centre, uintBitsToFloat(word.w));
+}
+
+vec4 tree_sphere_from(ivec3 base, vec3 rest, uint place, float time)
+{
+    return tree_sphere_of(tree_sphere_word(place), base, rest, place, time);
 }
 
 // The same as seen from the camera.

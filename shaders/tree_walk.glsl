@@ -1,5 +1,5 @@
-// Rays against the spheres of a tree. A walk finds what testing every sphere would find, whatever the tree: of spheres at
-// equal distances the lower surface is seen, and no box that may hold a nearer one is passed by.
+// Rays against the spheres of a tree. A walk finds what testing every sphere would find, whatever the tree: which of
+// spheres at equal distances is seen depends on nothing but the spheres, and no box that may hold a nearer one is passed by.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
@@ -9,15 +9,27 @@
 // Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
 bool walk_was_cut = false;
 
-// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and is seen
-// if its surface is lower: boxes are entered up to 2^-22 of the advance later.
+// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and may be
+// what is seen: boxes are entered up to 2^-22 of the advance later.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
-void keep_closer_of_tree(inout Hit hit, float distance, uint surface)
+// Of what is no sphere of the tree: it goes before all of them.
+const uvec4 NO_SPHERE_WORD = uvec4(0u);
+
+// Of spheres at equal distances that is seen whose word is first, so that it does not depend on the tree's shape. Where
+// two differ by their motion alone it is the lower place; such a tree keeps no shape (sphere_tree.h).
+void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, uint surface, uvec4 word)
 {
-    bool closer = distance < hit.distance || (distance == hit.distance && distance < NO_HIT && surface < hit.surface);
+    bool as_close = distance == hit.distance && distance < NO_HIT;
+    bool first = word.x != hit_word.x   ? word.x < hit_word.x
+                 : word.y != hit_word.y ? word.y < hit_word.y
+                 : word.z != hit_word.z ? word.z < hit_word.z
+                 : word.w != hit_word.w ? word.w < hit_word.w
+                                        : surface < hit.surface;
+    bool closer = distance < hit.distance || (as_close && first);
     hit.distance = closer ? distance : hit.distance;
     hit.surface = closer ? surface : hit.surface;
+    hit_word = closer ? word : hit_word;
 }
 
 // Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
@@ -61,6 +73,7 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
     vec3 shadow_inverse = inverse_of(shadow.direction);
     bool follows_path = is_followed && path_ray.is_near;
     bool in_shadow = shadow.distance > 0.0 && !blocked && shadow_ray.is_near;
+    uvec4 hit_word = NO_SPHERE_WORD;
 
     // A node and a sphere a trip at the most, so that there is one loop.
     const Group root = Group(0u, 0u, 1u);
@@ -97,11 +110,13 @@ void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, b
             uint place = first_place + uint(findLSB(spheres));
             spheres &= spheres - 1u;
             uint surface = SURFACE_COUNT + place;
-            vec4 ball = tree_sphere_from(ray.base, ray.rest, place, time);
+            uvec4 word = tree_sphere_word(place);
+            vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, time);
             if (in_shadow)
                 blocked = blocks_in_tree(start, ray, shadow, surface, ball, time);
             else
-                keep_closer_of_tree(hit, distance_in_tree(start, ray, direction, surface, ball, time), surface);
+                keep_closer_of_tree(hit, hit_word, distance_in_tree(start, ray, direction, surface, ball, time), surface,
+                                    word);
         }
 
         // What is left of this ray, or the other ray.

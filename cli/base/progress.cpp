@@ -120,4 +120,24 @@ void Progress::print_json(double samples, double seconds) {
     output_ << line.dump() << std::endl;
 }
 
+SceneProgress::SceneProgress(std::ostream &output, ProgressStyle style, Clock::time_point start) :
+    output_(output),
+    style_(style),
+    next_update_(start + update_interval) {}
+
+SceneProgress::~SceneProgress() {
+    if (is_shown_) {
+        output_ << erase_line << std::flush;
+    }
+}
+
+void SceneProgress::update(double fraction, Clock::time_point now) {
+    if (style_ != ProgressStyle::line || now < next_update_) {
+        return;
+    }
+    next_update_ = now + update_interval;
+    is_shown_ = true;
+    output_ << erase_line << formatted("scene %3.0f %%", 100.0 * fraction) << std::flush;
+}
+
 } // namespace cli

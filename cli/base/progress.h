@@ -58,6 +58,26 @@ private:
     Clock::time_point next_update_;
 };
 
+// The line that a terminal shows until the scene is taken over, where that takes long.
+class SceneProgress {
+public:
+    using Clock = Progress::Clock;
+
+    SceneProgress(std::ostream &output, ProgressStyle style, Clock::time_point start);
+    SceneProgress(const SceneProgress &) = delete;
+    SceneProgress &operator=(const SceneProgress &) = delete;
+    ~SceneProgress(); // leaves the line empty
+
+    // The share that is done, in [0, 1]. Prints at most ten times a second, and nothing in the first tenth.
+    void update(double fraction, Clock::time_point now);
+
+private:
+    std::ostream &output_;
+    ProgressStyle style_;
+    Clock::time_point next_update_;
+    bool is_shown_ = false;
+};
+
 // name: "auto", "json" or "none". Only auto depends on the terminal.
 ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal);
 

@@ -31,11 +31,23 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+ProgressStyle style_of(const RenderOptions &options) {
+    return progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1);
+}
+
+// False if that was stopped.
+bool take_scene(const Context &context, const RenderOptions &options, const SceneFile &file, const Stop &superseded) {
+    SceneProgress progress(std::cerr, style_of(options), Clock::now());
+    return describe_scene(context, file, [&](double share) {
+        progress.update(share, Clock::now());
+        return interrupt_signal() == 0 && !superseded();
+    });
+}
+
 PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                                     const RenderSettings &settings, std::uint32_t rows, const Stop &stop) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
-    Progress progress(std::cerr, progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1),
-                      pixel_count, settings.sample_count, Clock::now());
+    Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
     return render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress);
 }
 
@@ -107,7 +119,13 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.target_error = settings.target_error;
 
     context.require(pt_get_context_device(context.get(), &report.device));
-    describe_scene(context, file);
+    if (!take_scene(context, options, file, superseded)) {
+        if (interrupt_signal() == 0) {
+            return Outcome::superseded;
+        }
+        print_interruption(settings, 0, 0);
+        return Outcome::interrupted;
+    }
     report.warnings = input_warnings(file, settings);
     if (!options.quiet) {
         print_warnings(report.warnings);

@@ -13,6 +13,11 @@ void require_scene(const Context &context, const SceneFile &file, pt_result resu
     }
 }
 
+// What the library's progress callback needs.
+std::int32_t receive_share(void *user, double share) {
+    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
+}
+
 } // namespace
 
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
@@ -23,14 +28,22 @@ void require_render(const Context &context, const SceneFile &file, const RenderS
     context.require(result);
 }
 
-void describe_scene(const Context &context, const SceneFile &file) {
-    const pt_scene scene = file.scene();
-    require_scene(context, file, pt_set_scene(context.get(), &scene));
+bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
+    std::function<bool(double)> listener = goes_on; // the library's pointer is to what may change
+    pt_scene scene = file.scene();
+    scene.progress = &receive_share;
+    scene.progress_user = &listener;
+    const pt_result result = pt_set_scene(context.get(), &scene);
+    require_scene(context, file, result);
+    if (result == PT_CANCELLED) {
+        return false;
+    }
     require_scene(context, file, pt_set_camera(context.get(), &file.camera));
+    return true;
 }
 
 void describe(const Context &context, const SceneFile &file, const RenderSettings &settings) {
-    describe_scene(context, file);
+    describe_scene(context, file, [](double) { return true; });
     require_render(context, file, settings, pt_set_render(context.get(), &settings.render));
 }
 

@@ -194,8 +194,16 @@ pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
 }
 
 pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
-    return pt::guard_context(
-        context, [&](pt::Renderer &renderer) { renderer.set_scene(pt::checked_scene(pt::copy_in(scene, "scene"))); });
+    return pt::guard_context(context, [&](pt::Renderer &renderer) -> pt_result {
+        const pt_scene description = pt::copy_in(scene, "scene");
+        pt::WorkProgress progress(description.progress, description.progress_user);
+        try {
+            renderer.set_scene(pt::checked_scene(description, progress), progress);
+            return PT_OK;
+        } catch (const pt::Cancelled &) {
+            return PT_CANCELLED;
+        }
+    });
 }
 
 pt_result pt_set_camera(pt_context *context, const pt_camera *camera) {

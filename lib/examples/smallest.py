@@ -57,11 +57,15 @@ class pt_sphere_array(Sized):
                 ("motion", pt_column), ("material", pt_column), ("color", pt_column)]
 
 
+pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
+
+
 class pt_scene(Sized):
     _fields_ = [("struct_size", c_uint32), ("material_count", c_uint32), ("sphere_count", c_uint32),
                 ("plane_count", c_uint32), ("materials", POINTER(pt_material)), ("spheres", POINTER(pt_sphere)),
                 ("planes", POINTER(pt_plane)), ("sphere_arrays", POINTER(pt_sphere_array)),
-                ("sphere_array_count", c_uint32), ("reserved", c_uint32)]
+                ("sphere_array_count", c_uint32), ("reserved", c_uint32), ("progress", pt_progress_fn),
+                ("progress_user", c_void_p)]
 
 
 class pt_camera(Sized):
@@ -74,9 +78,6 @@ class pt_render(Sized):
     _fields_ = [("struct_size", c_uint32), ("width", c_uint32), ("height", c_uint32), ("max_path_length", c_uint32),
                 ("seed", c_uint64), ("first_sample", c_uint32), ("estimator", c_uint32), ("sampler", c_uint32),
                 ("reserved", c_uint32), ("first_row", c_uint32), ("row_count", c_uint32)]
-
-
-pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
 
 
 class pt_accumulate_info(Sized):

@@ -47,17 +47,44 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// The tree has materials by their place among those in use.
+// The tree has materials by their place among those in use. Its shape does not matter: it is another in another process,
+// where the scenes before were others.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));
     digest.add(prepared.tree->grid().middle);
     digest.add(prepared.tree->grid().step);
-    for (const glm::uvec4 &word : prepared.tree->words())
-        digest.add(std::span<const std::uint32_t>(&word.x, 4));
+    prepared.tree->for_each_in_scene_order([&](const SphereTree::HeldSphere &sphere) {
+        digest.add(sphere.place);
+        digest.add((std::uint64_t{sphere.material} << 32) | sphere.color);
+    });
     for (const Material &material : prepared.used_materials)
         add(digest, material);
     return digest.text();
+}
+
+// Of what is left of the work when a stage begins.
+constexpr double share_of_outlying = 0.05;
+constexpr double share_of_materials = 0.02;
+
+std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, WorkProgress &progress) {
+    progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
+    return outlying_spheres(checked.spheres, progress);
+}
+
+PreparedScene with_nobody_told(CheckedScene checked, std::uint32_t tree_from) {
+    WorkProgress nobody;
+    return {std::move(checked), tree_from, nullptr, nobody};
+}
+
+// With the shape of the one before, if that will do.
+std::shared_ptr<const SphereTree> tree_over(const SphereSource &spheres, const std::vector<std::uint32_t> &left_out,
+                                            const std::vector<TreeMaterial> &materials, const SphereTree *before,
+                                            WorkProgress &progress) {
+    if (before != nullptr)
+        if (auto kept = SphereTree::with_shape_of(*before, spheres, left_out, materials, progress))
+            return std::make_shared<const SphereTree>(std::move(*kept));
+    return std::make_shared<const SphereTree>(spheres, left_out, materials, progress);
 }
 
 } // namespace
@@ -71,19 +98,26 @@ PreparedScene::PreparedScene(Scene of) :
 }
 
 PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from) :
-    PreparedScene(checked.spheres.size() < tree_from ? PreparedScene(owned_scene(std::move(checked)))
-                                                     : with_tree(checked, outlying_spheres(checked.spheres))) {}
+    PreparedScene(with_nobody_told(std::move(checked), tree_from)) {}
 
-PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out) {
+PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before,
+                             WorkProgress &progress) :
+    PreparedScene(checked.spheres.size() < tree_from ? PreparedScene(owned_scene(std::move(checked)))
+                                                     : with_tree(checked, left_out_of(checked, progress),
+                                                                 before ? before->tree.get() : nullptr, progress)) {}
+
+PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
+                                       const SphereTree *before, WorkProgress &progress) {
     PreparedScene prepared(owned_scene_of(checked, left_out));
     std::vector<bool> used = is_used(prepared.scene);
+    progress.enter(share_of_materials, static_cast<double>(checked.spheres.size()));
     checked.spheres.for_each(
-        [&](std::size_t, const Sphere &sphere, const glm::vec3 &) { used[sphere.material] = true; });
+        progress, [&](std::size_t, const Sphere &sphere, const glm::vec3 &) { used[sphere.material] = true; });
     prepared.note_materials(used);
     std::vector<TreeMaterial> materials;
     for (std::size_t i = 0; i < used.size(); ++i)
         materials.push_back({prepared.used_indices[i], emits(prepared.scene.materials[i])});
-    prepared.tree = std::make_shared<const SphereTree>(checked.spheres, left_out, materials, [](double) {});
+    prepared.tree = tree_over(checked.spheres, left_out, materials, before, progress);
     prepared.moves = prepared.moves || prepared.tree->moves();
     prepared.lamp_order = order_in_lamp_tree(with_lamps(prepared.scene, *prepared.tree));
     return prepared;

@@ -1,6 +1,7 @@
 // A scene with what is known of it wherever the camera is: made once by pt_set_scene, held by Renderer, read by gpu_scene.
 #pragma once
 
+#include "lib/base/work_progress.h"
 #include "lib/scene/checked_scene.h"
 #include "lib/scene/scene.h"
 #include "lib/tree/sphere_tree.h"
@@ -32,13 +33,17 @@ struct PreparedScene {
     // With a tree from so many spheres on. Of the caller's memory nothing is read after that.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from);
 
+    // The same, with the shape that the tree had before, if there was one and it will do. before may be NULL.
+    PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before, WorkProgress &progress);
+
     // Of the scene (scene_digest.h), and of the tree. Computed when it is first asked for, and kept: most scenes are never
     // in a film.
     const std::string &digest() const;
 
 private:
     // left_out: indices of the spheres that are not in the tree.
-    static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out);
+    static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
+                                   const SphereTree *before, WorkProgress &progress);
 
     void note_materials(const std::vector<bool> &used);
 

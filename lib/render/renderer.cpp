@@ -89,9 +89,11 @@ void Renderer::discard_samples() noexcept {
     take_over({});
 }
 
-void Renderer::set_scene(CheckedScene scene) {
+void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
     require_alive();
-    PreparedScene prepared(std::move(scene), devices_.front()->device().policy().tree_from);
+    PreparedScene prepared(std::move(scene), devices_.front()->device().policy().tree_from, scene_ ? &*scene_ : nullptr,
+                           progress);
+    progress.finish();
     discard_samples();
     gpu_scene_.reset();
     scene_ = std::move(prepared);

@@ -3,6 +3,7 @@
 
 #include "lib/api/image.h"
 #include "lib/base/log.h"
+#include "lib/base/work_progress.h"
 #include "lib/film/device_film.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_header.h"
@@ -67,7 +68,7 @@ public:
     bool is_on_lent_device() const { return devices_.front()->device().is_borrowed(); }
 
     // Each setter discards the samples so far.
-    void set_scene(CheckedScene scene);
+    void set_scene(CheckedScene scene, WorkProgress &progress);
     void set_camera(const Camera &camera);
     void set_render(const RenderSettings &settings);
 

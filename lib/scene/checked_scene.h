@@ -1,6 +1,7 @@
 // A scene that obeys the rules of pt.h and whose spheres are still where the caller has them.
 #pragma once
 
+#include "lib/base/work_progress.h"
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 
@@ -18,5 +19,8 @@ struct CheckedScene {
 
 // Of a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.
 CheckedScene checked_scene(const pt_scene &scene);
+
+// The same, as the first stage of a work.
+CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress);
 
 } // namespace pt

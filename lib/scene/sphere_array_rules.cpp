@@ -93,10 +93,15 @@ bool check_layout(const Subject &subject, const pt_sphere_array &array) {
 
 // Calls refuse(index, value) for each element that does not hold.
 template <typename Read, typename Holds, typename Refuse>
-void check_elements(std::size_t count, Read read, Holds holds, Refuse refuse) {
-    for (std::size_t i = 0; i < count; ++i)
-        if (const auto value = read(i); !holds(value))
-            refuse(i, value);
+void check_elements(std::size_t count, WorkProgress &progress, Read read, Holds holds, Refuse refuse) {
+    constexpr std::size_t between_looks = 4096;
+    for (std::size_t first = 0; first < count; first += between_looks) {
+        const std::size_t end = std::min(count, first + between_looks);
+        for (std::size_t i = first; i < end; ++i)
+            if (const auto value = read(i); !holds(value))
+                refuse(i, value);
+        progress.add(end - first);
+    }
 }
 
 // What the first component that breaks it says of the rule.
@@ -110,13 +115,16 @@ const char *broken(const Vector &value, Rule rule) {
 // The columns of one array, all of which can be read.
 class ColumnChecker {
 public:
-    ColumnChecker(const Subject &subject, std::size_t count) : subject_(subject), count_(count) {}
+    ColumnChecker(const Subject &subject, std::size_t count, WorkProgress &progress) :
+        subject_(subject),
+        count_(count),
+        progress_(progress) {}
 
     template <bool (*holds)(double)>
     void check_vectors(const char *name, const pt_column &column, Rule rule) const {
         with_vectors(column, [&](auto read) {
             check_elements(
-                elements(column), read,
+                elements(column), progress_, read,
                 [](const auto &value) { return holds(value.x) && holds(value.y) && holds(value.z); },
                 [&](std::size_t i, const auto &value) {
                     subject_.refuse_element(name, i, value, broken(value, rule));
@@ -127,7 +135,7 @@ public:
     template <bool (*holds)(double)>
     void check_numbers(const char *name, const pt_column &column, Rule rule) const {
         with_numbers(column, [&](auto read) {
-            check_elements(elements(column), read, holds,
+            check_elements(elements(column), progress_, read, holds,
                            [&](std::size_t i, auto value) { subject_.refuse_element(name, i, value, rule(value)); });
         });
     }
@@ -135,7 +143,7 @@ public:
     void check_materials(const pt_column &column, std::uint32_t material_count) const {
         const std::string rule = material_rule(material_count);
         check_elements(
-            elements(column), [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
+            elements(column), progress_, [&column](std::size_t i) { return element<std::uint32_t>(column, i); },
             [material_count](std::uint32_t material) { return material < material_count; },
             [&](std::size_t i, std::uint32_t value) { subject_.refuse_element("material", i, value, rule); });
     }
@@ -146,10 +154,12 @@ private:
 
     const Subject &subject_;
     std::size_t count_;
+    WorkProgress &progress_;
 };
 
-void check_values(const Subject &subject, const pt_sphere_array &array, std::uint32_t material_count) {
-    const ColumnChecker checker(subject, array.count);
+void check_values(const Subject &subject, const pt_sphere_array &array, std::uint32_t material_count,
+                  WorkProgress &progress) {
+    const ColumnChecker checker(subject, array.count, progress);
     checker.check_vectors<is_length>("center", array.center, length_rule);
     checker.check_numbers<is_positive_length>("radius", array.radius, positive_length_rule);
     if (is_there(array.motion))
@@ -191,12 +201,20 @@ std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violati
     return arrays;
 }
 
-void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count,
-                         Violations &violations) {
+double elements_of(std::span<const pt_sphere_array> arrays) {
+    double elements = 0.0;
+    for (const pt_sphere_array &array : arrays)
+        for (const ColumnKind &kind : kinds)
+            elements += is_there(array.*kind.column) ? array.count : 0;
+    return elements;
+}
+
+void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
+                         WorkProgress &progress) {
     for (std::size_t i = 0; i < arrays.size(); ++i) {
         const Subject subject(violations, "sphere_arrays", i);
         if (arrays[i].count > 0 && check_layout(subject, arrays[i]))
-            check_values(subject, arrays[i], material_count);
+            check_values(subject, arrays[i], material_count, progress);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "lib/base/rules.h"
+#include "lib/base/work_progress.h"
 
 #include <pt/pt.h>
 
@@ -19,8 +20,13 @@ constexpr std::uint64_t max_sphere_count = std::uint64_t{1} << 26;
 // PT_ERROR_UNSUPPORTED if their sizes are not those of a struct.
 std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violations &violations);
 
-// Checks columns and what is in them. Of an array whose columns cannot be read nothing else is checked.
-void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations);
+// Elements of columns that are to be looked at, at the most.
+double elements_of(std::span<const pt_sphere_array> arrays);
+
+// Checks columns and what is in them: each element is a unit of work. Of an array whose columns cannot be read nothing else
+// is checked.
+void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
+                         WorkProgress &progress);
 
 // "must be < material_count (5)"
 std::string material_rule(std::uint32_t material_count);

@@ -1,6 +1,7 @@
 // The spheres that pt_set_scene was given, structs and columns alike, read where the caller has them.
 #pragma once
 
+#include "lib/base/work_progress.h"
 #include "lib/scene/scene.h"
 
 #include <pt/pt.h>
@@ -38,6 +39,13 @@ public:
     // Calls use(index, sphere, color) for each, in order.
     template <typename Use>
     void for_each(Use use) const {
+        WorkProgress nobody;
+        for_each(nobody, use);
+    }
+
+    // The same; each is a unit of work.
+    template <typename Use>
+    void for_each(WorkProgress &progress, Use use) const {
         std::array<Sphere, chunk_size> spheres;
         std::array<glm::vec3, chunk_size> colors;
         for (std::size_t first = 0; first < size(); first += chunk_size) {
@@ -46,6 +54,7 @@ public:
             read_colors(first, std::span(colors).first(count));
             for (std::size_t i = 0; i < count; ++i)
                 use(first + i, spheres[i], colors[i]);
+            progress.add(count);
         }
     }
 

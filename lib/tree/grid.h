@@ -46,6 +46,12 @@ struct GridBox {
     bool operator==(const GridBox &) const = default;
 
     glm::vec3 extent() const { return glm::vec3(high) - glm::vec3(low); }
+
+    // Half of it.
+    double surface() const {
+        const glm::dvec3 sides = glm::dvec3(high) - glm::dvec3(low);
+        return sides.x * sides.y + sides.y * sides.z + sides.z * sides.x;
+    }
 };
 
 inline bool meet(const GridBox &a, const GridBox &b) {

@@ -43,14 +43,14 @@ double reach_of(const Sphere &sphere, const glm::dvec3 &middle) {
 
 } // namespace
 
-std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres) {
+std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress) {
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
 
     // The farthest ones and one more, farthest first.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
-    spheres.for_each([&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
+    spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
         const Reach reach(reach_of(sphere, middle), static_cast<std::uint32_t>(i));
         if (farthest.size() > few && reach.first <= farthest.back().first)
             return;

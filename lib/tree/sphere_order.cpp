@@ -195,19 +195,28 @@ std::pair<Part, Part> divided(const Part &part, std::uint32_t depth) {
     return halved(part);
 }
 
-Part without_twins(Part part, const TreeRules &rules) {
+// How the tree is made, beside the spheres: what twins are, and who is told.
+struct Making {
+    const SphereOrder &order;
+    WorkProgress &progress;
+};
+
+Part without_twins(Part part, const Making &making) {
+    const std::size_t count = part.items.size();
     std::ranges::sort(part.items, [&](const TreeItem &a, const TreeItem &b) {
+        making.progress.add(0.0, 1);
         if (a.centre_radius != b.centre_radius)
             return a.centre_radius < b.centre_radius;
-        const std::strong_ordering order = rules.order(a.sphere, b.sphere);
+        const std::strong_ordering order = making.order(a.sphere, b.sphere);
         return order < 0 || (order == 0 && a.sphere < b.sphere);
     });
     const auto are_twins = [&](const TreeItem &a, const TreeItem &b) {
-        return a.centre_radius == b.centre_radius && rules.order(a.sphere, b.sphere) == 0;
+        return a.centre_radius == b.centre_radius && making.order(a.sphere, b.sphere) == 0;
     };
     // Not of std::ranges: what that returns is more than Clang 14 can take.
     const auto twins = std::unique(part.items.begin(), part.items.end(), are_twins);
     part.items = part.items.first(static_cast<std::size_t>(twins - part.items.begin()));
+    making.progress.add(shape_work(count) - shape_work(part.items.size()), 0);
     return part;
 }
 
@@ -237,13 +246,15 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
 // The children of a node: of its parts one after the other is divided until there are enough. Twins have equal centres, so
 // that no cut comes between them before all that is left is at one point, or few. Halving might, so they are looked for
 // before it begins.
-Children children_of(Part node, const TreeRules &rules, std::uint32_t depth) {
+Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)
-        node = without_twins(node, rules);
+        node = without_twins(node, making);
     if (node.items.size() <= tree_width) {
-        for (std::size_t i = 0; i < node.items.size(); ++i)
+        const std::size_t count = node.items.size();
+        for (std::size_t i = 0; i < count; ++i)
             children.add({node.items.subspan(i, 1), {}});
+        making.progress.add(shape_work(count) - static_cast<double>(count) * shape_work(1), 0);
         return children;
     }
     children.add(node);
@@ -252,9 +263,12 @@ Children children_of(Part node, const TreeRules &rules, std::uint32_t depth) {
         if (next == nullptr)
             break;
         auto [first, second] = divided(*next, depth);
+        making.progress.add(shape_work(next->items.size()) - shape_work(first.items.size()) -
+                                shape_work(second.items.size()),
+                            next->items.size());
         for (Part *const part : {&first, &second})
             if (part->items.size() > 1 && part->centres.is_point() && depth < free_depth)
-                *part = without_twins(*part, rules);
+                *part = without_twins(*part, making);
         *next = first;
         children.add(second);
     }
@@ -263,7 +277,7 @@ Children children_of(Part node, const TreeRules &rules, std::uint32_t depth) {
 
 } // namespace
 
-TreeShape tree_shape(std::vector<TreeItem> items, const TreeRules &rules) {
+TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress) {
     struct Task {
         Part part;
         std::uint32_t node;
@@ -276,15 +290,18 @@ TreeShape tree_shape(std::vector<TreeItem> items, const TreeRules &rules) {
         const Task task = tasks.back();
         tasks.pop_back();
         shape.depth = std::max(shape.depth, task.depth);
-        Children children = children_of(task.part, rules, task.depth);
+        Children children = children_of(task.part, {order, progress}, task.depth);
 
         TreeLinks &links = shape.nodes[task.node];
         links.first_child = static_cast<std::uint32_t>(shape.nodes.size());
         links.first_place = static_cast<std::uint32_t>(shape.spheres.size());
         links.child_count = static_cast<std::uint8_t>(children.count);
-        for (const Part &child : children.all())
-            if (child.items.size() == 1)
-                shape.spheres.push_back(child.items.front().sphere);
+        for (const Part &child : children.all()) {
+            if (child.items.size() > 1)
+                continue;
+            shape.spheres.push_back(child.items.front().sphere);
+            progress.add(shape_work(1), 0);
+        }
         links.inner_count = static_cast<std::uint8_t>(children.count - (shape.spheres.size() - links.first_place));
         for (const Part &child : children.all()) {
             if (child.items.size() == 1)
@@ -292,7 +309,6 @@ TreeShape tree_shape(std::vector<TreeItem> items, const TreeRules &rules) {
             tasks.push_back({child, static_cast<std::uint32_t>(shape.nodes.size()), task.depth + 1});
             shape.nodes.emplace_back();
         }
-        rules.progress(static_cast<double>(shape.spheres.size()) / static_cast<double>(items.size()));
     }
     return shape;
 }

@@ -1,7 +1,10 @@
 // The shape of a tree over spheres: which spheres and which nodes are children of which node. Made by SphereTree.
 #pragma once
 
+#include "lib/base/work_progress.h"
+
 #include <array>
+#include <bit>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -33,18 +36,19 @@ struct TreeShape {
     std::uint32_t depth;                // nodes from the root to the deepest, both counted
 };
 
-// What else the shape depends on.
-struct TreeRules {
-    // Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number is
-    // kept.
-    std::function<std::strong_ordering(std::uint32_t, std::uint32_t)> order;
-    // Called now and then with the share of the spheres that have their places. What it throws ends the work.
-    std::function<void(double)> progress;
-};
+// Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number is
+// kept.
+using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint32_t)>;
 
 // Nodes are divided where that makes the product of surface and nodes to come least, summed over both sides (Goldsmith
 // and Salmon 1987; in bins: Wald 2007). Deep in the tree they are halved, so that its depth is bounded, whatever the
-// spheres: for 2^26 of them it is 27.
-TreeShape tree_shape(std::vector<TreeItem> items, const TreeRules &rules);
+// spheres: for 2^26 of them it is 27. The work is shape_work() of all items.
+TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
+
+// To divide so many spheres until each has its place, about n log2 n. To divide them once is the difference from what it
+// takes for both parts, which is not negative, whatever the parts.
+constexpr double shape_work(std::size_t spheres) {
+    return static_cast<double>(spheres) * static_cast<double>(std::bit_width(spheres));
+}
 
 } // namespace pt

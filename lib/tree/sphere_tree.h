@@ -1,7 +1,11 @@
 // A tree over spheres as the kernel reads it, for scenes of so many that testing each would take too long. It does not
 // depend on where the camera is. Made by PreparedScene, shared by the kernels of all devices.
+//
+// What is seen does not depend on its shape, so that spheres which have moved a little can keep that of a tree made
+// before: this takes a fraction of the time.
 #pragma once
 
+#include "lib/base/work_progress.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/moving_ball.h"
 #include "lib/scene/scene.h"
@@ -10,8 +14,10 @@
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
+#include <array>
 #include <cstdint>
-#include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,9 +38,16 @@ struct PointBox {
 class SphereTree {
 public:
     // Over the spheres but those left out, by their indices in ascending order: at least one. materials: those of the
-    // scene, by index. progress is called now and then with the share that is done; what it throws ends the work.
+    // scene, by index.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-               std::span<const TreeMaterial> materials, const std::function<void(double)> &progress);
+               std::span<const TreeMaterial> materials, WorkProgress &progress);
+
+    // With the shape of another over as many spheres: the sphere of an index has the place that it has there. Nothing where
+    // a new tree is called for: it would be much better, spheres are left out that are in the other or the other way
+    // round, or there are twins in one of the two, which have one place.
+    static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
+                                                   std::span<const std::uint32_t> left_out,
+                                                   std::span<const TreeMaterial> materials, WorkProgress &progress);
 
     const Grid &grid() const { return grid_; }
 
@@ -45,6 +58,23 @@ public:
 
     // The tree as a camera sees it.
     gpu::TreeFrame frame(const Camera &camera) const;
+
+    // What is held of a sphere, wherever it is in the tree.
+    struct HeldSphere {
+        std::array<std::uint32_t, 7> place; // on the grid, with radius and way
+        std::uint32_t material;             // of those in use
+        std::uint32_t color;
+    };
+
+    // Calls use(HeldSphere) for all in the order of the scene.
+    template <typename Use>
+    void for_each_in_scene_order(Use use) const {
+        for (const std::uint32_t place : places_in_scene_order())
+            use(held(place));
+    }
+
+    // Nodes that a ray through the tree meets, about: their surfaces as shares of the root's, summed up.
+    double cost() const { return cost_; }
 
     // Spheres in it, without twins, and nodes, of which so many are on the way to the deepest.
     std::uint32_t sphere_count() const { return sphere_count_; }
@@ -71,24 +101,36 @@ public:
 private:
     struct Extent;
 
-    SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-               std::span<const TreeMaterial> materials, const std::function<void(double)> &progress);
+    // Without a shape, and so without words.
+    SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
-    void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, const TreeShape &shape);
-    void write_nodes(const TreeShape &shape);
+    void make_room(std::size_t node_count);
+    std::span<glm::uvec4> words_of_node(std::size_t node);
+    void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, WorkProgress &progress);
+    void write_nodes(WorkProgress &progress);
+    bool has_alike(WorkProgress &progress) const;
+    std::vector<std::uint32_t> places_of_spheres() const;
+    std::vector<std::uint32_t> places_in_scene_order() const;
+    HeldSphere held(std::uint32_t place) const;
     MovingBall ball_at(std::uint32_t place) const;
     GridBox box_of_place(std::uint32_t place) const;
     bool is_far(const Camera &camera) const;
-    bool finds_close_lamps() const;
+    bool finds_close_lamps(WorkProgress &progress) const;
     template <typename Property>
     bool any_in(const GridBox &box, Property &&property) const;
 
     Grid grid_;
     bool moves_;
     bool has_colors_;
+    std::uint32_t scene_sphere_count_;
+    std::vector<std::uint32_t> left_out_; // of these
     std::uint32_t depth_ = 0;
     std::uint32_t sphere_count_ = 0;
     std::uint32_t node_count_ = 0;
+    std::shared_ptr<const std::vector<std::uint32_t>>
+        spheres_; // of the places, by their indices; shared with the shape
+    double cost_ = 0.0;
+    double cost_as_made_ = 0.0;      // of the tree for which the shape was made
     std::uint32_t first_sphere_ = 0; // words of the buffer, each the end of the block before
     std::uint32_t first_motion_ = 0;
     std::uint32_t first_surface_ = 0;

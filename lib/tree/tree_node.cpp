@@ -11,18 +11,27 @@ namespace {
 
 constexpr std::uint32_t most_steps = 255; // that a byte counts
 
-// Of the smallest power of two of which a byte counts enough.
+// Of the smallest power of two of which a byte counts enough. Half of that with which an extent has eight bits is too small.
 std::uint32_t exponent_for(std::uint32_t extent) {
-    std::uint32_t exponent = 0;
+    const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
+    std::uint32_t exponent = bits > 8 ? bits - 8 : 0;
     while ((extent + (1U << exponent) - 1) >> exponent > most_steps)
         ++exponent;
     return exponent;
 }
 
+std::uint32_t head_of(const TreeLinks &links) {
+    return std::uint32_t{links.child_count} << 16 | std::uint32_t{links.inner_count} << 20;
+}
+
 } // namespace
 
-std::array<glm::uvec4, gpu::TREE_NODE_WORDS> TreeNode::words() const {
-    std::uint32_t head = std::uint32_t{links_.child_count} << 16 | std::uint32_t{links_.inner_count} << 20;
+TreeNodeWords words_of(const TreeLinks &links) {
+    return {glm::uvec4(0, 0, 0, head_of(links)), glm::uvec4(links.first_child, links.first_place, 0, 0), glm::uvec4(0)};
+}
+
+TreeNodeWords TreeNode::words() const {
+    std::uint32_t head = head_of(links_);
     std::array<std::uint32_t, 6> sides{}; // low along x, y, z, then high
     for (int axis = 0; axis < 3; ++axis) {
         const std::uint32_t exponent = exponent_for(static_cast<std::uint32_t>(box_.high[axis] - box_.low[axis]));

@@ -11,6 +11,11 @@
 
 namespace pt {
 
+using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
+
+// A node of which the links alone are known.
+TreeNodeWords words_of(const TreeLinks &links);
+
 class TreeNode {
 public:
     explicit TreeNode(const TreeLinks &links) : links_(links) {}
@@ -24,7 +29,7 @@ public:
     const GridBox &box() const { return box_; }
 
     // The children's boxes are rounded outwards.
-    std::array<glm::uvec4, gpu::TREE_NODE_WORDS> words() const;
+    TreeNodeWords words() const;
 
 private:
     TreeLinks links_;
@@ -32,10 +37,15 @@ private:
     std::array<GridBox, tree_width> boxes_{};
 };
 
-// Reads what TreeNode has written, in the words from that of a node on.
+// Reads what has been written, in the words from that of a node on.
 class TreeNodeView {
 public:
     explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}
+
+    TreeLinks links() const {
+        return {first_child(), first_place(), static_cast<std::uint8_t>(inner_count()),
+                static_cast<std::uint8_t>(child_count())};
+    }
 
     std::uint32_t child_count() const { return words_[0].w >> 16 & 7; }
     std::uint32_t inner_count() const { return words_[0].w >> 20 & 7; }

@@ -31,10 +31,12 @@ constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// Measured: on CPUs from what the kernel's loops are no longer unrolled for (shaders/scene.glsl); on an H200 from 80
-// spheres on in the open with three vertices, from 100 with six, and later in closed rooms.
-constexpr std::uint32_t tree_from_on_cpus = 49;
-constexpr std::uint32_t tree_from_on_gpus = 96;
+// On an H200 as fast as testing each from 80 spheres on in the open with three vertices, from 100 with six, later in closed
+// rooms.
+constexpr std::uint32_t gpu_tree_from = 96;
+
+// The best of 8, 16, 32 and 4096, and of none, there.
+constexpr std::uint32_t gpu_walk_trips = 8;
 
 // Many times the 30 microseconds that it takes to sleep and wake, and nothing to a processor.
 constexpr std::chrono::microseconds gpu_polling{300};
@@ -100,7 +102,8 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .queue_depth = cpu ? 1U : 2U,
             .polling = cpu ? std::chrono::nanoseconds{0} : gpu_polling,
             .tests_per_second = tests_per_second(info.kind),
-            .tree_from = cpu ? tree_from_on_cpus : tree_from_on_gpus,
+            .tree_from = cpu ? DevicePolicy{}.tree_from : gpu_tree_from,
+            .walk_trips = cpu ? 0 : gpu_walk_trips,
             .resolve_on_device = !cpu};
 }
 
@@ -111,7 +114,8 @@ DevicePolicy gpu_like_policy() {
             .invocations = busy_gpu_invocations,
             .queue_depth = 2,
             .polling = gpu_polling,
-            .tree_from = tree_from_on_gpus,
+            .tree_from = gpu_tree_from,
+            .walk_trips = gpu_walk_trips,
             .resolve_on_device = true};
 }
 

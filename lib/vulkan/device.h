@@ -42,7 +42,10 @@ struct DevicePolicy {
     // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
     // the rest. By default an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;
-    std::uint32_t tree_from;        // spheres: with as many, a tree is as fast as testing each
+    // Spheres: with as many, a tree is as fast as testing each. By default those of a CPU, for more of which the kernel's loops
+    // are not unrolled (shaders/scene.glsl).
+    std::uint32_t tree_from = 49;
+    std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 

@@ -3,6 +3,7 @@
 // in Python run. FAKE_PT_FAIL=function:result makes that function fail; FAKE_PT_SAMPLE_MS is the least length of one
 // sample; FAKE_PT_SIGNAL=number:submission makes the program get a signal in that submission, of which a sample takes
 // four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
+// FAKE_PT_SCENE_SIGNAL=number makes it get one while it hands over the scene;
 // FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of failures, and
 // FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about.
 #include <pt/accuracy.h>
@@ -173,7 +174,13 @@ pt_result pt_get_context_device(pt_context *context, pt_device_info *device) {
     return call(context, "context_device");
 }
 
-pt_result pt_set_scene(pt_context *context, const pt_scene *) {
+pt_result pt_set_scene(pt_context *context, const pt_scene *scene) {
+    if (const std::string signal = setting("FAKE_PT_SCENE_SIGNAL"); !signal.empty()) {
+        std::raise(std::stoi(signal));
+    }
+    if (scene->progress != nullptr && scene->progress(scene->progress_user, 0.5) != 0) {
+        return PT_CANCELLED;
+    }
     return call(context, "set_scene");
 }
 

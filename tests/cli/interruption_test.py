@@ -69,6 +69,14 @@ class Interruption(CommandLineTest):
         self.assertEqual(self.read("a.png"), "old")
         self.assertEqual(self.files(), ["a.png"])
 
+    def test_a_scene_that_is_being_taken_over(self):
+        self.write("a.png", "old")
+        code = self.run_pt("render", COURSEWORK, "-o", "a.png", "--spp", "200", FAKE_PT_FAIL="set_camera:-10",
+                           FAKE_PT_SCENE_SIGNAL=int(signal.SIGTERM))  # it goes no farther
+        self.assertEqual(code, 143)
+        self.assertEqual(self.errors, "pt: stopped by SIGTERM after 0 of 200 samples per pixel; nothing was written\n")
+        self.assertEqual(self.read("a.png"), "old")
+
     def test_validation_messages_weigh_more(self):
         self.assertEqual(self.interrupt(signal.SIGINT, 5, "--validation", FAKE_PT_LOG="destroy"), 1)
 

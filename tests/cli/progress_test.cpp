@@ -110,4 +110,22 @@ TEST(Progress, StyleFollowsTheTerminal) {
     EXPECT_EQ(cli::progress_style("json", true, true), ProgressStyle::none); // -q
 }
 
+// A scene is mostly there before anybody looks.
+TEST(SceneProgress, IsALineThatGoesAway) {
+    const auto output_after = [](ProgressStyle style, int milliseconds_in_all) {
+        std::ostringstream output;
+        {
+            cli::SceneProgress progress(output, style, start);
+            for (int i = 0; i <= milliseconds_in_all; ++i) {
+                progress.update(i / 1000.0, start + milliseconds(i));
+            }
+        }
+        return output.str();
+    };
+    EXPECT_EQ(output_after(ProgressStyle::line, 99), "");
+    EXPECT_EQ(output_after(ProgressStyle::line, 250), "\r\x1b[Kscene  10 %\r\x1b[Kscene  20 %\r\x1b[K");
+    EXPECT_EQ(output_after(ProgressStyle::json, 1000), "");
+    EXPECT_EQ(output_after(ProgressStyle::none, 1000), "");
+}
+
 } // namespace

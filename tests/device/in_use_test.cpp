@@ -57,6 +57,26 @@ TEST_F(InUseTest, CallsFromACallbackAreRefused) {
     EXPECT_EQ(message(), "") << "that was refused before a call that was not";
 }
 
+TEST_F(InUseTest, CallsFromACallbackOfASceneAreRefused) {
+    set_all();
+    struct Inside {
+        pt_context *context;
+        Outcomes outcomes = {};
+        static std::int32_t progress(void *user, double /*fraction*/) {
+            auto *const inside = static_cast<Inside *>(user);
+            inside->outcomes = outcomes_of_every_call(inside->context);
+            return 0;
+        }
+    } inside{context()};
+    pt_scene scene = valid_scene();
+    scene.progress = &Inside::progress;
+    scene.progress_user = &inside;
+    EXPECT_EQ(pt_set_scene(context(), &scene), PT_OK) << message();
+    expect_all_refused(inside.outcomes, from_callback);
+    accumulate(1);
+    expect_image(1);
+}
+
 TEST_F(InUseTest, CallsFromAnotherThreadAreRefused) {
     set_all();
     Outcomes elsewhere;

@@ -241,7 +241,8 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     pt::CreateSettings settings;
     settings.device = std::getenv("PT_TEST_DEVICE") ? std::getenv("PT_TEST_DEVICE") : "";
     pt::Renderer renderer(settings);
-    renderer.set_scene(pt::checked_scene(valid_scene()));
+    pt::WorkProgress nobody;
+    renderer.set_scene(pt::checked_scene(valid_scene()), nobody);
     renderer.set_camera(pt::validated_camera(valid_camera()));
     renderer.set_render(pt::validated_render(valid_render()));
     const auto take_a_sample = [&] { EXPECT_EQ(renderer.accumulate(1, 0, {nullptr, nullptr}), PT_OK); };

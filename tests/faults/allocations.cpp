@@ -1,7 +1,9 @@
 // The global operator new of the fault tests; see allocations.h.
 #include "tests/faults/allocations.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 #include <utility>
@@ -15,9 +17,12 @@ bool failing_goes_on = false;
 bool failed = false;
 bool threw = false;
 std::atomic<long> live{0}; // what the library made, a thread of the driver may free
+std::atomic<long> live_bytes{0};
+long most_bytes = 0;
 
 // Stands before each allocation; keeps its alignment.
 struct alignas(std::max_align_t) Header {
+    std::size_t size;
     bool of_library;
 };
 
@@ -37,8 +42,12 @@ void *allocate(std::size_t size) noexcept {
     auto *header = static_cast<Header *>(std::malloc(sizeof(Header) + size));
     if (!header)
         return nullptr;
+    header->size = size;
     header->of_library = in_library;
-    live += in_library ? 1 : 0;
+    if (in_library) {
+        ++live;
+        most_bytes = std::max(most_bytes, live_bytes += static_cast<long>(size));
+    }
     return header + 1;
 }
 
@@ -55,7 +64,10 @@ void release(void *memory) noexcept {
     if (!memory)
         return;
     Header *const header = static_cast<Header *>(memory) - 1;
-    live -= header->of_library ? 1 : 0;
+    if (header->of_library) {
+        --live;
+        live_bytes -= static_cast<long>(header->size);
+    }
     std::free(header);
 }
 
@@ -125,6 +137,15 @@ bool allocation_threw() {
 
 long live_allocations() {
     return live;
+}
+
+long begin_most_bytes() {
+    most_bytes = live_bytes;
+    return most_bytes;
+}
+
+long most_live_bytes() {
+    return most_bytes;
 }
 
 } // namespace faults

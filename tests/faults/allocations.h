@@ -37,4 +37,8 @@ bool allocation_threw();
 // Allocations of the library that are not freed.
 long live_allocations();
 
+// The bytes of what the library has made and not freed, from where on the most is noted that there are; and that.
+long begin_most_bytes();
+long most_live_bytes();
+
 } // namespace faults

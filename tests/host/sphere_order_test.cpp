@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <functional>
 #include <random>
-#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sphere_orders {
@@ -28,8 +28,12 @@ std::vector<pt::TreeItem> items_of(std::uint32_t count, const std::function<Ball
     return items;
 }
 
-pt::TreeRules no_twins() {
-    return {[](std::uint32_t a, std::uint32_t b) { return a <=> b; }, [](double) {}};
+// By numbers, of which there are no twins.
+const pt::SphereOrder by_number = [](std::uint32_t a, std::uint32_t b) { return a <=> b; };
+
+pt::TreeShape shape_of(std::vector<pt::TreeItem> items, const pt::SphereOrder &order) {
+    pt::WorkProgress nobody;
+    return pt::tree_shape(std::move(items), order, nobody);
 }
 
 // Links consecutive in order of the nodes, each node but the root a child of one before it, and depth as is told.
@@ -130,7 +134,7 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
     for (const Kind &kind : kinds())
         for (const std::uint32_t count : {1U, 2U, 4U, 5U, 17U, 1000U, many}) {
             SCOPED_TRACE(std::string(kind.name) + ", " + std::to_string(count));
-            const pt::TreeShape shape = pt::tree_shape(items_of(count, kind.ball), no_twins());
+            const pt::TreeShape shape = shape_of(items_of(count, kind.ball), by_number);
             expect_each_once(shape.spheres, count);
             expect_well_linked(shape);
         }
@@ -144,31 +148,58 @@ TEST(SphereOrder, LeavesTheFirstOfTwins) {
         return Ball{std::exp2(2.0F * static_cast<float>(point) - 60.0F), 0, 0, 1e-20F};
     };
     const auto kind = [](std::uint32_t i) { return i % different; };
-    pt::TreeRules rules = no_twins();
-    rules.order = [&](std::uint32_t a, std::uint32_t b) { return kind(a) <=> kind(b); };
-    const pt::TreeShape shape = pt::tree_shape(items_of(20 * different, ball), rules);
+    const auto by_kind = [&](std::uint32_t a, std::uint32_t b) { return kind(a) <=> kind(b); };
+    const pt::TreeShape shape = shape_of(items_of(20 * different, ball), by_kind);
     expect_each_once(shape.spheres, different);
     expect_well_linked(shape);
 }
 
-TEST(SphereOrder, TellsItsProgress) {
-    const auto ball = [](std::uint32_t i) { return Ball{static_cast<float>(i), 0, 0, 1}; };
-    double share = 0.0;
-    int calls = 0;
-    pt::TreeRules rules = no_twins();
-    rules.progress = [&](double now) {
-        EXPECT_GE(now, share);
-        share = now;
-        ++calls;
-    };
-    pt::tree_shape(items_of(1000, ball), rules);
-    EXPECT_EQ(share, 1.0);
-    EXPECT_GT(calls, 100);
-    rules.progress = [&](double now) {
-        if (now > 0.5)
-            throw std::runtime_error("that is enough");
-    };
-    EXPECT_THROW(pt::tree_shape(items_of(1000, ball), rules), std::runtime_error);
+// Shares that were told, up to the one at which to stop.
+struct Told {
+    std::vector<double> shares;
+    double stop_at = 2.0;
+
+    static std::int32_t receive(void *user, double share) {
+        auto *const told = static_cast<Told *>(user);
+        told->shares.push_back(share);
+        return share >= told->stop_at ? 1 : 0;
+    }
+};
+
+// All of the work is told, and no more, whatever the spheres: it is made of whole numbers, and the stage is half of a whole.
+TEST(SphereOrder, TellsHowFarItIs) {
+    for (const Kind &kind : kinds()) {
+        SCOPED_TRACE(kind.name);
+        Told told;
+        pt::WorkProgress progress(&Told::receive, &told);
+        progress.enter(0.5, 2.0 * pt::shape_work(many));
+        pt::tree_shape(items_of(many, kind.ball), by_number, progress);
+        EXPECT_GT(told.shares.size(), 5U);
+        progress.add(0.0, std::size_t{1} << 30); // whereupon it tells
+        EXPECT_EQ(told.shares.back(), 0.25);
+        EXPECT_TRUE(std::ranges::is_sorted(told.shares));
+    }
+}
+
+TEST(SphereOrder, EndsWhereItIsAskedTo) {
+    for (const Kind &kind : kinds()) {
+        SCOPED_TRACE(kind.name);
+        Told told{.shares = {}, .stop_at = 0.0};
+        pt::WorkProgress progress(&Told::receive, &told);
+        progress.enter(1.0, pt::shape_work(many));
+        EXPECT_THROW(pt::tree_shape(items_of(many, kind.ball), by_number, progress), pt::Cancelled);
+        EXPECT_EQ(told.shares.size(), 1U);
+        EXPECT_LT(told.shares.back(), 0.5);
+    }
+}
+
+// Before anything is divided, where all are in one point and are sorted, to look for twins.
+TEST(SphereOrder, EndsAmongTwinsToo) {
+    Told told{.shares = {}, .stop_at = 0.0};
+    pt::WorkProgress progress(&Told::receive, &told);
+    progress.enter(1.0, pt::shape_work(many));
+    EXPECT_THROW(pt::tree_shape(items_of(many, kinds().front().ball), by_number, progress), pt::Cancelled);
+    EXPECT_EQ(told.shares, std::vector<double>{0.0});
 }
 
 } // namespace

@@ -53,7 +53,7 @@ typedef int32_t pt_result;
 /** Values of pt_result. */
 enum {
     PT_OK = 0,                          /**< done */
-    PT_CANCELLED = 1,                   /**< the caller asked to stop; whole samples were kept */
+    PT_CANCELLED = 1,                   /**< the caller asked to stop; whole samples were kept, or the scene before */
     PT_TARGET_REACHED = 2,              /**< the target error was reached before all samples were taken */
     PT_PENDING = 3,                     /**< samples are under way, see pt/async.h */
     PT_ERROR_INVALID_ARGUMENT = -1,     /**< a field, size or pointer breaks a rule of this header */
@@ -74,6 +74,13 @@ typedef struct pt_context pt_context;
 
 /** The caller's own Vulkan; defined in pt/vulkan.h. */
 typedef struct pt_vulkan pt_vulkan;
+
+/** Called now and then during a call that takes long, with the share of it that is done, in [0, 1], never falling.
+ *
+ * Return 0 to go on; anything else asks the call to stop, which then returns PT_CANCELLED. What that leaves, and how often
+ * it is called, is said where the function is given: in pt_scene and pt_accumulate_info. user is the pointer that was given
+ * beside it. */
+typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------ */
 
@@ -161,6 +168,12 @@ typedef struct pt_scene {
     const pt_sphere_array *sphere_arrays; /**< more spheres, one array for each species for instance; in any order */
     uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
     uint32_t reserved;                    /**< 0 */
+    /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds while
+     * spheres are many, and in any case with 1 before the scene is taken over. If it asks to stop, pt_set_scene returns
+     * PT_CANCELLED, and all is as it was before, the scene and the samples too. The share grows about as time passes, and
+     * leaps where a tree is kept (PT_FEATURE_TREE). */
+    pt_progress_fn progress;
+    void *progress_user; /**< handed to progress; the library does not look at it */
 } pt_scene;
 
 /** A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
@@ -216,25 +229,21 @@ typedef struct pt_render {
     uint32_t row_count;       /**< large for a device is rendered piece by piece, same bits. 0: all from first_row on */
 } pt_render;
 
-/** Called after every submission to a device with the share of this call that is done, in [0, 1], never falling.
- *
- * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
- * sample, and those that add to the image a sample which took several submissions. Before the first call of this
- * function the driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that,
- * and two or three more in the first submission that takes samples unless its cache has the kernel (pt_prepare does
- * both).
- *
- * Return 0 to go on; anything else stops the call with the submissions that are under way then: two to each device
- * at the most, and with several devices those that complete the samples begun. user is
- * pt_accumulate_info.progress_user. */
-typedef int32_t (*pt_progress_fn)(void *user, double fraction);
-
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
-    uint32_t struct_size;    /**< sizeof(pt_accumulate_info) */
-    uint32_t sample_count;   /**< samples to add to every pixel, >= 1; indices must stay below 2^32 */
-    pt_progress_fn progress; /**< may be NULL; called during pt_accumulate alone, so that pt_start refuses it */
-    void *progress_user;     /**< handed to progress; the library does not look at it */
+    uint32_t struct_size;  /**< sizeof(pt_accumulate_info) */
+    uint32_t sample_count; /**< samples to add to every pixel, >= 1; indices must stay below 2^32 */
+    /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
+     *
+     * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
+     * sample, and those that add to the image a sample which took several submissions. Before its first call the driver
+     * builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that, and two or three
+     * more in the first submission that takes samples unless its cache has the kernel (pt_prepare does both).
+     *
+     * If it asks to stop, the call ends with the submissions that are under way then: two to each device at the most, and
+     * with several devices those that complete the samples begun. */
+    pt_progress_fn progress;
+    void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
      * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has as many
      * samples as pt_next_check says, and at no other time: where a sequence ends does not depend on how it is split
@@ -379,7 +388,12 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
- * One thread at a time per context. PT_ERROR_INVALID_SCENE: a rule is broken; the message has a line for each rule
+ * Many spheres are put into a tree here, which takes most of the time. Where a scene has as many of them as the one before,
+ * the tree's shape is kept while it is good, and the call takes a third of the time: so where spheres move a little from
+ * picture to picture, or change their colours alone. The image, its bits and its films do not depend on that.
+ *
+ * One thread at a time per context. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: a rule is
+ * broken; the message has a line for each rule
  * that is, as "spheres[3].radius = -1: must be > 0" or, of a column, "sphere_arrays[0].radius[123] = -1: must be > 0";
  * after eight lines it only counts. PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);

@@ -1,0 +1,58 @@
+// How far a long call is, told to the caller's pt_progress_fn, which may end it.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstddef>
+
+namespace pt {
+
+// Thrown where the caller asks to stop. It ends where the call does, which returns PT_CANCELLED.
+struct Cancelled {};
+
+// The work is a row of stages. Within each the share that is told grows with the work that is done.
+class WorkProgress {
+public:
+    // Tells nobody.
+    WorkProgress() = default;
+
+    // function may be NULL.
+    WorkProgress(pt_progress_fn function, void *user) : function_(function), user_(user) {}
+
+    WorkProgress(const WorkProgress &) = delete;
+    WorkProgress &operator=(const WorkProgress &) = delete;
+
+    // The stage that begins now is this share of what is left of the whole, and has so much work, in any unit.
+    void enter(double share_of_rest, double work);
+
+    // So much of the stage's work is done, for which so many elements were looked at: by these is decided when the caller
+    // is told.
+    void add(double work, std::size_t elements) {
+        done_ += work;
+        untold_ += elements;
+        if (untold_ >= elements_between_calls)
+            tell();
+    }
+
+    // Where an element is a unit of work.
+    void add(std::size_t elements) { add(static_cast<double>(elements), elements); }
+
+    // All is done but what cannot fail.
+    void finish();
+
+private:
+    // Half a millisecond to some: often enough for callers who watch, and seldom enough for those who are called slowly.
+    static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
+
+    void tell();
+
+    pt_progress_fn function_ = nullptr;
+    void *user_ = nullptr;
+    double begin_ = 0.0; // of the stage, as a share of the whole
+    double end_ = 0.0;
+    double work_ = 1.0; // of the stage
+    double done_ = 0.0; // of it
+    std::size_t untold_ = 0;
+};
+
+} // namespace pt

@@ -1,0 +1,185 @@
+// What pt_set_scene tells while it works, what stopping it leaves, and scenes that follow each other with a tree that is
+// kept: films of a context that has seen others before are those of one that has not.
+#include "tests/support/context_fixture.h"
+#include "tests/support/scene_of.h"
+
+#include <pt/film.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace set_scene {
+
+namespace {
+
+constexpr std::uint32_t picture_width = 16;
+constexpr std::uint32_t picture_height = 12;
+
+// Balls in [-1, 1]^3 by columns, and a lamp above them.
+struct Cloud {
+    std::vector<pt_material> materials = {{{0.8F, 0.7F, 0.6F}, {0, 0, 0}, {0, 0, 0}, 0},
+                                          {{0, 0, 0}, {0, 0, 0}, {30, 30, 30}, 0}};
+    pt_sphere lamp{{1, 3, 2}, 0.5, {0, 0, 0}, 1, 0};
+    std::vector<float> centers;
+    float radius;
+    pt_sphere_array array{};
+
+    explicit Cloud(std::uint32_t count) : radius(0.8F / std::cbrt(static_cast<float>(count))) {
+        std::mt19937 engine(31);
+        for (std::uint32_t i = 0; i < 3 * count; ++i)
+            centers.push_back(static_cast<float>(engine() >> 8) * 0x1p-23F - 1.0F);
+        array.struct_size = sizeof array;
+        array.count = count;
+        array.radius = {&radius, 0, PT_TYPE_FLOAT32};
+    }
+
+    // Refers to this object.
+    pt_scene scene() {
+        array.center = {centers.data(), 12, PT_TYPE_FLOAT32};
+        pt_scene scene = scene_of(materials, {&lamp, 1}, {});
+        scene.sphere_arrays = &array;
+        scene.sphere_array_count = 1;
+        return scene;
+    }
+
+    // By a tenth of the radius at the most.
+    void move() {
+        std::mt19937 engine(37);
+        for (float &coordinate : centers)
+            coordinate += radius * (static_cast<float>(engine() >> 8) * 0x1p-24F - 0.5F) * 0.2F;
+    }
+};
+
+constexpr std::uint32_t many = 30'000; // for some calls of progress
+
+class SetSceneTest : public ContextFixture {
+protected:
+    struct Told {
+        std::vector<double> shares;
+        std::size_t most = SIZE_MAX; // calls that go on
+
+        static std::int32_t receive(void *user, double share) {
+            auto *const told = static_cast<Told *>(user);
+            told->shares.push_back(share);
+            return told->shares.size() > told->most ? 1 : 0;
+        }
+    };
+
+    static pt_result set_telling(pt_context *on, pt_scene scene, Told &told) {
+        scene.progress = &Told::receive;
+        scene.progress_user = &told;
+        return pt_set_scene(on, &scene);
+    }
+
+    static void set(pt_context *on, const pt_scene &scene) {
+        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+    }
+
+    static void set_view(pt_context *on) {
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        camera.position[1] = 0.5;
+        camera.position[2] = 4;
+        const pt_render render = render_of(picture_width, picture_height, 3);
+        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+    }
+
+    static std::vector<char> film_of(pt_context *on, std::uint32_t sample_count) {
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0};
+        EXPECT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
+        std::uint64_t size = 0;
+        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
+        std::vector<char> film(size);
+        EXPECT_EQ(pt_save_film(on, film.data(), &size), PT_OK) << pt_last_error(on);
+        return film;
+    }
+};
+
+TEST_F(SetSceneTest, TellsHowFarItIs) {
+    Cloud cloud(many);
+    for (int round = 0; round < 3; ++round, cloud.move()) { // anew, and with the shape kept
+        Told told;
+        ASSERT_EQ(set_telling(context(), cloud.scene(), told), PT_OK) << pt_last_error(context());
+        EXPECT_GE(told.shares.size(), 2U);
+        EXPECT_TRUE(std::ranges::is_sorted(told.shares));
+        EXPECT_GT(told.shares.front(), 0.0);
+        EXPECT_LT(told.shares.front(), 1.0);
+        EXPECT_EQ(told.shares.back(), 1.0);
+    }
+    Told told;
+    ASSERT_EQ(set_telling(context(), scene_of(cloud.materials, {&cloud.lamp, 1}, {}), told), PT_OK);
+    EXPECT_EQ(told.shares, std::vector<double>{1.0});
+}
+
+// A scene that is refused is not said to be done.
+TEST_F(SetSceneTest, TellsNoEndOfWhatItRefuses) {
+    Cloud cloud(many);
+    cloud.centers.back() = INFINITY;
+    Told told;
+    EXPECT_EQ(set_telling(context(), cloud.scene(), told), PT_ERROR_INVALID_SCENE);
+    EXPECT_TRUE(told.shares.empty() || told.shares.back() < 1.0);
+}
+
+// At whatever call: scene and samples are those before, and the next scene is taken as if nothing had been.
+TEST_F(SetSceneTest, LeavesAllAsItWasWhereItIsStopped) {
+    Cloud before(200);
+    Cloud cloud(many);
+    set_view(context());
+    for (const bool is_kept : {false, true}) {
+        if (is_kept) {
+            before = cloud;
+            cloud.move();
+        }
+        set(context(), before.scene());
+        const std::vector<char> expected = film_of(context(), 2);
+        pt_result result = PT_CANCELLED;
+        std::size_t stopped = 0;
+        for (; result == PT_CANCELLED; ++stopped) {
+            Told told{.shares = {}, .most = stopped};
+            result = set_telling(context(), cloud.scene(), told);
+            EXPECT_EQ(told.shares.size(), stopped + (result == PT_CANCELLED ? 1 : 0)) << "it was called again";
+            if (result == PT_CANCELLED) {
+                EXPECT_EQ(stats().sample_count, 2U);
+                EXPECT_EQ(film_of(context(), 1).size(), expected.size());
+                set(context(), before.scene());
+                EXPECT_EQ(film_of(context(), 2), expected) << "stopped at call " << stopped;
+            }
+        }
+        EXPECT_EQ(result, PT_OK) << pt_last_error(context());
+        EXPECT_GE(stopped, 3U);
+        EXPECT_EQ(stats().sample_count, 0U);
+    }
+    const std::vector<char> film = film_of(context(), 2);
+    const Context other = create_context();
+    set_view(other.get());
+    set(other.get(), cloud.scene());
+    EXPECT_EQ(film_of(other.get(), 2), film);
+}
+
+// Pictures of a scene that goes on by small steps, and of one that is there at once.
+TEST_F(SetSceneTest, HasTheFilmsOfAContextThatHasSeenNoOtherScene) {
+    Cloud cloud(500);
+    set_view(context());
+    set(context(), cloud.scene());
+    for (int step = 0; step < 3; ++step) {
+        cloud.move();
+        if (step == 2)
+            cloud.materials[0].diffuse[1] = 0.1F;
+        set(context(), cloud.scene());
+        const std::vector<char> film = film_of(context(), 4);
+        EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
+        const Context other = create_context();
+        set_view(other.get());
+        set(other.get(), cloud.scene());
+        EXPECT_EQ(film_of(other.get(), 4), film) << "step " << step;
+    }
+}
+
+} // namespace
+
+} // namespace set_scene
