@@ -49,7 +49,8 @@ PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LA
 PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
 PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0: there is none
 PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
-PT_CONSTANT CONSTANT_COUNT = 28;
+PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
+PT_CONSTANT CONSTANT_COUNT = 29;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;

@@ -1,9 +1,8 @@
-// What rays meet first, and what blocks them: walks over the surfaces of a scene.
+// What rays meet first, and what blocks them: walks over the surfaces of a scene, but for the spheres of a tree.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
 #include "ray_tests.glsl"
-#include "tree_walk.glsl"
 
 void see_sphere(inout Hit hit, vec3 origin, vec3 direction, uint sphere, float time)
 {
@@ -25,28 +24,17 @@ Hit closest_hit(vec3 origin, vec3 direction, float time)
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, origin, direction, sphere, time));
     FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, origin, direction, plane, time));
-    if (TREE == 1u) {
-        bool blocked = false;
-        walk_tree(hit, blocked, Start(origin, NO_SURFACE, false), direction, true, NO_SHADOW_RAY, time);
-    }
     return hit;
 }
 
 // Whether a shadow ray is blocked.
-bool is_blocked(Start start, float time, ShadowRay towards_lamp)
+bool is_blocked(Start start, float time, ShadowRay shadow)
 {
-    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
-    if (TREE == 1u)
-        shadow = ended_as_met_in_tree(shadow, start, time);
     bool blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, shade_sphere(blocked, start, shadow, sphere, sphere_at(sphere, time)));
     if (PLANES_BLOCK == 1)
         FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT,
                  shade_plane(blocked, start, shadow, plane, level_at(plane, start.origin, time), time));
-    if (TREE == 1u) {
-        Hit hit = Hit(NO_HIT, NO_SURFACE);
-        walk_tree(hit, blocked, start, shadow.direction, false, shadow, time);
-    }
     return blocked;
 }
 
@@ -67,21 +55,21 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, if it carries any
-// light, and whether the shadow ray is blocked.
-Hit closest_hit_and_shadow(Start start, float time, vec3 direction, bool carries_light, ShadowRay towards_lamp,
-                           out bool blocked)
+// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the shadow
+// ray is blocked.
+Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
-    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
-    if (TREE == 1u)
-        shadow = ended_as_met_in_tree(shadow, start, time);
     Hit hit = Hit(NO_HIT, NO_SURFACE);
     blocked = false;
     FOR_EACH(sphere, 0u, SPHERE_COUNT, meet_sphere(hit, blocked, start, direction, shadow, sphere, time));
     FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, meet_plane(hit, blocked, start, direction, shadow, plane, time));
-    if (TREE == 1u)
-        walk_tree(hit, blocked, start, direction, carries_light, shadow, time);
-    if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u) // along a plane a little height is a long way back
+    return hit;
+}
+
+// Along a plane a little height is a long way back.
+Hit ahead(Hit hit)
+{
+    if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)
         hit.distance = max(hit.distance, 0.0);
     return hit;
 }

@@ -7,6 +7,7 @@
 #include "intersect.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
+#include "tree_walk.glsl"
 #include "vertex.glsl"
 
 // Lamps are sampled if there are any and the estimator does so: all of them at the first vertex if they are few;
@@ -77,6 +78,68 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
 }
 
+// How a path leaves a vertex: in one of its directions, with the light of a lamp.
+struct Departure {
+    vec3 origin;
+    vec3 direction;
+    float density;    // of the direction, times the directions that the vertex takes
+    float directions;
+    float strongest;  // component of the path's throughput
+    bool carries_light;
+    float survival;   // the number that decides whether the path does
+    LampLight lamp;
+    bool every_lamp;  // whether the vertex samples each
+};
+
+// Takes the vertex and the direction into the path's throughput.
+Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, bool every_lamp, vec4 numbers,
+                 float directions)
+{
+    Departure departure;
+    departure.origin = vertex.position;
+    departure.direction = sample_direction(material, vertex, numbers.xy, numbers.z);
+    Reflection onwards = reflection(material, vertex, departure.direction);
+    departure.density = onwards.density * directions;
+    departure.directions = directions;
+    path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
+    departure.strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
+    departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
+    departure.survival = numbers.w;
+    departure.lamp = lamp;
+    departure.every_lamp = every_lamp;
+    return departure;
+}
+
+// Takes the path to what its ray has met, with the light of the lamp, which arrives if nothing is in between.
+void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
+{
+    path.radiance += departure.lamp.light * (blocked ? 0.0 : departure.lamp.weight);
+
+    // What the next vertex emits, weighted against lamp sampling if that could have found it too.
+    path.alive = hit.surface != NO_SURFACE && departure.carries_light;
+    if (path.alive && may_emit(hit.surface)) {
+        float weight = 1.0;
+        uint hit_lamp = lamp_of(hit.surface);
+        if (SAMPLE_LAMPS && hit_lamp < LAMP_COUNT) {
+            LampChoice choice = choice_of(lamps, hit_lamp);
+            float samples = lamp_samples(choice, departure.every_lamp, departure.directions);
+            weight = direction_weight_against(departure.density, cone_density(choice.view) * samples);
+        }
+        path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
+    }
+    path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
+    ++path.vertex_count;
+
+    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
+    // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
+    // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
+    if (ROULETTE && path.vertex_count >= 4u) {
+        float survival = clamp(departure.strongest * float(BRANCH_COUNT), 0.05, 1.0);
+        path.alive = path.alive && departure.survival < survival;
+        path.throughput /= survival;
+    }
+}
+
 // Whether a direction leads to a surface that emits, behind others or not. The last direction of a path finds nothing
 // but emission, and where a walk takes long, a few tests that spare it are worth it.
 bool may_meet_light(Start start, vec3 direction, float time)
@@ -90,49 +153,41 @@ bool may_meet_light(Start start, vec3 direction, float time)
     return met;
 }
 
-// Takes the path from a vertex to the next in one of the directions in which it is left, with the light of a lamp.
+// Whether a shadow ray is blocked.
+bool is_hidden(ShadowRay towards_lamp, Start start, float time)
+{
+    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
+    if (TREE == 1u)
+        shadow = ended_as_met_in_tree(shadow, start, time);
+    bool blocked = is_blocked(start, time, shadow);
+    Walk walk = walk_from(start, shadow.direction, false, shadow, time, Hit(NO_HIT, NO_SURFACE), blocked);
+    finish(walk);
+    return walk.blocked;
+}
+
+// The walk of the ray on which a path leaves a vertex, and of that to the lamp.
+Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time)
+{
+    Start start = Start(vertex.position, vertex.surface, vertex.inside);
+    ShadowRay shadow = ended_as_met(departure.lamp.shadow, start, time);
+    if (TREE == 1u) {
+        shadow = ended_as_met_in_tree(shadow, start, time);
+        if (path.vertex_count + 1u == MAX_PATH_LENGTH)
+            departure.carries_light = departure.carries_light && may_meet_light(start, departure.direction, time);
+    }
+    bool blocked;
+    Hit hit = closest_hit_and_shadow(start, time, departure.direction, shadow, blocked);
+    return walk_from(start, departure.direction, departure.carries_light, shadow, time, hit, blocked);
+}
+
+// Takes the path from a vertex to the next in one of the directions in which it is left.
 void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, bool every_lamp, float time,
            vec4 numbers, float directions)
 {
-    // The direction in which the path goes on.
-    vec3 direction = sample_direction(material, vertex, numbers.xy, numbers.z);
-    Reflection onwards = reflection(material, vertex, direction);
-    float density = onwards.density * directions;
-    path.throughput *= onwards.f * (density > 0.0 ? onwards.cosine / density : 0.0);
-
-    // Its ray and the lamp's at once; the lamp's light arrives if nothing is in between.
-    bool blocked;
-    Start start = Start(vertex.position, vertex.surface, vertex.inside);
-    float strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
-    bool carries_light = !(strongest <= 0.0); // what is not a number goes on, to be rejected
-    if (TREE == 1u && path.vertex_count + 1u == MAX_PATH_LENGTH)
-        carries_light = carries_light && may_meet_light(start, direction, time);
-    Hit hit = closest_hit_and_shadow(start, time, direction, carries_light, lamp.shadow, blocked);
-    path.radiance += lamp.light * (blocked ? 0.0 : lamp.weight);
-
-    // What the next vertex emits, weighted against lamp sampling if that could have found it too.
-    path.alive = hit.surface != NO_SURFACE && carries_light;
-    if (path.alive && may_emit(hit.surface)) {
-        float weight = 1.0;
-        uint hit_lamp = lamp_of(hit.surface);
-        if (SAMPLE_LAMPS && hit_lamp < LAMP_COUNT) {
-            LampChoice choice = choice_of(lamps, hit_lamp);
-            float samples = lamp_samples(choice, every_lamp, directions);
-            weight = direction_weight_against(density, cone_density(choice.view) * samples);
-        }
-        path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
-    }
-    path.arrival = Arrival(vertex.position + hit.distance * direction, direction, hit.surface);
-    ++path.vertex_count;
-
-    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
-    // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
-    // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
-    if (ROULETTE && path.vertex_count >= 4u) {
-        float survival = clamp(strongest * float(BRANCH_COUNT), 0.05, 1.0);
-        path.alive = path.alive && numbers.w < survival;
-        path.throughput /= survival;
-    }
+    Departure departure = depart(path, vertex, material, lamp, every_lamp, numbers, directions);
+    Walk walk = walk_onwards(vertex, path, departure, time);
+    finish(walk);
+    arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
 // The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky the last direction
@@ -181,7 +236,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         [[unroll]] do {
             vec2 place = every_lamp_numbers(key, i);
             LampLight lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, i), place, 1.0, directions);
-            radiance += lamp.light * (is_blocked(start, time, lamp.shadow) ? 0.0 : lamp.weight);
+            radiance += lamp.light * (is_hidden(lamp.shadow, start, time) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
     }
@@ -215,25 +270,51 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     return radiance;
 }
 
+// A ray from the camera, spread over the pixel's square (box filter).
+struct CameraRay {
+    vec3 origin;
+    vec3 direction;
+    float time;
+};
+
+CameraRay camera_ray(FrameConstants frame, uvec2 pixel, SampleKey key)
+{
+    vec3 numbers = camera_numbers(key);
+    vec2 from_middle = image_place(frame, pixel, numbers.xy);
+    return CameraRay(camera_origin(frame, from_middle), camera_direction(frame, from_middle), numbers.z);
+}
+
+Walk walk_from_camera(CameraRay ray)
+{
+    Hit hit = closest_hit(ray.origin, ray.direction, ray.time);
+    Start start = Start(ray.origin, NO_SURFACE, false);
+    return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, hit, false);
+}
+
+// Where it has met something.
+Arrival arrival_of(CameraRay ray, Hit hit)
+{
+    vec3 point = hit.distance * ray.direction;
+    if (STARTS_AHEAD == 1)
+        point += ray.origin;
+    return Arrival(point, ray.direction, hit.surface);
+}
+
+vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
+
 // Radiance of the path of one sample, an estimate of what the pixel sees: emission plus throughput-weighted light at
 // each of up to MAX_PATH_LENGTH vertices.
 vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
 {
-    // The camera ray, spread over the pixel's square (box filter), and what it meets.
-    vec3 numbers = camera_numbers(key);
-    float time = numbers.z;
-    vec2 from_middle = image_place(frame, pixel, numbers.xy);
-    vec3 origin = camera_origin(frame, from_middle);
-    vec3 direction = camera_direction(frame, from_middle);
-    Hit hit = closest_hit(origin, direction, time);
+    CameraRay ray = camera_ray(frame, pixel, key);
+    Walk walk = walk_from_camera(ray);
+    finish(walk);
+    Hit hit = walk.hit;
     if (hit.surface == NO_SURFACE)
         return vec3(0.0);
-    vec3 point = hit.distance * direction;
-    if (STARTS_AHEAD == 1)
-        point += origin;
-    vec3 radiance = may_emit(hit.surface) ? emission_of(hit.surface).rgb : vec3(0.0);
+    vec3 radiance = emitted_by(hit.surface);
     if (MAX_PATH_LENGTH > 1u)
-        radiance += light_from_first_vertex(Arrival(point, direction, hit.surface), key, time);
+        radiance += light_from_first_vertex(arrival_of(ray, hit), key, ray.time);
     return radiance;
 }
 

@@ -10,17 +10,73 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FrameConstants frame; };
 
 #include "film.glsl"
-#include "path.glsl"
+#include "tree_path.glsl"
 
 // One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there,
 // so that the film always holds whole samples. The last component counts the sample.
 layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pass;
 
+// A sample of this invocation's pixel by its number in the slice.
+SampleKey key_of(uint pixel_index, uint number)
+{
+    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
+    return SampleKey(frame.seed, pixel_index, frame.first_sample + number, number * row_length);
+}
+
+// Takes the samples from done to end, and returns the last one's value.
+vec3 take_samples(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
+{
+    vec3 value;
+    do {
+        value = path_radiance(frame, pixel, key_of(pixel_index, done)) * frame.film_scale;
+        if (TREE == 0u || !walk_was_cut)
+            film_add(gathered, value);
+        ++done;
+    } while (done < end);
+    return value;
+}
+
+// The same step by step (tree_path.glsl).
+vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
+{
+    vec3 value = vec3(0.0);
+    TreeSample current;
+    Departure departure;
+    Lamps lamps;
+    Walk walk;
+    walk.done = true;
+    bool begins = true;
+    do {
+        if (walk.done) {
+            // What the walk has found.
+            if (!begins) {
+                begins = ends_with(current, walk, departure, lamps);
+                if (begins) {
+                    value = value_of(current) * frame.film_scale;
+                    film_add(gathered, value);
+                    ++done;
+                }
+            }
+
+            // The next one, of this sample or the next.
+            if (!begins) {
+                walk = leave_last_vertex(current, departure, lamps);
+            } else if (done < end) {
+                SampleKey key = key_of(pixel_index, done);
+                current = sample_of(key, camera_ray(frame, pixel, key));
+                walk = walk_from_camera(current.camera);
+                begins = false;
+            }
+        }
+        go_on(walk, WALK_TRIPS);
+    } while (done < end);
+    return value;
+}
+
 void main()
 {
     if (gl_GlobalInvocationID.x >= frame.pixel_count)
         return;
-    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
     uint pixel_in_strip = frame.first_pixel + gl_GlobalInvocationID.x;
     uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
     uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
@@ -33,16 +89,13 @@ void main()
 
     FilmPixel gathered = empty_film_pixel();
     vec3 value;
-    do {
-        SampleKey key = SampleKey(frame.seed, pixel_index, frame.first_sample + done, done * row_length);
-        value = path_radiance(frame, pixel, key) * frame.film_scale;
-        if (TREE == 0u || !walk_was_cut)
-            film_add(gathered, value);
-        ++done;
-    } while (done < end);
+    if (WALK_TRIPS > 0u)
+        value = take_samples_by_steps(pixel, pixel_index, done, end, gathered);
+    else
+        value = take_samples(pixel, pixel_index, done, end, gathered);
 
     if (frame.split_pass == 1u)
-        split_pass.samples[pixel_in_strip] = vec4(value, TREE == 1u && walk_was_cut ? 0.0 : 1.0);
+        split_pass.samples[pixel_in_strip] = vec4(value, TREE == 1u && (walk_was_cut || done < end) ? 0.0 : 1.0);
     else
         film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u);
 }

@@ -36,6 +36,7 @@ layout(constant_id = ID_TREE) const uint TREE = 0;
 layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
 layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
+layout(constant_id = ID_WALK_TRIPS) const uint WALK_TRIPS = 0;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];

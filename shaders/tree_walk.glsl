@@ -6,9 +6,6 @@
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
-bool walk_was_cut = false;
-
 // Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and may be
 // what is seen: boxes are entered up to 2^-22 of the advance later.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
@@ -61,79 +58,133 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// Follows the shadow ray, if there is one, and then the other, if it is to be followed, in one loop: where invocations
-// run in step, those whose shadow ray ends early go on with the other, which made walks half as fast again as two loops.
-// hit and blocked: of the other surfaces, before, and of all of them after.
-void walk_tree(inout Hit hit, inout bool blocked, Start start, vec3 direction, bool is_followed, ShadowRay shadow,
-               float time)
-{
-    GridRay path_ray = grid_ray(start.origin, direction);
-    GridRay shadow_ray = grid_ray(start.origin, shadow.direction);
-    vec3 path_inverse = inverse_of(direction);
-    vec3 shadow_inverse = inverse_of(shadow.direction);
-    bool follows_path = is_followed && path_ray.is_near;
-    bool in_shadow = shadow.distance > 0.0 && !blocked && shadow_ray.is_near;
-    uvec4 hit_word = NO_SPHERE_WORD;
-
-    // A node and a sphere a trip at the most, so that there is one loop.
-    const Group root = Group(0u, 0u, 1u);
-    const Group nothing = Group(0u, 0u, 0u);
-    uint stack[TREE_STACK_SIZE];
-    const int ended = -1; // a height that tells: of done itself compilers know that it is true after the loop
-    int height = 0;
-    Group group = in_shadow || follows_path ? root : nothing;
-    uint first_place = 0u;
-    uint spheres = 0u;
+// The two rays that leave a vertex, on their way through the tree: the shadow ray, if there is one, and then the other, if it
+// is followed. In one walk, as invocations run in step: those whose shadow ray ends early go on with the other, which made
+// walks half as fast again as one after the other.
+struct Walk {
+    Start start;
+    vec3 direction;
+    ShadowRay shadow;
+    float time;
+    Hit hit;      // of the other surfaces at first, and of all of them at last
+    bool blocked; // likewise
+    uvec4 hit_word;
+    GridRay path_ray;
+    GridRay shadow_ray;
+    vec3 path_inverse;
+    vec3 shadow_inverse;
+    bool follows_path;
+    bool in_shadow;
+    Group group;      // nodes to enter next
+    uint first_place; // of the spheres of the node that was entered last, and as bits those to be tested
+    uint spheres;
+    int height; // of the stack, or ENDED
     bool done;
+};
+
+// Groups to be entered later. Not in Walk, since functions copy what they are given.
+uint walk_stack[TREE_STACK_SIZE];
+
+// The height of a walk that is done. That it is can also be told by done, but what compilers know of done after a loop need
+// not be so where a driver has ended it.
+const int ENDED = -1;
+
+const Group ROOT = Group(0u, 0u, 1u);
+const Group NO_GROUP = Group(0u, 0u, 0u);
+
+// hit and blocked: of the surfaces that are not in the tree. Without a tree that is all.
+Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, float time, Hit hit, bool blocked)
+{
+    Walk walk;
+    walk.start = start;
+    walk.direction = direction;
+    walk.shadow = shadow;
+    walk.time = time;
+    walk.hit = hit;
+    walk.blocked = blocked;
+    walk.done = true;
+    if (TREE == 0u)
+        return walk;
+    walk.hit_word = NO_SPHERE_WORD;
+    walk.path_ray = grid_ray(start.origin, direction);
+    walk.shadow_ray = grid_ray(start.origin, shadow.direction);
+    walk.path_inverse = inverse_of(direction);
+    walk.shadow_inverse = inverse_of(shadow.direction);
+    walk.follows_path = is_followed && walk.path_ray.is_near;
+    walk.in_shadow = shadow.distance > 0.0 && !blocked && walk.shadow_ray.is_near;
+    walk.done = !walk.in_shadow && !walk.follows_path;
+    walk.group = walk.done ? NO_GROUP : ROOT;
+    walk.first_place = 0u;
+    walk.spheres = 0u;
+    walk.height = walk.done ? ENDED : 0;
+    return walk;
+}
+
+// Goes on with a walk until it is done, or for a number of trips: each takes a node and a sphere at the most.
+void go_on(inout Walk walk, uint most_trips)
+{
+    uint trips = 0u;
     do {
-        GridRay ray = path_ray;
-        if (in_shadow)
-            ray = shadow_ray;
+        GridRay ray = walk.path_ray;
+        if (walk.in_shadow)
+            ray = walk.shadow_ray;
 
         // The nearest node of the group; the others are kept for later.
-        if (spheres == 0u && group.count > 0u) {
-            uint node = group.first_child + (group.places & 3u);
-            group.places >>= 2;
-            --group.count;
-            stack[height] = packed_group(group);
-            height += group.count > 0u ? 1 : 0;
-            vec3 inverse = in_shadow ? shadow_inverse : path_inverse;
-            float before = in_shadow ? shadow.distance : hit.distance;
+        if (walk.spheres == 0u && walk.group.count > 0u) {
+            uint node = walk.group.first_child + (walk.group.places & 3u);
+            walk.group.places >>= 2;
+            --walk.group.count;
+            walk_stack[walk.height] = packed_group(walk.group);
+            walk.height += walk.group.count > 0u ? 1 : 0;
+            vec3 inverse = walk.in_shadow ? walk.shadow_inverse : walk.path_inverse;
+            float before = walk.in_shadow ? walk.shadow.distance : walk.hit.distance;
             Entered entered = enter_node(node, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
-            group = entered.inner;
-            first_place = entered.first_place;
-            spheres = entered.spheres;
+            walk.group = entered.inner;
+            walk.first_place = entered.first_place;
+            walk.spheres = entered.spheres;
         }
 
         // The next sphere.
-        if (spheres != 0u) {
-            uint place = first_place + uint(findLSB(spheres));
-            spheres &= spheres - 1u;
+        if (walk.spheres != 0u) {
+            uint place = walk.first_place + uint(findLSB(walk.spheres));
+            walk.spheres &= walk.spheres - 1u;
             uint surface = SURFACE_COUNT + place;
             uvec4 word = tree_sphere_word(place);
-            vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, time);
-            if (in_shadow)
-                blocked = blocks_in_tree(start, ray, shadow, surface, ball, time);
+            vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
+            if (walk.in_shadow)
+                walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, ball, walk.time);
             else
-                keep_closer_of_tree(hit, hit_word, distance_in_tree(start, ray, direction, surface, ball, time), surface,
-                                    word);
+                keep_closer_of_tree(walk.hit, walk.hit_word,
+                                    distance_in_tree(walk.start, ray, walk.direction, surface, ball, walk.time),
+                                    surface, word);
         }
 
         // What is left of this ray, or the other ray.
-        bool is_empty = spheres == 0u && group.count == 0u;
-        bool ray_ends = (is_empty && height == 0) || (in_shadow && blocked);
-        height -= is_empty && height > 0 ? 1 : 0;
+        bool is_empty = walk.spheres == 0u && walk.group.count == 0u;
+        bool ray_ends = (is_empty && walk.height <= 0) || (walk.in_shadow && walk.blocked);
+        walk.height -= is_empty && walk.height > 0 ? 1 : 0;
         if (is_empty)
-            group = unpacked_group(stack[height]);
-        done = ray_ends && !in_shadow;
+            walk.group = unpacked_group(walk_stack[max(walk.height, 0)]);
         if (ray_ends) {
-            in_shadow = false;
-            group = follows_path ? root : nothing;
-            spheres = 0u;
-            height = done ? ended : 0;
+            walk.done = walk.done || !walk.in_shadow || !walk.follows_path;
+            walk.in_shadow = false;
+            walk.group = walk.done ? NO_GROUP : ROOT;
+            walk.spheres = 0u;
+            walk.height = walk.done ? ENDED : 0;
         }
-    } while (!done);
-    walk_was_cut = walk_was_cut || height != ended;
+        ++trips;
+    } while (!walk.done && trips < most_trips);
+}
+
+// Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
+bool walk_was_cut = false;
+
+void finish(inout Walk walk)
+{
+    if (TREE == 0u)
+        return;
+    go_on(walk, 0xffffffffu);
+    walk_was_cut = walk_was_cut || walk.height != ENDED;
 }
 
 #endif

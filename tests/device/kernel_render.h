@@ -62,9 +62,12 @@ public:
         return film_by(probe);
     }
 
-    // The kernel with the scene that has a tree: films by it are those of the tree as it is then.
-    Probe probe_of_tree() const {
-        const auto constants = with_scene_source(this->constants(), pt::gpu::SCENE_IN_STORAGE, words());
+    // The kernel with the scene that has a tree: films by it are those of the tree as it is then. walk_trips: as
+    // ID_WALK_TRIPS has them.
+    Probe probe_of_tree(std::uint32_t walk_trips = 0) const {
+        Constants of_scene = this->constants();
+        of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;
+        const auto constants = with_scene_source(of_scene, pt::gpu::SCENE_IN_STORAGE, words());
         Probe probe(pt::specialised_code(pathtrace_spirv, constants), sizeof frame_, constants);
         probe.set_scene(words());
         return probe;

@@ -35,7 +35,8 @@ void main()
     Start start = Start(ray.origin.xyz, ray.origin.w == 0.0 ? NO_SURFACE : 0u, ray.origin.w < 0.0);
     ShadowRay shadow = ShadowRay(ray.direction.xyz, NO_HIT, NO_SURFACE);
     bool blocked;
-    Hit hit = closest_hit_and_shadow(start, 0.0, ray.direction.xyz, true, shadow, blocked);
+    Hit hit = closest_hit_and_shadow(start, 0.0, ray.direction.xyz, ended_as_met(shadow, start, 0.0), blocked);
+    hit = ahead(hit);
     uint surface = hit.surface == NO_SURFACE ? 0u : hit.surface;
     vec3 point = start.origin + hit.distance * ray.direction.xyz;
     Vertex vertex = vertex_at(Arrival(point, ray.direction.xyz, surface), 0.0);

@@ -1,0 +1,104 @@
+// Paths among the spheres of a tree, step by step. Walks differ in length, and where invocations run in step the longest keeps
+// all of them waiting. So here an invocation does not end one walk after the other: all go on for some trips, then those
+// whose walk has ended take their paths to the next, be it of another branch or sample (Aila and Laine, "Understanding the
+// Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is that of path.glsl.
+// On an H200 paths of six vertices were 1.3 to 1.5 times as fast so. lavapipe, where what one invocation does takes all
+// of them the time, lost a third, and ends each walk.
+#ifndef TREE_PATH_GLSL
+#define TREE_PATH_GLSL
+
+#include "path.glsl"
+
+// Where a sample is: its paths follow each other.
+struct TreeSample {
+    SampleKey key;
+    CameraRay camera;
+    bool has_met;   // whether the camera ray has met something, or is still on its way
+    Arrival first;  // what it has met
+    vec3 radiance;  // of its paths so far
+    uint branch;
+    Path path;
+};
+
+// As many as there are branches, or lamps where the first vertex sends a ray to each: those beyond the branches bring the
+// light of their lamp and nothing else, and come first.
+const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
+const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
+
+Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
+
+TreeSample sample_of(SampleKey key, CameraRay ray)
+{
+    const Arrival nowhere = Arrival(vec3(0.0), vec3(0.0), NO_SURFACE);
+    return TreeSample(key, ray, false, nowhere, vec3(0.0), FIRST_BRANCH, path_from(nowhere));
+}
+
+// The sample's path leaves its last vertex.
+Walk leave_last_vertex(inout TreeSample current, out Departure departure, out Lamps lamps)
+{
+    float time = current.camera.time;
+    bool at_first = current.path.vertex_count == 1u;
+    bool every_lamp = SAMPLE_EVERY_LAMP && at_first;
+    float directions = at_first ? float(BRANCH_COUNT) : 1.0;
+    SampleKey key = branch_key(current.key, min(current.branch, BRANCH_COUNT - 1u));
+    uint begin = at_first ? first_vertex_blocks() : later_vertex_blocks(current.path.vertex_count);
+    Vertex vertex = vertex_at(current.path.arrival, time);
+    Material material = material_to_leave(vertex.surface, current.path.vertex_count);
+
+    // The light of a lamp: of the branch's own, or of one that is chosen.
+    LampLight lamp = no_lamp_light();
+    if (SAMPLE_LAMPS) {
+        lamps = lamps_from(vertex, time);
+        ChosenLampNumbers chosen = chosen_lamp_numbers(key, begin);
+        LampChoice choice;
+        if (every_lamp) {
+            uint own = min(current.branch, LAMP_COUNT - 1u);
+            choice = choice_of(lamps, own);
+            chosen.place = every_lamp_numbers(current.key, own);
+        } else {
+            choice = choose(lamps, chosen.which);
+        }
+        float samples = lamp_samples(choice, every_lamp, directions);
+        if (!every_lamp || current.branch < LAMP_COUNT)
+            lamp = light_of_lamp(current.path.throughput, vertex, material, choice, chosen.place, samples, directions);
+    }
+
+    // The direction. The number that chooses the lobe is stratified over the branches; the sum may round up to 1.
+    vec4 numbers = direction_numbers(key, begin, vertex_blocks(at_first ? 1u : 2u, LAMP_COUNT));
+    if (at_first)
+        numbers.z = min((numbers.z + float(current.branch)) / directions, LARGEST_NUMBER);
+    departure = depart(current.path, vertex, material, lamp, every_lamp, numbers, directions);
+    departure.carries_light = departure.carries_light && current.branch < BRANCH_COUNT;
+    return walk_onwards(vertex, current.path, departure, time);
+}
+
+// Takes what a walk has found into its sample. Tells whether that ends it.
+bool ends_with(inout TreeSample current, Walk walk, Departure departure, Lamps lamps)
+{
+    // What the camera sees.
+    if (!current.has_met) {
+        current.has_met = true;
+        if (walk.hit.surface == NO_SURFACE)
+            return true;
+        current.first = arrival_of(current.camera, walk.hit);
+        current.path = path_from(current.first);
+        return MAX_PATH_LENGTH == 1u;
+    }
+
+    // What a path meets, and the next branch where it ends.
+    arrive(current.path, departure, lamps, ahead(walk.hit), walk.blocked);
+    if (current.path.alive && current.path.vertex_count < MAX_PATH_LENGTH)
+        return false;
+    current.radiance += current.path.radiance;
+    current.path = path_from(current.first);
+    current.branch = current.branch + 1u == FIRST_DEPARTURES ? 0u : current.branch + 1u;
+    return current.branch == FIRST_BRANCH;
+}
+
+// Of a sample that has ended.
+vec3 value_of(TreeSample ended)
+{
+    return ended.first.surface == NO_SURFACE ? vec3(0.0) : emitted_by(ended.first.surface) + ended.radiance;
+}
+
+#endif

@@ -1,0 +1,53 @@
+// Samples whose walks an invocation ends one after the other, against those that it takes step by step (tree_path.glsl): all
+// bits of films, where a driver rounds as the kernel is written.
+#include "tests/device/kernel_render.h"
+#include "tests/device/tree_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace {
+
+double mean_of(const std::vector<float> &values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+pt::PreparedScene all_in_a_tree(const pt::Scene &scene) {
+    std::vector<pt_sphere> spheres;
+    for (const pt::Sphere &s : scene.spheres)
+        spheres.push_back(
+            {{s.center.x, s.center.y, s.center.z}, s.radius, {s.motion.x, s.motion.y, s.motion.z}, s.material, 0});
+    return {{scene.materials, {spheres, {}}, scene.planes}, 1};
+}
+
+// Scenes with one lamp, few of which each is sampled, more of them than branches, and many; paths of one vertex, of one
+// direction, and with roulette.
+TEST(WalkSteps, TakeTheSamplesOfWholeWalks) {
+    TreeScenes scenes(23);
+    const bool is_exact = probe_device().info().kind == PT_DEVICE_CPU;
+    int beyond_branches = 0;
+    for (const std::uint32_t length : {1U, 2U, 3U, 3U, 4U, 9U, 9U}) {
+        const pt::Scene scene = scenes.next(250);
+        const pt::Camera camera = scenes.camera(scene);
+        KernelRender render(pt::gpu_scene(all_in_a_tree(scene), camera, KernelRender::settings(length)));
+        SCOPED_TRACE(std::to_string(scene.spheres.size()) + " spheres, " + scenes.kind() + ", length " +
+                     std::to_string(length));
+        const std::uint32_t lamps = render.features().lamp_count;
+        beyond_branches += lamps > pt::branch_count(render.features()) && lamps <= pt::gpu::EVERY_LAMP_LIMIT ? 1 : 0;
+        render.take(length > 4 ? 4 : 8);
+        Probe whole = render.probe_of_tree();
+        const KernelRender::FilmWords expected = render.film_by(whole);
+        Probe steps = render.probe_of_tree(8);
+        const KernelRender::FilmWords found = render.film_by(steps);
+        EXPECT_TRUE(found == expected || !is_exact);
+        const double mean = mean_of(render.radiance(expected));
+        EXPECT_NEAR(mean_of(render.radiance(found)), mean, 1e-4 * mean);
+    }
+    EXPECT_GT(beyond_branches, 0);
+}
+
+} // namespace
