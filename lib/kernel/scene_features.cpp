@@ -233,14 +233,14 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     return 1 + walk + first_vertex + branches * loop_trips_per_branch(features);
 }
 
-std::uint64_t surface_tests_per_path(const Features &features) {
+double surface_tests_per_path(const Features &features, const SphereTree *tree) {
     // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
     // and one to a lamp; an empty scene still costs something.
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
-    constexpr std::uint64_t tree_tests = 100; // a node takes as long as a few surfaces
-    return std::max<std::uint64_t>(1, features.surface_count() + (features.tree ? tree_tests : 0)) *
-           (1 + further_lamps(features, branches) + 2 * vertices);
+    constexpr double tests_of_node = 4.0; // one for each child, about
+    const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
+    return std::max(1.0, tests) * static_cast<double>(1 + further_lamps(features, branches) + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

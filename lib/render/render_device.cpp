@@ -80,7 +80,7 @@ std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &c
 
 void RenderDevice::drop_kernel() noexcept {
     if (kernel_) {
-        const auto tests_per_path = static_cast<double>(surface_tests_per_path(kernel_->features()));
+        const double tests_per_path = surface_tests_per_path(kernel_->features(), kernel_->scene().tree.get());
         const double learnt = schedule_->budget() * tests_per_path / target_seconds_;
         tests_per_second_ = std::max(tests_per_second_, learnt * share_assumed_of_learnt);
     }
@@ -128,7 +128,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     ScheduleLimits limits{};
     limits.target_seconds = target_seconds_;
     limits.first_slice_paths =
-        target_seconds_ * tests_per_second_ / static_cast<double>(surface_tests_per_path(kernel_->features()));
+        target_seconds_ * tests_per_second_ / surface_tests_per_path(kernel_->features(), scene->tree.get());
     limits.max_samples = kernel_->max_samples();
     limits.pixel_granularity = gpu::WORKGROUP_SIZE;
     schedule_.emplace(film_->pixel_count(), limits);

@@ -149,7 +149,7 @@ SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_
         TreeShape shape = tree_shape(std::move(items), order, progress);
         depth_ = shape.depth;
         spheres_ = std::make_shared<const std::vector<std::uint32_t>>(std::move(shape.spheres));
-        make_room(shape.nodes.size());
+        make_room(shape.nodes.size(), progress);
         for (std::size_t node = 0; node < shape.nodes.size(); ++node)
             std::ranges::copy(pt::words_of(shape.nodes[node]), words_of_node(node).begin());
     }
@@ -170,7 +170,7 @@ std::optional<SphereTree> SphereTree::with_shape_of(const SphereTree &other, con
     tree.depth_ = other.depth_;
     tree.spheres_ = other.spheres_;
     tree.cost_as_made_ = other.cost_as_made_;
-    tree.make_room(other.node_count());
+    tree.make_room(other.node_count(), progress);
     std::ranges::copy(std::span(other.words_).first(other.first_sphere_), tree.words_.begin());
     tree.write_spheres(spheres, materials, progress);
     tree.write_nodes(progress);
@@ -191,7 +191,7 @@ SphereTree::SphereTree(const Extent &extent, const SphereSource &spheres, std::s
 }
 
 // For all blocks. That of the lamps is empty, and will not be moved as it grows.
-void SphereTree::make_room(std::size_t node_count) {
+void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
     node_count_ = static_cast<std::uint32_t>(node_count);
@@ -202,7 +202,12 @@ void SphereTree::make_room(std::size_t node_count) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    words_.resize(first_lamp_);
+    // Not at once: memory that is touched for the first time takes long.
+    constexpr std::size_t some = std::size_t{1} << 20;
+    while (words_.size() < first_lamp_) {
+        words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
+        progress.add(0.0, some);
+    }
 }
 
 std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
@@ -213,6 +218,7 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     const std::vector<std::uint32_t> places = places_of_spheres();
+    progress.add(0.0, places.size());
     // Places are anywhere in memory: it is asked for early, which spares an eighth of the call.
     const auto fetch = [&](std::uint32_t place) {
         if (place == nowhere)

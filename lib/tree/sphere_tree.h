@@ -104,7 +104,7 @@ private:
     // Without a shape, and so without words.
     SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
-    void make_room(std::size_t node_count);
+    void make_room(std::size_t node_count, WorkProgress &progress);
     std::span<glm::uvec4> words_of_node(std::size_t node);
     void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, WorkProgress &progress);
     void write_nodes(WorkProgress &progress);

@@ -389,8 +389,8 @@ PT_API void pt_destroy(pt_context *context);
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
  * Many spheres are put into a tree here, which takes most of the time. Where a scene has as many of them as the one before,
- * the tree's shape is kept while it is good, and the call takes a third of the time: so where spheres move a little from
- * picture to picture, or change their colours alone. The image, its bits and its films do not depend on that.
+ * the tree's shape is kept while it is good, and the call takes a third to two fifths of the time: so where spheres move a
+ * little from picture to picture, or change their colours alone. The image, its bits and its films do not depend on that.
  *
  * One thread at a time per context. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: a rule is
  * broken; the message has a line for each rule
