@@ -16,16 +16,14 @@ layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionErr
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
 const uint PIXELS_IN_REGION = REGION_SIZE * REGION_SIZE;
-const uint ROWS_OF_TILES = TILES_IN_REGION * TILE_SIZE;
 const uint PIXELS_OF_INVOCATION = PIXELS_IN_REGION / ESTIMATE_WORKGROUP_SIZE;
 
 // By pixels of the region. Invocations look at pixels one below the other, so that those beside each other read memory
-// together; what the pixels add up to is summed by the first invocations, which each have a row of a tile, and then by
-// tiles.
+// together; what the pixels add up to is summed by invocations that each have a row of a tile, and then by tiles.
 shared float means[PIXELS_IN_REGION];            // of one channel; at last what is unseen in all
 shared float squares[PIXELS_IN_REGION];          // of all channels
 shared float relative_squares[PIXELS_IN_REGION]; // likewise
-shared vec4 rows[ROWS_OF_TILES];
+shared vec4 rows[ESTIMATE_WORKGROUP_SIZE];
 shared ValueSet tile_sets[TILES_IN_REGION];
 shared uint tile_counts[TILES_IN_REGION][4]; // rejected samples, low and high; pixels that are unknown, and lost
 
@@ -138,14 +136,12 @@ void main()
     const uvec2 region_place = gl_WorkGroupID.xy * REGION_SIZE;
     const uvec2 size = min(uvec2(estimate.film_width, estimate.row_count) - region_place, uvec2(REGION_SIZE));
 
-    // The row of a tile that this invocation adds up, if it does.
-    const bool has_row = invocation < ROWS_OF_TILES;
+    // The row of a tile that this invocation adds up.
     const uint tile = invocation / TILE_SIZE;
     const uvec2 row_place = uvec2(tile % TILES_IN_ROW, tile / TILES_IN_ROW) * TILE_SIZE
                           + uvec2(0u, invocation % TILE_SIZE);
     const uint row_first = row_place.y * REGION_SIZE + row_place.x;
-    const bool is_there = has_row && row_place.y < size.y && row_place.x < size.x;
-    const uint row_pixels = is_there ? min(size.x - row_place.x, TILE_SIZE) : 0u;
+    const uint row_pixels = row_place.y < size.y && row_place.x < size.x ? min(size.x - row_place.x, TILE_SIZE) : 0u;
 
     if (invocation < TILES_IN_REGION)
         tile_counts[invocation] = uint[4](0u, 0u, 0u, 0u);
@@ -181,8 +177,7 @@ void main()
         ValueSet row_set = empty_set();
         for (uint i = 0u; i < row_pixels; ++i)
             row_set = with_value(row_set, means[row_first + i]);
-        if (has_row)
-            rows[invocation] = vec4(row_set.sum, row_set.count, row_set.largest, row_set.second);
+        rows[invocation] = vec4(row_set.sum, row_set.count, row_set.largest, row_set.second);
         barrier();
         if (invocation < TILES_IN_REGION) {
             ValueSet tile_set = empty_set();
@@ -229,10 +224,8 @@ void main()
         row_unseen += means[row_first + i];
     }
     barrier(); // all have read the pixels
-    if (has_row) {
-        rows[invocation] = row;
-        means[invocation] = row_unseen;
-    }
+    rows[invocation] = row;
+    means[invocation] = row_unseen;
     barrier();
     if (invocation < TILES_IN_REGION) {
         vec4 sum = vec4(0.0);

@@ -253,7 +253,7 @@ PT_CONSTANT FILM_MIN_ERROR_SAMPLES = 9;
 // enough for hundreds of tiles in a small image.
 PT_CONSTANT REGION_SIZE = 32;
 PT_CONSTANT TILE_SIZE = 8;
-PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 512; // at least a region's rows of tiles; measured against 128, 256 and 1024
+PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
 
 // The sum of what is expected of the squares of errors in a region, and how it is made up: shares in it are numbers that
 // their squares leave in the range of float.
