@@ -10,6 +10,7 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FrameConstants frame; };
 
 #include "film.glsl"
+#include "path.glsl"
 #include "tree_path.glsl"
 
 // One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there,
@@ -23,14 +24,22 @@ SampleKey key_of(uint pixel_index, uint number)
     return SampleKey(frame.seed, pixel_index, frame.first_sample + number, number * row_length);
 }
 
+// Adds a sample, and returns its value.
+vec3 add_sample(inout FilmPixel gathered, vec3 radiance)
+{
+    vec3 value = radiance * frame.film_scale;
+    film_add(gathered, value);
+    return value;
+}
+
 // Takes the samples from done to end, and returns the last one's value.
 vec3 take_samples(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
 {
-    vec3 value;
+    vec3 value = vec3(0.0);
     do {
-        value = path_radiance(frame, pixel, key_of(pixel_index, done)) * frame.film_scale;
+        vec3 radiance = path_radiance(frame, pixel, key_of(pixel_index, done));
         if (TREE == 0u || !walk_was_cut)
-            film_add(gathered, value);
+            value = add_sample(gathered, radiance);
         ++done;
     } while (done < end);
     return value;
@@ -52,8 +61,7 @@ vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint 
             if (!begins) {
                 begins = ends_with(current, walk, departure, lamps);
                 if (begins) {
-                    value = value_of(current) * frame.film_scale;
-                    film_add(gathered, value);
+                    value = add_sample(gathered, value_of(current));
                     ++done;
                 }
             }

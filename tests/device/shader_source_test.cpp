@@ -135,7 +135,8 @@ TEST_F(ShaderSourceTest, AnEndlessIncludeIsRefused) {
 TEST_F(ShaderSourceTest, IncludedFilesAreFoundInTwoPlaces) {
     std::filesystem::create_directory(shaders.file("parts"));
     std::filesystem::rename(shaders.file("path.glsl"), shaders.file("parts/path.glsl"));
-    shaders.replace("pathtrace.comp", "\"path.glsl\"", "\"parts/path.glsl\"");
+    for (const char *including : {"pathtrace.comp", "tree_path.glsl"})
+        shaders.replace(including, "\"path.glsl\"", "\"parts/path.glsl\"");
     EXPECT_TRUE(compiled() == pt::embedded_code());
     shaders.write("parts/phong.glsl", "#error beside it\n");
     expect_complaint(shaders.file("parts/phong.glsl") + ":1: '#error' : beside it");
