@@ -66,12 +66,12 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct);
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
 
-// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the
-// noise, and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework
-// scene with six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are
-// many spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
-// share are less of the work: there are 2 branches. Where scene and path are so long that a sample is a long job by itself, they do not branch: some drivers stop a kernel after
-// 65535 loop trips.
+// Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
+// and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
+// six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are many
+// spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
+// share are less of the work: there are 2 branches. Where scene and path are so long that a sample is a long job by
+// itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
 // What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences
