@@ -104,10 +104,10 @@ DescriptorSet ComputePipeline::bind(std::span<const BufferRange> ranges) const {
             const std::uint64_t uniform_bytes =
                 std::min<std::uint64_t>(device_->limits().max_uniform_range, ranges[i].bytes);
             if (bindings_[i] == vk::DescriptorType::eUniformTexelBuffer)
-                set.views_.push_back({*device_, device_->handle().createBufferView({.buffer = ranges[i].buffer,
-                                                                                    .format = texel_format,
-                                                                                    .offset = ranges[i].offset,
-                                                                                    .range = ranges[i].bytes})});
+                set.views_.emplace_back(*device_, device_->handle().createBufferView({.buffer = ranges[i].buffer,
+                                                                                      .format = texel_format,
+                                                                                      .offset = ranges[i].offset,
+                                                                                      .range = ranges[i].bytes}));
             const vk::BufferView view = set.views_.empty() ? vk::BufferView() : *set.views_.back();
             const vk::DescriptorBufferInfo info{.buffer = ranges[i].buffer,
                                                 .offset = ranges[i].offset,
