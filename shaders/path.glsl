@@ -24,6 +24,9 @@ struct Path {
     bool alive;        // whether it goes on from there
 };
 
+// At its first vertex.
+Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
+
 // Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
 // importance sampling, or all to the lamps. A density here is that of one sample times the number of such samples
 // that the vertex takes (Veach 1997, section 9.2.2).
@@ -76,6 +79,12 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
     LampChoice choice = choose(lamps, numbers.which);
     float samples = lamp_samples(choice, false, directions);
     return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
+}
+
+// Of a branch the number that chooses the lobe is stratified over all of them; the sum may round up to 1.
+float lobe_number(float number, uint branch, float directions)
+{
+    return min((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
 // How a path leaves a vertex: in one of its directions, with the light of a lamp.
@@ -254,10 +263,9 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
             lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions);
         }
 
-        // The number that chooses the lobe is stratified over the branches; the sum may round up to 1.
         vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
-        numbers.z = min((numbers.z + float(branch)) / directions, LARGEST_NUMBER);
-        Path path = Path(arrival, whole, vec3(0.0), 1u, true);
+        numbers.z = lobe_number(numbers.z, branch, directions);
+        Path path = path_from(arrival);
         leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP, time, numbers, directions);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {

@@ -25,8 +25,6 @@ struct TreeSample {
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 
-Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
-
 TreeSample sample_of(SampleKey key, CameraRay ray)
 {
     const Arrival nowhere = Arrival(vec3(0.0), vec3(0.0), NO_SURFACE);
@@ -63,10 +61,10 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
             lamp = light_of_lamp(current.path.throughput, vertex, material, choice, chosen.place, samples, directions);
     }
 
-    // The direction. The number that chooses the lobe is stratified over the branches; the sum may round up to 1.
+    // The direction.
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(at_first ? 1u : 2u, LAMP_COUNT));
     if (at_first)
-        numbers.z = min((numbers.z + float(current.branch)) / directions, LARGEST_NUMBER);
+        numbers.z = lobe_number(numbers.z, current.branch, directions);
     departure = depart(current.path, vertex, material, lamp, every_lamp, numbers, directions);
     departure.carries_light = departure.carries_light && current.branch < BRANCH_COUNT;
     return walk_onwards(vertex, current.path, departure, time);
