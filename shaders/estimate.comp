@@ -13,6 +13,12 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
+// Of a film whose tiles have different numbers of samples: those in the older and in the newer part of each tile, and what
+// its samples alone say of the sum of its values' relative errors squared.
+layout(constant_id = 0) const uint UNEVEN = 0u;
+layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
+layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { float squares[]; } tile_errors;
+
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
 const uint PIXELS_IN_REGION = REGION_SIZE * REGION_SIZE;
@@ -71,7 +77,20 @@ Shown shown_in(uint channel, uint pixel_in_strip, Counts counts)
                  first_is_less ? as_float(sum_a) / float(counts.a) : as_float(sum_b) / float(counts.b));
 }
 
-void count_in_tile(uint tile, PartCount older, PartCount newer)
+// A tile's place in the film.
+uint film_tile(uvec2 place_in_strip)
+{
+    uint columns = (estimate.film_width + TILE_SIZE - 1u) / TILE_SIZE;
+    return estimate.first_tile + place_in_strip.y / TILE_SIZE * columns + place_in_strip.x / TILE_SIZE;
+}
+
+// That a pixel must have.
+uvec2 expected_counts(uvec2 place_in_strip)
+{
+    return UNEVEN == 1u ? tile_samples.counts[film_tile(place_in_strip)] : estimate.sample_counts;
+}
+
+void count_in_tile(uint tile, PartCount older, PartCount newer, uvec2 expected)
 {
     uint rejected[2] = uint[2](older.done - older.accepted, newer.done - newer.accepted);
     for (uint part = 0u; part < 2u; ++part)
@@ -82,7 +101,7 @@ void count_in_tile(uint tile, PartCount older, PartCount newer)
         }
     if (older.accepted == 0u || newer.accepted == 0u)
         atomicAdd(tile_counts[tile][2], 1u);
-    if (uvec2(older.done, newer.done) != estimate.sample_counts)
+    if (uvec2(older.done, newer.done) != expected)
         atomicAdd(tile_counts[tile][3], 1u);
 }
 
@@ -148,6 +167,7 @@ void main()
     barrier();
 
     float unseen[PIXELS_OF_INVOCATION];
+    float own_squares[PIXELS_OF_INVOCATION];
     for (uint channel = 0u; channel < 3u; ++channel) {
         // What the samples of each pixel show.
         float standard_errors[PIXELS_OF_INVOCATION];
@@ -165,10 +185,12 @@ void main()
             standard_errors[i] = shown.standard_error;
             lessers[i] = shown.lesser;
             if (channel == 0u) {
-                count_in_tile(place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE, older, newer);
+                count_in_tile(place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE, older, newer,
+                              expected_counts(region_place + place));
                 squares[index] = 0.0;
                 relative_squares[index] = 0.0;
                 unseen[i] = 0.0;
+                own_squares[i] = 0.0;
             }
         }
         barrier();
@@ -203,11 +225,14 @@ void main()
             Neighbourhood near = neighbourhood(ivec2(place), ivec2(size));
             ValueSet tile_set = tile_sets[place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE];
             float around = max(near.median, level_about(mean, tile_set, region_set));
+            RelativeError relative = RelativeError(estimate.relative_offset, estimate.relative_scale);
+            uvec2 counts = expected_counts(region_place + place);
             squares[index] += squared(standard_errors[i]);
-            relative_squares[index] +=
-                relative_square(standard_errors[i], mean, lessers[i], around,
-                                RelativeError(estimate.relative_offset, estimate.relative_scale));
-            unseen[i] += unseen_square(mean, near.largest, estimate.sample_count, estimate.relative_offset);
+            relative_squares[index] += relative_square(standard_errors[i], mean, lessers[i], around, relative);
+            unseen[i] += unseen_square(mean, near.largest, float(counts.x + counts.y), estimate.relative_offset);
+            if (UNEVEN == 1u)
+                own_squares[i] += relative_square(standard_errors[i], mean, lessers[i],
+                                                  mean_besides_and_without_largest(tile_set, mean), relative);
         }
         barrier(); // before the next channel's means
     }
@@ -269,5 +294,27 @@ void main()
             region.lost_pixels += tile_counts[i][3];
         }
         estimated.regions[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = region;
+    }
+    if (UNEVEN == 0u)
+        return;
+
+    // What tiles say of themselves, in the same order.
+    barrier(); // the region has been written
+    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i)
+        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i];
+    barrier();
+    float row_square = 0.0;
+    for (uint i = 0u; i < row_pixels; ++i)
+        row_square += means[row_first + i];
+    rows[invocation].x = row_square;
+    barrier();
+    uvec2 tile_place = uvec2(invocation % TILES_IN_ROW, invocation / TILES_IN_ROW) * TILE_SIZE;
+    if (invocation < TILES_IN_REGION && all(lessThan(tile_place, size))) {
+        float tile_square = 0.0;
+        for (uint i = 0u; i < TILE_SIZE; ++i)
+            tile_square += rows[invocation * TILE_SIZE + i].x;
+        // Where both parts of some pixel do not have a sample, nothing is known.
+        tile_errors.squares[film_tile(region_place + tile_place)] =
+            tile_counts[invocation][2] > 0u ? uintBitsToFloat(INFINITY_BITS) : tile_square;
     }
 }

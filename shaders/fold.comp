@@ -1,4 +1,5 @@
-// Adds part 1 of the film to part 0 and empties it: one invocation per pixel of the strip.
+// Adds a part of the film to the one that the frame names and empties it: one invocation per pixel of the strip, or of the
+// tiles of a list.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -9,14 +10,18 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FrameConstants frame; };
 
 #include "film.glsl"
+#include "tile_list.glsl"
+
+layout(constant_id = 0) const uint OF_LIST = 0u;
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= frame.pixel_count)
+    uint pixel_in_strip;
+    if (!has_pixel(OF_LIST == 1u, pixel_in_strip))
         return;
     uint stride = frame.strip_pixel_count;
-    uint kept = frame.first_pixel + gl_GlobalInvocationID.x;
-    uint emptied = kept + FILM_WORDS * stride;
+    uint kept = frame.film_part * FILM_WORDS * stride + pixel_in_strip;
+    uint emptied = (1u - frame.film_part) * FILM_WORDS * stride + pixel_in_strip;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
         uint first = channel * FILM_SUM_WORDS * stride;
         uvec4 sum;

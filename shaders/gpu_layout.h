@@ -36,7 +36,7 @@ PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
 PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
 PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_SHARERS = 15;         // invocations that share the samples of a pixel: images that are small for a GPU
+PT_CONSTANT ID_SHARERS = 15;         // invocations that share a pixel's samples; 0: pixels are those of a list of tiles
 PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
 PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
 PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, next after the lamps
@@ -118,11 +118,20 @@ PT_CONSTANT BINDING_PASS = 3;
 PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_TREE_NODES = 5;
 PT_CONSTANT BINDING_TREE_SPHERES = 6;
+PT_CONSTANT BINDING_TILES = 7;
 // Of resolve.comp and estimate.comp, beside BINDING_FILM.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
+// Of estimate.comp.
+PT_CONSTANT BINDING_TILE_COUNTS = 4;
+PT_CONSTANT BINDING_TILE_SQUARES = 5;
 // Of add.comp, likewise.
 PT_CONSTANT BINDING_ADDED = 3;
+
+// What resolve.comp is asked for: PT_QUANTITY_* of pt.h.
+PT_CONSTANT QUANTITY_RADIANCE = 0;
+PT_CONSTANT QUANTITY_STANDARD_ERROR = 1;
+PT_CONSTANT QUANTITY_SAMPLE_COUNT = 2;
 
 // What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h.
 PT_CONSTANT FORMAT_RGB32F = 0;
@@ -286,7 +295,7 @@ struct FrameConstants {
     uvec2 seed;          // well mixed words made from pt_render.seed
     uint strip_first_pixel; // index of the strip's first pixel in the image, row by row
     uint strip_pixel_count;
-    uint first_pixel; // of this slice, in the strip
+    uint first_pixel; // of this slice, in the strip; or the first of its entries in the list of tiles
     uint pixel_count;
     uint film_part;    // to which the samples of this dispatch are added
     uint first_sample; // index in the sequence
@@ -295,12 +304,14 @@ struct FrameConstants {
     float start_scale; // camera rays start this times their distance from the image's middle in pixels off the origin
 };
 
+PT_CONSTANT ANY_COUNT = 0xffffffffu;
+
 // Of resolve.comp. Pixels are counted row by row over the film.
 struct ResolveConstants {
-    uvec2 sample_counts; // that each pixel must have in the older and in the newer part
+    uvec2 sample_counts; // that each pixel must have in the older and in the newer part; ANY_COUNT: not looked at
     uint older_part;     // of the two in memory
     int exponent;        // of the unit in which sums are counted, as a power of two, in radiance
-    uint standard_error; // 1: of the mean, 0: the mean
+    uint quantity;       // PT_QUANTITY_* of pt.h
     uint film_width;
     uint strip_first_pixel;
     uint strip_pixel_count;
@@ -313,12 +324,12 @@ struct ResolveConstants {
 
 // Of estimate.comp, for a strip of whole rows.
 struct EstimateConstants {
-    uvec2 sample_counts; // that each pixel must have in the older and in the newer part
+    uvec2 sample_counts; // that each pixel must have in the older and in the newer part, if all have as many
     uint older_part;     // of the two in memory
     uint film_width;
     uint strip_pixel_count;
     uint row_count;
-    float sample_count;    // of a pixel
+    uint first_tile;       // of the strip, in the film
     float relative_offset; // in film units
     float relative_scale;
 };

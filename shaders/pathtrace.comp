@@ -1,5 +1,6 @@
-// The path tracer's kernel: each invocation takes samples of a slice in one pixel;
-// SHARERS of them, along y, share those of a pixel.
+// The path tracer's kernel: each invocation takes samples of a slice in one pixel; SHARERS of them, along y, share those of
+// a pixel. Without a number of sharers (0) a workgroup has the pixels of a tile that a list names, and the dispatch says
+// how many share them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -11,6 +12,7 @@ layout(push_constant) uniform Push { FrameConstants frame; };
 
 #include "film.glsl"
 #include "path.glsl"
+#include "tile_list.glsl"
 #include "tree_path.glsl"
 
 // One sample per pixel of a pass that is split over several submissions: kept aside until all its pixels are there,
@@ -83,16 +85,17 @@ vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint 
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= frame.pixel_count)
+    uint pixel_in_strip;
+    if (!has_pixel(SHARERS == 0u, pixel_in_strip))
         return;
-    uint pixel_in_strip = frame.first_pixel + gl_GlobalInvocationID.x;
     uint pixel_index = frame.strip_first_pixel + pixel_in_strip;
     uvec2 pixel = uvec2(pixel_index % frame.width, pixel_index / frame.width);
 
     // Its samples of the slice: a range of its own.
-    uint done = gl_GlobalInvocationID.y * frame.sample_count / SHARERS;
-    uint end = (gl_GlobalInvocationID.y + 1u) * frame.sample_count / SHARERS;
-    if (SHARERS > 1u && done == end)
+    uint sharers = SHARERS == 0u ? gl_NumWorkGroups.y : SHARERS;
+    uint done = gl_GlobalInvocationID.y * frame.sample_count / sharers;
+    uint end = (gl_GlobalInvocationID.y + 1u) * frame.sample_count / sharers;
+    if (SHARERS != 1u && done == end)
         return;
 
     FilmPixel gathered = empty_film_pixel();

@@ -25,9 +25,11 @@ bool knows_error(PartCount older, PartCount newer)
 
 uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newer)
 {
+    if (resolve.quantity == QUANTITY_SAMPLE_COUNT)
+        return floatBitsToUint(float(older.done + newer.done));
     uvec4 sum_older = part_sum(resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
     uvec4 sum_newer = part_sum(1u - resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
-    if (resolve.standard_error == 0u)
+    if (resolve.quantity == QUANTITY_RADIANCE)
         return mean_bits(add_with_carry(sum_older, sum_newer), older.accepted + newer.accepted, resolve.exponent);
     if (!knows_error(older, newer))
         return INFINITY_BITS;
@@ -47,7 +49,7 @@ void main()
         return;
     PartCount older = part_count(resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
     PartCount newer = part_count(1u - resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
-    if (uvec2(older.done, newer.done) != resolve.sample_counts)
+    if (resolve.sample_counts.x != ANY_COUNT && uvec2(older.done, newer.done) != resolve.sample_counts)
         atomicAdd(findings.lost_pixels, 1u);
     uint first_word = resolve.first_word + row * resolve.row_words + column * PIXEL_WORDS;
     uvec2 halves = uvec2(0u, HALF_ONE_BITS << 16);

@@ -114,6 +114,23 @@ void ErrorEstimator::finish_band() {
     radiance_.clear();
     standard_error_.clear();
     lesser_.clear();
+    band_row_ += region_size;
+}
+
+// Of the tiles of a region in the band.
+std::vector<double> ErrorEstimator::sample_counts(std::size_t left, std::size_t width, std::size_t height) const {
+    std::vector<double> counts;
+    for (std::size_t y = 0; y < height; y += tile_size)
+        for (std::size_t x = left; x < left + width; x += tile_size)
+            counts.push_back(static_cast<double>(
+                conditions_.uneven ? conditions_.uneven->of(tile_at(x, y)).count() : conditions_.sample_count));
+    return counts;
+}
+
+// Of the film, from a place in the band.
+std::size_t ErrorEstimator::tile_at(std::size_t x, std::size_t y) const {
+    const std::size_t columns = (conditions_.width + tile_size - 1) / tile_size;
+    return (band_row_ + y) / tile_size * columns + x / tile_size;
 }
 
 RegionChannel ErrorEstimator::channel_of(std::size_t channel, std::size_t left, std::size_t width,
@@ -132,14 +149,16 @@ RegionChannel ErrorEstimator::channel_of(std::size_t channel, std::size_t left, 
 }
 
 void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t height) {
+    const std::vector<double> counts = sample_counts(left, width, height);
     std::vector<ValueError> pixels(width * height);
     for (std::size_t channel = 0; channel < 3; ++channel) {
         const std::vector<ValueError> values =
-            value_errors(channel_of(channel, left, width, height), static_cast<double>(conditions_.sample_count));
+            value_errors(channel_of(channel, left, width, height), counts, !tile_squares_.empty());
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             pixels[i].square += values[i].square;
             pixels[i].relative_square += values[i].relative_square;
             pixels[i].unseen += values[i].unseen;
+            pixels[i].own_square += values[i].own_square;
         }
     }
     RegionErrors region;
@@ -150,6 +169,7 @@ void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t
             const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
             double square = 0.0;
             double relative_square = 0.0;
+            double own_square = 0.0;
             for (std::size_t y = top; y < bottom; ++y)
                 for (std::size_t x = first; x < last; ++x) {
                     const ValueError &pixel = pixels[y * width + x];
@@ -158,7 +178,10 @@ void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t
                     region.square.of_pixels += squared(pixel.square);
                     region.relative_square.of_pixels += squared(pixel.relative_square);
                     region.unseen += pixel.unseen;
+                    own_square += pixel.own_square;
                 }
+            if (!tile_squares_.empty())
+                tile_squares_[tile_at(left + first, top)] = own_square;
             region.value_count += value_count;
             region.squares_of_tile_sizes += squared(value_count);
             add_tile(region.square, square, value_count);

@@ -128,7 +128,8 @@ double unseen_square(double mean, double largest_beside, double sample_count) {
 
 } // namespace
 
-std::vector<ValueError> value_errors(const RegionChannel &channel, double sample_count) {
+std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts,
+                                     bool with_own_squares) {
     const std::size_t tile_columns = (channel.width + tile_size - 1) / tile_size;
     const std::size_t tile_rows = (channel.height + tile_size - 1) / tile_size;
     const auto tile_of = [&](std::size_t x, std::size_t y) { return y / tile_size * tile_columns + x / tile_size; };
@@ -149,9 +150,14 @@ std::vector<ValueError> value_errors(const RegionChannel &channel, double sample
             const double mean = channel.mean[i];
             const double square = squared(channel.standard_error[i]);
             const auto [median, largest] = neighbourhood(channel, x, y);
-            const double around = std::max(median, level_about(mean, tiles[tile_of(x, y)], region));
-            errors.push_back({square, relative_square(channel.standard_error[i], mean, channel.lesser[i], around),
-                              unseen_square(mean, largest, sample_count)});
+            const ValueSet &tile = tiles[tile_of(x, y)];
+            const double around = std::max(median, level_about(mean, tile, region));
+            const auto relative_about = [&](double level) {
+                return relative_square(channel.standard_error[i], mean, channel.lesser[i], level);
+            };
+            errors.push_back({square, relative_about(around),
+                              unseen_square(mean, largest, sample_counts[tile_of(x, y)]),
+                              with_own_squares ? relative_about(tile.mean_besides_and_without_largest(mean)) : 0.0});
         }
     return errors;
 }

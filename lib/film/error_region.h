@@ -6,6 +6,7 @@
 #include "shaders/gpu_layout.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace pt {
@@ -34,9 +35,11 @@ struct ValueError {
     double square;          // of (x - r)^2
     double relative_square; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell
     double unseen; // the same of light beside the pixel that may be in it too, but that none of its samples met
+    double own_square; // relative_square by what its tile alone knows; 0 if that was not asked for
 };
 
-// Of each value of the channel, after so many samples a pixel.
-std::vector<ValueError> value_errors(const RegionChannel &channel, double sample_count);
+// Of each value of the channel. sample_counts: of a pixel, for each tile of the region, row by row.
+std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts,
+                                     bool with_own_squares);
 
 } // namespace pt

@@ -26,6 +26,10 @@ std::uint64_t most_region_bytes(DeviceFilm &film) {
     return region_bytes(film, film.strips().front());
 }
 
+TileGrid grid_of(const DeviceFilm &film) {
+    return {film.width(), film.pixel_count() / film.width()};
+}
+
 // How the kernel measures relative errors, so that all squares are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
@@ -77,30 +81,65 @@ RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::
 
 } // namespace
 
-vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
-    constexpr std::array bindings = {vulkan::no_binding, vulkan::no_binding, vk::DescriptorType::eStorageBuffer,
+vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code, bool uneven) {
+    constexpr std::array bindings = {vulkan::no_binding,
+                                     vulkan::no_binding,
+                                     vk::DescriptorType::eStorageBuffer,
+                                     vk::DescriptorType::eStorageBuffer,
+                                     vk::DescriptorType::eStorageBuffer,
                                      vk::DescriptorType::eStorageBuffer};
-    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3);
-    return {device, code, bindings, sizeof(gpu::EstimateConstants), {}};
+    static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3 && gpu::BINDING_TILE_COUNTS == 4 &&
+                  gpu::BINDING_TILE_SQUARES == 5);
+    return {device, code, bindings, sizeof(gpu::EstimateConstants), std::array{uneven ? 1U : 0U}};
 }
 
-ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film) :
+ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, bool uneven,
+                         DeviceFilm &film) :
     device_(device),
     estimate_(estimate),
     film_(film),
-    regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image") {
+    regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image"),
+    tile_counts_(device, vulkan::BufferUse::HostWritten, (uneven ? grid_of(film).count() : 1) * sizeof(gpu::uvec2),
+                 "samples of tiles"),
+    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? grid_of(film).count() : 1) * sizeof(float),
+                  "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::array<vulkan::Buffer *, 4> buffers = {nullptr, nullptr, &strip.words, &regions_};
+        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,        &strip.words,
+                                                         &regions_, &tile_counts_, &tile_squares_};
         sets_.push_back(estimate.bind(buffers));
     }
 }
 
+// The host writes in place, so no work that reads them may be under way.
+void ErrorReader::list_counts(const TileSamples &samples) {
+    std::vector<gpu::uvec2> of_sets;
+    for (const SampleSet &set : samples.sets()) {
+        const auto [older, newer] = part_counts(set);
+        of_sets.emplace_back(static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer));
+    }
+    auto *const counts = reinterpret_cast<gpu::uvec2 *>(tile_counts_.host_memory().data());
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
+        counts[tile] = of_sets[samples.set_of(tile)];
+}
+
+// In film units the kernel divides by another offset and scales (RelativeUnits).
+void ErrorReader::collect_tiles(const ErrorQuery &query) const {
+    const RelativeUnits units(query.unit);
+    const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
+    const auto *const squares = reinterpret_cast<const float *>(tile_squares_.host_bytes().data());
+    for (std::size_t tile = 0; tile < query.tile_squares.size(); ++tile)
+        query.tile_squares[tile] = static_cast<double>(squares[tile]) * factor;
+}
+
 void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {
+    if (query.uneven)
+        list_counts(*query.uneven);
     for (std::size_t i = 0; i < sets_.size(); ++i) {
         device_.submit(
             [&](const vk::raii::CommandBuffer &commands) { record_strip(commands, i, film_.parts(), query); });
         collect_strip(i, query, receive);
     }
+    collect_tiles(query);
 }
 
 void ErrorReader::record(const vk::raii::CommandBuffer &commands, const PartUse &parts, const ErrorQuery &query) const {
@@ -123,7 +162,8 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
     constants.film_width = width;
     constants.strip_pixel_count = pixel_count;
     constants.row_count = pixel_count / width;
-    constants.sample_count = static_cast<float>(older + newer);
+    constants.first_tile = static_cast<std::uint32_t>(
+        grid_of(film_).tile_at(0, film_.strips()[strip].first_pixel / width));
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
     estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},

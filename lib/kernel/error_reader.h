@@ -20,12 +20,17 @@ namespace pt {
 struct ErrorQuery {
     double unit;        // of the film, a power of two, in radiance
     PartCounts samples; // that every pixel has
+
+    // Instead, where tiles differ, those of each; and by tiles of the film receives what ErrorEstimator says of them.
+    const TileSamples *uneven = nullptr;
+    std::span<double> tile_squares = {};
 };
 
 class ErrorReader {
 public:
-    // All must outlive it. estimate: of estimate_pipeline(). The film's strips must be whole rows of regions.
-    ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
+    // All must outlive it. estimate: of estimate_pipeline(), for films of this kind. The film's strips must be whole rows
+    // of regions.
+    ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, bool uneven, DeviceFilm &film);
 
     using Receive = std::function<void(const RegionErrors &)>;
 
@@ -41,15 +46,20 @@ public:
 private:
     void record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const PartUse &parts,
                       const ErrorQuery &query) const;
+    void list_counts(const TileSamples &samples);
+    void collect_tiles(const ErrorQuery &query) const;
     void collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const;
 
     vulkan::Device &device_;
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
     vulkan::Buffer regions_;                  // of a strip
+    vulkan::Buffer tile_counts_;              // by tiles of the film, of a film that is uneven
+    vulkan::Buffer tile_squares_;             // likewise
     std::vector<vulkan::DescriptorSet> sets_; // one per strip
 };
 
-vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);
+// uneven: for films whose tiles have different samples.
+vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code, bool uneven);
 
 } // namespace pt

@@ -73,10 +73,13 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     tree_(tree),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
-            "points of a slice") {
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
-    for (const DeviceFilm::Strip &strip : film_.strips()) // no kernel touches the pass before there is one
-        sets_.push_back(bound(trace, strip, strip.words));
+            "points of a slice") {}
+
+// No kernel touches the pass before there is one.
+void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
+    if (sets_.empty())
+        for (const DeviceFilm::Strip &strip : film_.strips())
+            sets_.push_back(bound(trace, strip, strip.words));
 }
 
 // What reads the tree is not in the kernel of a scene without one, but its bindings are.
@@ -92,7 +95,8 @@ vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const 
                                vulkan::BufferRange(pass),
                                vulkan::BufferRange(points_),
                                vulkan::BufferRange(tree.handle(), 0, node_bytes),
-                               vulkan::BufferRange(tree.handle(), first_sphere, sphere_bytes)};
+                               vulkan::BufferRange(tree.handle(), first_sphere, sphere_bytes),
+                               vulkan::BufferRange(tile_lists_ ? *tile_lists_ : scene_)};
     return trace.bind(ranges);
 }
 
@@ -120,6 +124,7 @@ void Kernel::build(TracePipelines &pipelines) const {
 void Kernel::dispatch_nothing() {
     const std::array pipelines = {&pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_),
                                   &pipelines_.commit(), &pipelines_.fold()};
+    bind_film(*pipelines.front());
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (const vulkan::ComputePipeline *pipeline : pipelines)
             pipeline->dispatch(commands, sets_.front(), std::as_bytes(std::span(&frame_, 1)), 0, {{0}});
@@ -139,12 +144,17 @@ std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std:
     for (std::uint64_t sample = first_sample; sample < end; sample = batches.back().range().end) {
         const std::uint64_t run_end = std::min(end, end_of_run(hull, sample));
         const std::uint64_t count = std::min<std::uint64_t>(max_dispatch_samples_, run_end - sample);
-        batches.push_back(
-            {static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(count), next_table_ * table_bytes_});
+        batches.push_back(next_batch({sample, sample + count}));
         hull = hull_of(hull, batches.back().range());
-        next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
     }
     return batches;
+}
+
+Kernel::Batch Kernel::next_batch(const SampleRange &samples) {
+    const Batch batch{static_cast<std::uint32_t>(samples.first), static_cast<std::uint32_t>(samples.count()),
+                      next_table_ * table_bytes_};
+    next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
+    return batch;
 }
 
 void Kernel::upload_points(const std::vector<Batch> &batches) {
@@ -209,6 +219,7 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
     if (!slice.whole)
         prepare_pass();
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
+    bind_film(trace);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (scene_is_old_)
             scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));

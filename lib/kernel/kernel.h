@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,6 +60,17 @@ public:
     // holds whole samples again with the range that ends it.
     vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample, const SampleRange &hull);
 
+    // Samples of some tiles of a film that has whole rows of regions.
+    struct TileWork {
+        std::span<const std::uint32_t> tiles; // ascending
+        SampleRange samples;                  // all of one part of the film; none, if there is only to fold
+        std::uint32_t film_part;              // that they are added to, in memory
+        std::optional<std::uint32_t> fold_into; // the part in memory that takes in the other one first
+    };
+
+    // Starts to take them; like start().
+    vulkan::Device::Ticket start_tiles(const TileWork &work);
+
     // Waits for a slice of start() and returns the seconds it took, or where these are not known what comes nearest to
     // those expected.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
@@ -73,9 +85,16 @@ private:
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
 
+    Batch next_batch(const SampleRange &samples);
     std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count, SampleRange hull);
     void upload_points(const std::vector<Batch> &batches);
+    void bind_film(const vulkan::ComputePipeline &trace);
     void prepare_pass();
+    void prepare_tiles();
+    std::uint32_t list_tiles(std::span<const std::uint32_t> tiles);
+    void dispatch_tiles(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
+                        std::span<const std::uint32_t> tiles, std::uint32_t first_entry, gpu::FrameConstants frame,
+                        std::uint32_t table_offset, std::uint32_t sharers) const;
     vulkan::DescriptorSet bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip,
                                 const vulkan::Buffer &pass) const;
     void upload_scene();
@@ -102,6 +121,9 @@ private:
     vulkan::Buffer points_;                        // tables of the slices under way
     std::vector<vulkan::DescriptorSet> sets_;      // one per strip of the film
     std::vector<vulkan::DescriptorSet> pass_sets_; // likewise with the pass, if there has been one
+    std::optional<vulkan::Buffer> tile_lists_;     // of the slices under way, if there has been one of tiles
+    std::vector<vulkan::DescriptorSet> tile_sets_; // with them
+    std::uint32_t next_tile_list_ = 0;             // in tile_lists_, which is used in turn
     std::uint32_t next_table_ = 0;                 // in points_, which is used in turn
     bool scene_is_old_ = true;                     // the buffer does not have the scene yet
     double seconds_ = 0.0;                         // of all slices of the scene so far

@@ -19,11 +19,13 @@ const vulkan::ComputePipeline &ResolvePipelines::of(std::uint32_t format) {
 
 gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFilm &film) {
     gpu::ResolveConstants constants{};
-    constants.sample_counts = {static_cast<std::uint32_t>(query.samples[older_part]),
-                               static_cast<std::uint32_t>(query.samples[newer_part])};
+    constants.sample_counts = gpu::uvec2(gpu::ANY_COUNT);
+    if (query.samples)
+        constants.sample_counts = {static_cast<std::uint32_t>((*query.samples)[older_part]),
+                                   static_cast<std::uint32_t>((*query.samples)[newer_part])};
     constants.older_part = film.parts().older();
     constants.exponent = std::ilogb(query.unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
-    constants.standard_error = query.standard_error ? 1 : 0;
+    constants.quantity = query.quantity;
     constants.film_width = film.width();
     constants.width = query.pixels.width;
     return constants;

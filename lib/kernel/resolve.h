@@ -20,9 +20,9 @@ namespace pt {
 // What is read of the pixels of a film.
 struct ImageQuery {
     Rectangle pixels;                        // of the film, at least one
-    bool standard_error;                     // of the mean, instead of the mean
+    std::uint32_t quantity;                  // PT_QUANTITY_*
     double unit;                             // of the film, a power of two, in radiance
-    PartCounts samples;                      // that every pixel has
+    std::optional<PartCounts> samples;       // that every pixel has, if all have as many
     std::uint32_t format = PT_FORMAT_RGB32F; // PT_FORMAT_*
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,        vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eStorageBuffer,        vk::DescriptorType::eStorageBuffer,
                                  vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eUniformTexelBuffer,
-                                 vk::DescriptorType::eUniformTexelBuffer};
+                                 vk::DescriptorType::eUniformTexelBuffer,   vk::DescriptorType::eStorageBuffer};
 
 std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
                                                  std::uint32_t sharers) {
@@ -118,6 +118,13 @@ const vulkan::ComputePipeline &TracePipelines::fold() {
     if (!fold_)
         fold_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
     return *fold_;
+}
+
+const vulkan::ComputePipeline &TracePipelines::fold_tiles() {
+    constexpr std::array of_list = {1U};
+    if (!fold_tiles_)
+        fold_tiles_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), of_list);
+    return *fold_tiles_;
 }
 
 } // namespace pt

@@ -177,7 +177,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
     const pt::PixelSums sums = film_of(pixels);
     pt::DeviceFilm film(device(), width, height, 30'000);
     put(film, sums);
-    pt::ImageQuery query{{0, 0, width, height}, false, std::ldexp(1.0, exponent + fraction_bits), {100, 100}};
+    pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, std::ldexp(1.0, exponent + fraction_bits), {100, 100}};
     ASSERT_EQ(floats(read(film, query)), numbers);
     for (const std::uint32_t format : {PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
         for (query.standard_error = false;; query.standard_error = true) {
@@ -214,7 +214,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
                                                     {{0, 0, wide, high}, 4U, 12U},
                                                     {{100, 59, 1, 1}, 199'984U, 400U},
                                                     {{17, 3, 61, 41}, 100'300U, 68U}}) {
-                const pt::ImageQuery query{part, false, 1.0, {100, 100}, format};
+                const pt::ImageQuery query{part, PT_QUANTITY_RADIANCE, 1.0, {100, 100}, format};
                 const std::uint64_t row = std::uint64_t{part.width} * pt::pixel_bytes(format);
                 const std::vector<std::byte> image = read(film, query);
                 std::vector<std::byte> expected = guards;
@@ -241,8 +241,8 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     put(film, sums);
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, pixels.size() * 12, "test");
     const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
-    const pt::ImageQuery query{{0, 0, width, height}, false, 1.0, {100, 100}};
-    const pt::ImageQuery of_one{{0, 0, 1, 1}, false, 1.0, {100, 100}};
+    const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, {100, 100}};
+    const pt::ImageQuery of_one{{0, 0, 1, 1}, PT_QUANTITY_RADIANCE, 1.0, {100, 100}};
     pt::BufferWriter writer(device(), pipelines(), film, pt::BufferWriter::piece_limits(device().limits()));
     const char *const lost = "the driver lost samples of 1 pixels";
     EXPECT_STREQ(error_of([&] { writer.write(query, {buffer.handle(), 0, width * 12, {}}); }).what(), lost);

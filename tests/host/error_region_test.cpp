@@ -30,8 +30,14 @@ void light_in_one_part(pt::RegionChannel &channel, std::size_t pixel, double mea
     channel.lesser[pixel] = lesser;
 }
 
+// After so many samples in every tile.
+std::vector<pt::ValueError> errors(const pt::RegionChannel &channel, double samples) {
+    const std::vector<double> counts(16, samples);
+    return pt::value_errors(channel, counts, true);
+}
+
 double relative_square(const pt::RegionChannel &channel, std::size_t pixel) {
-    return pt::value_errors(channel, many_samples)[pixel].relative_square;
+    return errors(channel, many_samples)[pixel].relative_square;
 }
 
 constexpr std::size_t middle = 13 * side + 11;
@@ -110,7 +116,7 @@ TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
     pt::RegionChannel channel = flat(1.0);
     channel.mean[middle] = 1000.0;
     constexpr double samples = 64.0;
-    const std::vector<pt::ValueError> found = pt::value_errors(channel, samples);
+    const std::vector<pt::ValueError> found = errors(channel, samples);
     const double share = 1000.0 / samples;
     const double expected = std::log((1.01 + share * share) / 1.01) / (2.0 * samples);
     for (std::size_t y = 10; y < 17; ++y)
@@ -118,7 +124,7 @@ TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
             const bool beside = x >= 10 && x <= 12 && y >= 12 && y <= 14 && index_of(x, y) != middle;
             EXPECT_NEAR(found[index_of(x, y)].unseen, beside ? expected : 0.0, 1e-12) << x << " " << y;
         }
-    for (const pt::ValueError &error : pt::value_errors(channel, 1024.0)) // a sample of 1000 would show
+    for (const pt::ValueError &error : errors(channel, 1024.0)) // a sample of 1000 would show
         EXPECT_EQ(error.unseen, 0.0);
 }
 
@@ -130,7 +136,7 @@ TEST(ErrorRegion, MayBeAsSmallAsAPixel) {
             pt::RegionChannel channel{width, height, std::vector<double>(count, 2.0), std::vector<double>(count, 0.5),
                                       std::vector<double>(count, 1.5)};
             const double limit = count == 1 ? 2.25 : 4.0;
-            for (const pt::ValueError &error : pt::value_errors(channel, many_samples)) {
+            for (const pt::ValueError &error : errors(channel, many_samples)) {
                 EXPECT_EQ(error.square, 0.25);
                 EXPECT_DOUBLE_EQ(error.relative_square, 0.25 / (limit + 0.01));
             }

@@ -258,7 +258,8 @@ enum {
      * size it is half of its magnitude. The first part has the largest power of two below the number of samples. One
      * difference has one degree of freedom, so in a single pixel this is no more than a hint: a quarter of all values
      * are below a third of the true one. INFINITY where a part has no sample: of up to 8 all are in the first. */
-    PT_QUANTITY_STANDARD_ERROR = 1
+    PT_QUANTITY_STANDARD_ERROR = 1,
+    PT_QUANTITY_SAMPLE_COUNT = 2 /**< samples that the pixel has, the same in all channels, as float32 rounds it */
 };
 
 /** Values of pt_image.format: what a pixel is. Components follow each other in the machine's byte order; A is 1. */

@@ -1,0 +1,35 @@
+// The tiles of a film, row by row: squares of TILE_SIZE pixels, smaller at the right and bottom edges.
+#pragma once
+
+#include "lib/film/film_header.h"
+#include "shaders/gpu_layout.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace pt {
+
+struct TileGrid {
+    std::uint32_t width = 0;  // pixels of the film
+    std::uint32_t height = 0; // likewise
+
+    std::uint32_t columns() const { return (width + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
+    std::uint32_t rows() const { return (height + gpu::TILE_SIZE - 1) / gpu::TILE_SIZE; }
+    std::size_t count() const { return std::size_t{columns()} * rows(); }
+
+    // Of the film.
+    Rectangle pixels(std::size_t tile) const {
+        const auto x = static_cast<std::uint32_t>(tile % columns()) * gpu::TILE_SIZE;
+        const auto y = static_cast<std::uint32_t>(tile / columns()) * gpu::TILE_SIZE;
+        return {x, y, std::min(gpu::TILE_SIZE, width - x), std::min(gpu::TILE_SIZE, height - y)};
+    }
+
+    std::size_t tile_at(std::uint32_t x, std::uint32_t y) const {
+        return std::size_t{y / gpu::TILE_SIZE} * columns() + x / gpu::TILE_SIZE;
+    }
+
+    bool operator==(const TileGrid &) const = default;
+};
+
+} // namespace pt

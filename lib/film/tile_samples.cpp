@@ -1,0 +1,110 @@
+#include "lib/film/tile_samples.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace pt {
+
+bool TileSamples::empty() const {
+    return std::ranges::all_of(sets_, [](const SampleSet &set) { return set.empty(); });
+}
+
+SampleRange TileSamples::hull() const {
+    SampleRange all;
+    for (const SampleSet &set : sets_)
+        if (!set.empty())
+            all = all.empty() ? set.hull() : hull_of(all, set.hull());
+    return all;
+}
+
+std::uint64_t TileSamples::least() const {
+    std::uint64_t least = of(0).count();
+    for (const std::uint32_t set : set_of_)
+        least = std::min(least, sets_[set].count());
+    return least;
+}
+
+std::uint64_t TileSamples::most() const {
+    std::uint64_t most = of(0).count();
+    for (const std::uint32_t set : set_of_)
+        most = std::max(most, sets_[set].count());
+    return most;
+}
+
+std::uint64_t TileSamples::total() const {
+    if (even())
+        return sets_.front().count() * grid_.width * grid_.height;
+    std::uint64_t total = 0;
+    for (std::size_t tile = 0; tile < set_of_.size(); ++tile)
+        total += of(tile).count() * grid_.pixels(tile).pixel_count();
+    return total;
+}
+
+void TileSamples::tell_apart() {
+    if (even())
+        set_of_.assign(grid_.count(), 0);
+}
+
+std::uint32_t TileSamples::index_of(SampleSet samples) {
+    const auto found = std::ranges::find(sets_, samples);
+    if (found != sets_.end())
+        return static_cast<std::uint32_t>(found - sets_.begin());
+    sets_.push_back(std::move(samples));
+    return static_cast<std::uint32_t>(sets_.size() - 1);
+}
+
+// Each set that the tiles have is extended once, however many of them have it.
+void TileSamples::add(std::span<const std::uint32_t> tiles, const SampleRange &range) {
+    if (tiles.size() == grid_.count() && even()) {
+        sets_.front().add(range);
+        return;
+    }
+    tell_apart();
+    std::map<std::uint32_t, std::uint32_t> extended;
+    for (const std::uint32_t tile : tiles) {
+        const std::uint32_t before = set_of_[tile];
+        const auto [entry, is_new] = extended.try_emplace(before);
+        if (is_new) {
+            SampleSet samples = sets_[before];
+            samples.add(range);
+            entry->second = index_of(std::move(samples));
+        }
+        set_of_[tile] = entry->second;
+    }
+}
+
+void TileSamples::add_to_all(const SampleRange &range) {
+    for (SampleSet &set : sets_)
+        set.add(range);
+}
+
+void TileSamples::set(std::size_t tile, const SampleSet &samples) {
+    tell_apart();
+    set_of_[tile] = index_of(samples);
+}
+
+void TileSamples::tidy() {
+    if (even())
+        return;
+    std::vector<SampleSet> used;
+    std::map<std::uint32_t, std::uint32_t> places;
+    for (std::uint32_t &set : set_of_) {
+        const auto [entry, is_new] = places.try_emplace(set, static_cast<std::uint32_t>(used.size()));
+        if (is_new)
+            used.push_back(sets_[set]);
+        set = entry->second;
+    }
+    sets_ = std::move(used);
+    if (sets_.size() == 1)
+        set_of_.clear();
+}
+
+bool TileSamples::equals(const TileSamples &other) const {
+    for (std::size_t tile = 0; tile < grid_.count(); ++tile)
+        if (of(tile) != other.of(tile))
+            return false;
+    return grid_ == other.grid_;
+}
+
+} // namespace pt
