@@ -279,10 +279,7 @@ pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_bytes) {
         const pt::FilmHeader header = renderer.film_header();
         const std::uint64_t needed = pt::FilmLayout(header).size_bytes();
         if (data) {
-            pt::Violations violations;
-            const pt::Subject film(violations, "film");
-            film.require(*size_bytes >= needed, "size_bytes", *size_bytes, "must be >= " + std::to_string(needed));
-            violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+            pt::require_room(*size_bytes, needed);
             renderer.save_film(header, {static_cast<std::byte *>(data), needed});
         }
         *size_bytes = needed;

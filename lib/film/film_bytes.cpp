@@ -52,6 +52,14 @@ std::uint64_t FilmLayout::plane_offset(std::size_t tile, std::uint32_t part, std
     return of.offset + first_part + plane * of.pixel_count * sizeof(std::uint32_t);
 }
 
+void require_room(std::uint64_t size_bytes, std::uint64_t needed) {
+    if (size_bytes < needed)
+        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "film",
+                                                          .member = "size_bytes",
+                                                          .value = std::to_string(size_bytes),
+                                                          .rule = "must be >= " + std::to_string(needed)});
+}
+
 FilmWriter::FilmWriter(const FilmHeader &header, std::span<std::byte> bytes) : layout_(header), bytes_(bytes) {
     const std::string text = text_of(header);
     std::memcpy(bytes.data(), text.data(), text.size());

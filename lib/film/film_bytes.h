@@ -35,6 +35,9 @@ private:
     std::uint64_t size_bytes_;
 };
 
+// Throws PT_ERROR_INVALID_ARGUMENT where a caller's memory for a film is smaller than it takes.
+void require_room(std::uint64_t size_bytes, std::uint64_t needed);
+
 // Writes a film to memory of the layout's size: the sums of each tile in any pieces, then end().
 class FilmWriter {
 public:

@@ -4,6 +4,7 @@
 #include "lib/film/quotient.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -35,18 +36,24 @@ private:
     std::size_t pixel_;
 };
 
+// Pixels whose carries are kept at a time: in the fastest cache, and in no memory that might be lacking.
+constexpr std::size_t carry_block = 1024;
+
 // Adds the words of one part to those of another, plane by plane: a sum's carries go from each word to the next.
-void add_part(PixelSums &to, std::uint32_t to_part, const PixelSums &from, std::uint32_t from_part) {
-    std::vector<std::uint32_t> carries(to.pixel_count());
-    for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-        if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
-            std::ranges::fill(carries, 0U);
-        const std::span<std::uint32_t> words = to.plane(to_part, plane);
-        const std::span<const std::uint32_t> others = from.plane(from_part, plane);
-        for (std::size_t pixel = 0; pixel < words.size(); ++pixel) {
-            const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];
-            words[pixel] = static_cast<std::uint32_t>(sum);
-            carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
+void add_part(PixelSums &to, std::uint32_t to_part, const PixelSums &from, std::uint32_t from_part) noexcept {
+    std::array<std::uint32_t, carry_block> carries;
+    for (std::size_t first = 0; first < to.pixel_count(); first += carry_block) {
+        const std::size_t count = std::min(carry_block, to.pixel_count() - first);
+        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
+            if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
+                carries.fill(0);
+            const std::span<std::uint32_t> words = to.plane(to_part, plane).subspan(first, count);
+            const std::span<const std::uint32_t> others = from.plane(from_part, plane).subspan(first, count);
+            for (std::size_t pixel = 0; pixel < count; ++pixel) {
+                const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];
+                words[pixel] = static_cast<std::uint32_t>(sum);
+                carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
+            }
         }
     }
 }
@@ -61,12 +68,12 @@ std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t 
     return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
 }
 
-void PixelSums::add(const PixelSums &other) {
+void PixelSums::add(const PixelSums &other) noexcept {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
         add_part(*this, part, other, part);
 }
 
-void PixelSums::fold_into(std::uint32_t part) {
+void PixelSums::fold_into(std::uint32_t part) noexcept {
     add_part(*this, part, *this, 1 - part);
     for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
         std::ranges::fill(plane(1 - part, i), 0U);
@@ -75,6 +82,12 @@ void PixelSums::fold_into(std::uint32_t part) {
 void PixelSums::swap_parts() {
     for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
         std::ranges::swap_ranges(plane(0, i), plane(1, i));
+}
+
+void PixelSums::copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept {
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+        for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
+            std::ranges::copy(from.plane(part, i).subspan(first, count), plane(part, i).subspan(to_first).begin());
 }
 
 void PixelSums::require_samples(const PartCounts &expected) const {

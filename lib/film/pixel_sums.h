@@ -37,12 +37,15 @@ public:
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index);
     std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const;
 
-    void add(const PixelSums &other);
+    void add(const PixelSums &other) noexcept;
 
     // Adds the one part to the other and empties it.
-    void fold_into(std::uint32_t part);
+    void fold_into(std::uint32_t part) noexcept;
 
     void swap_parts();
+
+    // Sets consecutive pixels to those of others.
+    void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
     // Throws PT_ERROR_INTERNAL, which tells that a driver lost work, if a part of a pixel does not hold the expected
     // samples, accepted or rejected.

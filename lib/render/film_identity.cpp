@@ -1,8 +1,6 @@
 #include "lib/render/film_identity.h"
 
 #include "lib/base/digest.h"
-#include "lib/base/error.h"
-#include "lib/base/rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,26 +54,6 @@ FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const
             {"estimator_version", std::to_string(estimator_version)},
             {"kernel", digest_of(code)},
             {"device", text_of(devices)}};
-}
-
-void require_same(const FilmIdentity &film, const FilmIdentity &context) {
-    Violations violations;
-    const auto value_in = [](const FilmIdentity &identity, const std::string &name) {
-        const auto fact = std::ranges::find(identity, name, &FilmFact::name);
-        return fact == identity.end() ? std::string("nothing") : fact->value;
-    };
-    for (const FilmFact &fact : context)
-        if (const std::string value = value_in(film, fact.name); value != fact.value)
-            violations.add({.subject = "film",
-                            .member = fact.name,
-                            .value = value,
-                            .rule = "must be " + fact.value + ", as in this context"});
-    for (const FilmFact &fact : film)
-        if (std::ranges::find(context, fact.name, &FilmFact::name) == context.end())
-            violations.add({.subject = "film", .member = fact.name, .value = fact.value, .rule = "must not be there"});
-    violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
-    if (film != context)
-        throw Error(PT_ERROR_INCOMPATIBLE, "film: lines of its header are repeated, or in another order");
 }
 
 } // namespace pt

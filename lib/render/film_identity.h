@@ -1,7 +1,7 @@
 // What decides the bits of a picture's samples.
 #pragma once
 
-#include "lib/film/film_header.h"
+#include "lib/film/film_facts.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/render_settings.h"
@@ -22,6 +22,8 @@ FilmIdentity identity_of(const PreparedScene &scene, const Camera &camera, const
                          const KernelCode &code, const std::vector<pt_device_info> &devices);
 
 // Throws PT_ERROR_INCOMPATIBLE with a line for each fact in which a film differs from its context.
-void require_same(const FilmIdentity &film, const FilmIdentity &context);
+inline void require_same(const FilmIdentity &film, const FilmIdentity &context) {
+    require_same(film, context, "as in this context");
+}
 
 } // namespace pt

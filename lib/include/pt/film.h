@@ -9,6 +9,7 @@
 #define PT_FILM_H
 
 #include <pt/pt.h>
+#include <pt/stats.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,6 +39,108 @@ PT_API pt_result pt_save_film(pt_context *context, void *data, uint64_t *size_by
  * is not set. PT_ERROR_OUT_OF_DEVICE_MEMORY: for the time of the call the sums are there twice, and there is no room.
  * PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes);
+
+/* ---- Films without a context ------------------------------------------------------------------------------------ */
+
+/** A film in memory: to add films, and to see what they show, where there is neither a device nor the scene.
+ *
+ * Made by pt_open_film and owned by its caller until pt_close_film. Different films are independent; of one film, one
+ * thread at a time is in a call. Failures leave their message to pt_last_error(NULL), as all calls without a context. */
+typedef struct pt_film pt_film;
+
+/** What a film is of. */
+typedef struct pt_film_info {
+    uint32_t struct_size;     /**< sizeof(pt_film_info); must be set by the caller */
+    uint32_t width;           /**< of the whole image, pixels */
+    uint32_t height;          /**< likewise */
+    uint32_t x;               /**< of the smallest rectangle of the image with all pixels of the film: first column */
+    uint32_t y;               /**< its first row */
+    uint32_t columns;         /**< its width, pixels */
+    uint32_t rows;            /**< its height, pixels */
+    uint32_t max_path_length; /**< as in pt_render */
+    uint64_t seed;            /**< as in pt_render */
+    uint32_t estimator;       /**< PT_ESTIMATOR_*, not BEST but what that stands for */
+    uint32_t sampler;         /**< PT_SAMPLER_*, likewise */
+    uint32_t tile_count;      /**< tiles, each of pixels with the same samples; 1 where all pixels have */
+    uint32_t reserved;        /**< 0 */
+    /** models and drivers of the devices that took the samples; ASCII, owned by the film, valid until it is closed */
+    const char *device;
+} pt_film_info;
+
+/** A rectangle of the image whose pixels have the same samples. */
+typedef struct pt_film_tile {
+    uint32_t struct_size; /**< sizeof(pt_film_tile); must be set by the caller */
+    uint32_t x;           /**< first column, in the image */
+    uint32_t y;           /**< first row */
+    uint32_t width;       /**< pixels, >= 1 */
+    uint32_t height;      /**< likewise */
+    uint32_t range_count; /**< of its samples, for pt_get_film_ranges; >= 1 */
+} pt_film_tile;
+
+/** The samples with indices from first to end - 1. An element of arrays: frozen. */
+typedef struct pt_sample_range {
+    uint64_t first; /**< index of the first sample */
+    uint64_t end;   /**< > first, <= 2^32 */
+} pt_sample_range;
+
+/** Opens a film that pt_save_film or pt_write_film has written. The bytes are copied, and need not be trusted: they are
+ * checked as a whole.
+ *
+ * It takes 112 bytes for each pixel of the film. On success the film is the caller's, who ends it by pt_close_film; on
+ * failure NULL is written. Any thread. PT_ERROR_INCOMPATIBLE: they are no film, damaged or cut short. */
+PT_API pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **film);
+
+/** Frees a film. NULL is allowed. After all other calls on it; never fails. */
+PT_API void pt_close_film(pt_film *film);
+
+/** Adds the samples of a film that pt_save_film or pt_write_film has written, which may be of other pixels of the image.
+ * In any order, films add up to the same bits.
+ *
+ * For the time of the call it takes as much memory as opening the other does; where the two have other tiles, so much
+ * again for each. One thread at a time per film. PT_ERROR_INCOMPATIBLE: the bytes are no film, damaged, cut short, of
+ * another picture, or have samples of some pixel that are in the film already; the message has a line for each
+ * difference. */
+PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
+
+/** Writes a film as bytes; data and *size_bytes are as with pt_save_film, and so are the bytes: a context that has taken
+ * the same samples writes the same.
+ *
+ * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: size_bytes is too small; it stays as it was. */
+PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
+
+/** Writes mean radiance or its standard error, like pt_readback: the same bits that the context shows which took the
+ * samples.
+ *
+ * The image is the rectangle that pt_film_info tells, so that pt_image.x counts from its first column and pt_image.y from
+ * its first row. Pixels that the film does not have are black, with a standard error of INFINITY. One thread at a time per
+ * film. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. */
+PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
+
+/** Writes what a film is of. info->struct_size must be set; no more than that is written. One thread at a time per film. */
+PT_API pt_result pt_get_film_info(const pt_film *film, pt_film_info *info);
+
+/** Writes a tile. index: below pt_film_info.tile_count. tile->struct_size must be set; no more than that is written.
+ *
+ * Tiles do not overlap, and the same samples of the same pixels are always the same tiles. One thread at a time per film.
+ * PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
+PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile);
+
+/** Writes which samples the pixels of a tile have, in ascending order and never adjacent.
+ *
+ * ranges == NULL: *count receives how many ranges there are. Else at most *count elements are written, and *count
+ * receives how many. One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
+PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count);
+
+/** Writes how many samples a film has, and how good its image is. stats->struct_size must be set; no more than that is
+ * written.
+ *
+ * sample_count: in every pixel of the rectangle that pt_film_info tells, the fewest if they differ; 0 if a pixel there has
+ * none. rejected_samples, rmse and relative_rmse with their bounds, and uncertain: as of a context, but for last bits
+ * that depend on the order of additions. The error is unknown if sample_count is below 16; where counts differ, light
+ * that no sample has met is told from the least. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET stands
+ * wherever the estimator finds lamps by chance (uniform, cosine, bsdf) and max_path_length is above 1. All other fields are 0. One
+ * thread at a time per film. */
+PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,190 @@
+// The C boundary of films without a context; see api.cpp.
+#include "lib/film/film.h"
+
+#include "lib/api/context.h"
+#include "lib/api/guard.h"
+#include "lib/api/image.h"
+#include "lib/base/rules.h"
+#include "lib/base/struct_size.h"
+#include "lib/film/pixel_format.h"
+
+#include <pt/film.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct pt_film {
+    explicit pt_film(pt::Film source) : film(std::move(source)) {}
+
+    pt::Film film;
+};
+
+namespace pt {
+
+namespace {
+
+std::span<const std::byte> film_bytes(const void *data, std::uint64_t size_bytes) {
+    require_not_null(data, "data");
+    return {static_cast<const std::byte *>(data), size_bytes};
+}
+
+const FilmTile &tile_of(const pt_film *film, std::uint32_t index) {
+    require_not_null(film, "film");
+    const std::vector<FilmTile> &tiles = film->film.header().tiles;
+    if (index >= tiles.size())
+        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "tile",
+                                                          .value = std::to_string(index),
+                                                          .rule = "must be below " + std::to_string(tiles.size())});
+    return tiles[index];
+}
+
+// Whether lamps are found by chance, which says nothing of how large they are: only the scene does.
+bool may_miss_lamps(const FilmFacts &facts) {
+    return facts.max_path_length > 1 && facts.estimator != PT_ESTIMATOR_LIGHT && facts.estimator != PT_ESTIMATOR_MIS;
+}
+
+// Pixels without samples, to begin with.
+void write_nothing(const Image &image) {
+    const auto &[pixels, quantity, format, row_bytes] = image.layout;
+    const float value = quantity == PT_QUANTITY_RADIANCE ? 0.0F : std::numeric_limits<float>::infinity();
+    const std::vector<float> row(std::size_t{3} * pixels.width, value);
+    for (std::uint32_t y = 0; y < pixels.height; ++y)
+        write_pixels(row, format, image.data + y * row_bytes);
+}
+
+void write_image(const Film &film, const Image &image) {
+    const auto &[rectangle, quantity, format, row_bytes] = image.layout;
+    const bool with_standard_error = quantity == PT_QUANTITY_STANDARD_ERROR;
+    Rectangle pixels = rectangle; // of the image
+    pixels.x += film.bounds().x;
+    pixels.y += film.bounds().y;
+    write_nothing(image);
+    film.read(pixels, with_standard_error, [&](const Film::RowPart &part) {
+        std::byte *const row = image.data + (part.y - pixels.y) * row_bytes;
+        write_pixels(with_standard_error ? part.estimates.standard_error : part.estimates.radiance, format,
+                     row + std::size_t{part.x - pixels.x} * pixel_bytes(format));
+    });
+}
+
+pt_stats stats_of(const Film &film, bool with_error) {
+    const ErrorEstimate error = with_error ? film.error(may_miss_lamps(film.facts())) : unknown_error();
+    pt_stats stats{};
+    stats.sample_count = static_cast<std::uint32_t>(film.sample_count());
+    stats.rejected_samples = film.rejected_samples();
+    stats.rmse = error.rmse.estimate;
+    stats.rmse_low = error.rmse.low;
+    stats.rmse_high = error.rmse.high;
+    stats.relative_rmse = error.relative_rmse.estimate;
+    stats.relative_rmse_low = error.relative_rmse.low;
+    stats.relative_rmse_high = error.relative_rmse.high;
+    stats.uncertain = error.uncertain;
+    return stats;
+}
+
+pt_film_info info_of(const Film &film) {
+    const FilmFacts &facts = film.facts();
+    const Rectangle &bounds = film.bounds();
+    return {.struct_size = sizeof(pt_film_info),
+            .width = facts.width,
+            .height = facts.height,
+            .x = bounds.x,
+            .y = bounds.y,
+            .columns = bounds.width,
+            .rows = bounds.height,
+            .max_path_length = facts.max_path_length,
+            .seed = facts.seed,
+            .estimator = facts.estimator,
+            .sampler = facts.sampler,
+            .tile_count = static_cast<std::uint32_t>(film.header().tiles.size()),
+            .reserved = 0,
+            .device = facts.device.c_str()};
+}
+
+} // namespace
+
+} // namespace pt
+
+pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **film) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        *film = nullptr;
+        *film = std::make_unique<pt_film>(pt::Film(pt::film_bytes(data, size_bytes))).release();
+    });
+}
+
+void pt_close_film(pt_film *film) {
+    delete film;
+}
+
+pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        film->film.add(pt::Film(pt::film_bytes(data, size_bytes)));
+    });
+}
+
+pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::require_not_null(size_bytes, "size_bytes");
+        const std::uint64_t needed = pt::FilmLayout(film->film.header()).size_bytes();
+        if (data) {
+            pt::require_room(*size_bytes, needed);
+            film->film.write({static_cast<std::byte *>(data), needed});
+        }
+        *size_bytes = needed;
+    });
+}
+
+pt_result pt_read_film(const pt_film *film, const pt_image *image) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        const pt_image target = pt::copy_in(image, "image");
+        const pt::Rectangle &bounds = film->film.bounds();
+        pt::write_image(film->film, pt::validated_image(target, bounds.width, bounds.height));
+    });
+}
+
+pt_result pt_get_film_info(const pt_film *film, pt_film_info *info) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::copy_out(pt::info_of(film->film), info, "info");
+    });
+}
+
+pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_tile *tile) {
+    return pt::guard(pt::thread_last_error, [&] {
+        const auto &[pixels, samples] = pt::tile_of(film, index);
+        pt::copy_out(pt_film_tile{.struct_size = sizeof(pt_film_tile),
+                                  .x = pixels.x,
+                                  .y = pixels.y,
+                                  .width = pixels.width,
+                                  .height = pixels.height,
+                                  .range_count = static_cast<std::uint32_t>(samples.ranges().size())},
+                     tile, "tile");
+    });
+}
+
+pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(count, "count");
+        const std::vector<pt::SampleRange> &all = pt::tile_of(film, tile).samples.ranges();
+        const auto available = static_cast<std::uint32_t>(all.size());
+        *count = ranges ? std::min(*count, available) : available;
+        for (std::uint32_t i = 0; ranges && i < *count; ++i)
+            ranges[i] = {all[i].first, all[i].end};
+    });
+}
+
+pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
+        pt::copy_out(pt::stats_of(film->film, with_error), stats, "stats");
+    });
+}

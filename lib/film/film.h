@@ -1,0 +1,76 @@
+// A film as a value on the host: what its header says, and the exact sums of its tiles. Opened from bytes, added to,
+// read as an image and written again, without a device. Behind pt_film.
+#pragma once
+
+#include "lib/film/error_estimate.h"
+#include "lib/film/film_bytes.h"
+#include "lib/film/film_facts.h"
+#include "lib/film/pixel_sums.h"
+#include "lib/film/tile_map.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class Film {
+public:
+    // Throws PT_ERROR_INCOMPATIBLE if the bytes are no film, are damaged, or say what no picture has.
+    explicit Film(std::span<const std::byte> bytes);
+
+    const FilmFacts &facts() const { return facts_; }
+
+    // In their canonical form.
+    const FilmHeader &header() const { return header_; }
+
+    // The smallest rectangle of the image with all of its pixels.
+    const Rectangle &bounds() const { return bounds_; }
+
+    // Adds the samples of another. Throws PT_ERROR_INCOMPATIBLE if it is of another picture or a pixel has a sample in
+    // both; then, and where memory is lacking, nothing has changed.
+    void add(Film other);
+
+    // Of the layout's size of header().
+    void write(std::span<std::byte> bytes) const;
+
+    // The fewest samples of a pixel within the bounds: 0 if there is one without any.
+    std::uint64_t sample_count() const;
+
+    // What is said of consecutive pixels of one row.
+    struct RowPart {
+        std::uint32_t x, y; // of the image
+        PixelEstimates estimates;
+    };
+
+    // Calls receive for all pixels of the film that lie in a rectangle, row by row from the left to the right.
+    void read(const Rectangle &pixels, bool with_standard_error,
+              const std::function<void(const RowPart &)> &receive) const;
+
+    // Of the image within the bounds. may_miss_lamps: error_estimate.h.
+    ErrorEstimate error(bool may_miss_lamps) const;
+
+    // Left out of all pixels.
+    std::uint64_t rejected_samples() const;
+
+private:
+    struct Tile {
+        Rectangle pixels;
+        SampleSet samples;
+        PixelSums sums;
+    };
+
+    std::vector<FilmTile> list() const;
+    std::vector<Tile> cut_to(const std::vector<Rectangle> &cuts) const;
+    static std::vector<FilmTile> sum_of(const std::vector<Tile> &tiles, const std::vector<Tile> &others);
+    void write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const;
+
+    FilmFacts facts_;
+    std::vector<Tile> tiles_;
+    FilmHeader header_; // of them
+    Rectangle bounds_;
+};
+
+} // namespace pt

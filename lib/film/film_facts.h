@@ -1,0 +1,29 @@
+// What a film's identity says in numbers, for those who have nothing but the film.
+#pragma once
+
+#include "lib/film/film_header.h"
+
+#include <cstdint>
+#include <string>
+
+namespace pt {
+
+struct FilmFacts {
+    std::uint32_t width; // of the whole image
+    std::uint32_t height;
+    std::uint32_t max_path_length;
+    std::uint64_t seed;
+    std::uint32_t estimator;
+    std::uint32_t sampler;
+    int unit_exponent;
+    std::string device;
+};
+
+// Throws PT_ERROR_INCOMPATIBLE if a fact is not there, or is not what pt_save_film could have written.
+FilmFacts facts_of(const FilmIdentity &identity);
+
+// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact in which a film's identity differs from that of what it is to
+// be added to. place: what that is, "as in this context".
+void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
+
+} // namespace pt

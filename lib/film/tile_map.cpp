@@ -1,0 +1,167 @@
+#include "lib/film/tile_map.h"
+
+#include "lib/base/error.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace pt {
+
+namespace {
+
+std::uint32_t right_of(const Rectangle &pixels) {
+    return pixels.x + pixels.width;
+}
+
+std::uint32_t bottom_of(const Rectangle &pixels) {
+    return pixels.y + pixels.height;
+}
+
+// In ascending order, each once.
+std::vector<std::uint32_t> distinct(std::vector<std::uint32_t> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
+struct RangesBefore {
+    bool operator()(const SampleSet *a, const SampleSet *b) const {
+        return std::ranges::lexicographical_compare(a->ranges(), b->ranges(), {}, ends, ends);
+    }
+
+    static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
+};
+
+// Of each tile, the first with equal samples: numbers to be compared in place of sets, which may have many ranges.
+std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
+    std::map<const SampleSet *, std::size_t, RangesBefore> known;
+    std::vector<std::size_t> firsts;
+    for (const FilmTile &tile : tiles)
+        firsts.push_back(known.emplace(&tile.samples, firsts.size()).first->second);
+    return firsts;
+}
+
+// Neighbours in a band that have equal samples, as one; tile: the first with these samples.
+std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<std::size_t> &firsts) {
+    std::vector<TileMap::Span> runs;
+    for (const TileMap::Span &span : band.spans) {
+        const std::size_t samples = firsts[span.tile];
+        if (!runs.empty() && runs.back().end == span.first && runs.back().tile == samples)
+            runs.back().end = span.end;
+        else
+            runs.push_back({span.first, span.end, samples});
+    }
+    return runs;
+}
+
+// Adds the rectangles between the cuts of a band's rows [first, end), where either list has pixels.
+void cut_band(const TileMap &a, const TileMap &b, std::uint32_t first, std::uint32_t end,
+              const std::vector<std::uint32_t> &columns, std::vector<Rectangle> &cuts) {
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i)
+        if (a.find(columns[i], first) || b.find(columns[i], first))
+            cuts.push_back({columns[i], first, columns[i + 1] - columns[i], end - first});
+}
+
+} // namespace
+
+TileMap::TileMap(const std::vector<FilmTile> &tiles) {
+    std::vector<std::uint32_t> rows;
+    for (const FilmTile &tile : tiles) {
+        rows.push_back(tile.pixels.y);
+        rows.push_back(bottom_of(tile.pixels));
+    }
+    rows = distinct(std::move(rows));
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+        bands_.push_back({rows[i], rows[i + 1], {}});
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const Rectangle &pixels = tiles[i].pixels;
+        auto band = std::ranges::lower_bound(bands_, pixels.y, {}, &Band::first);
+        for (; band != bands_.end() && band->first < bottom_of(pixels); ++band)
+            band->spans.push_back({pixels.x, right_of(pixels), i});
+    }
+    std::erase_if(bands_, [](const Band &band) { return band.spans.empty(); });
+    for (Band &band : bands_) {
+        std::ranges::sort(band.spans, {}, &Span::first);
+        for (std::size_t i = 1; i < band.spans.size(); ++i)
+            if (band.spans[i].first < band.spans[i - 1].end)
+                throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles overlap in row " + std::to_string(band.first) +
+                                                       ", column " + std::to_string(band.spans[i].first));
+    }
+}
+
+const TileMap::Span *TileMap::find(std::uint32_t x, std::uint32_t y) const {
+    const auto band = std::ranges::upper_bound(bands_, y, {}, &Band::end);
+    if (band == bands_.end() || band->first > y)
+        return nullptr;
+    const auto span = std::ranges::upper_bound(band->spans, x, {}, &Span::end);
+    return span == band->spans.end() || span->first > x ? nullptr : &*span;
+}
+
+Rectangle bounds_of(const std::vector<FilmTile> &tiles) {
+    Rectangle bounds = tiles.front().pixels;
+    for (const FilmTile &tile : tiles) {
+        const std::uint32_t right = std::max(right_of(bounds), right_of(tile.pixels));
+        const std::uint32_t bottom = std::max(bottom_of(bounds), bottom_of(tile.pixels));
+        bounds.x = std::min(bounds.x, tile.pixels.x);
+        bounds.y = std::min(bounds.y, tile.pixels.y);
+        bounds.width = right - bounds.x;
+        bounds.height = bottom - bounds.y;
+    }
+    return bounds;
+}
+
+bool has_same_rectangles(const std::vector<FilmTile> &a, const std::vector<FilmTile> &b) {
+    return std::ranges::equal(a, b, {}, &FilmTile::pixels, &FilmTile::pixels);
+}
+
+std::vector<Rectangle> common_cuts(const TileMap &a, const TileMap &b) {
+    std::vector<std::uint32_t> rows;
+    for (const TileMap *map : {&a, &b})
+        for (const TileMap::Band &band : map->bands())
+            rows.insert(rows.end(), {band.first, band.end});
+    rows = distinct(std::move(rows));
+    std::vector<Rectangle> cuts;
+    auto in_a = a.bands().begin();
+    auto in_b = b.bands().begin();
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
+        std::vector<std::uint32_t> columns;
+        const auto add_columns = [&](auto &band, auto end) {
+            while (band != end && band->end <= rows[i])
+                ++band;
+            if (band != end && band->first <= rows[i])
+                for (const TileMap::Span &span : band->spans)
+                    columns.insert(columns.end(), {span.first, span.end});
+        };
+        add_columns(in_a, a.bands().end());
+        add_columns(in_b, b.bands().end());
+        cut_band(a, b, rows[i], rows[i + 1], distinct(std::move(columns)), cuts);
+    }
+    return cuts;
+}
+
+std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles) {
+    const std::vector<std::size_t> firsts = first_equals(tiles);
+    std::vector<FilmTile> all;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>>
+        above;                // run -> samples, tile
+    std::uint32_t bottom = 0; // of the band above
+    for (const TileMap map(tiles); const TileMap::Band &band : map.bands()) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>> here;
+        for (const auto &[first, end, samples] : runs_of(band, firsts)) {
+            const auto found = above.find({first, end});
+            if (found != above.end() && band.first == bottom && found->second.first == samples) {
+                all[found->second.second].pixels.height += band.end - band.first;
+                here.insert(*found);
+                continue;
+            }
+            here.insert({{first, end}, {samples, all.size()}});
+            all.push_back({{first, band.first, end - first, band.end - band.first}, tiles[samples].samples});
+        }
+        above = std::move(here);
+        bottom = band.end;
+    }
+    return all;
+}
+
+} // namespace pt

@@ -1,0 +1,57 @@
+// Which tile of a film each pixel lies in, by rows: how tile lists are checked, compared, cut along each other and
+// brought to the one form in which films are written.
+#pragma once
+
+#include "lib/film/film_header.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+class TileMap {
+public:
+    // Columns [first, end) of a band, in a tile.
+    struct Span {
+        std::uint32_t first;
+        std::uint32_t end;
+        std::size_t tile;
+    };
+
+    // Rows [first, end) that meet the same tiles: spans from left to right.
+    struct Band {
+        std::uint32_t first;
+        std::uint32_t end;
+        std::vector<Span> spans;
+    };
+
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in no more bands than it has rows, so that a map takes
+    // no more memory than its film's sums.
+    explicit TileMap(const std::vector<FilmTile> &tiles);
+
+    // From the top to the bottom, without rows that have no pixels.
+    const std::vector<Band> &bands() const { return bands_; }
+
+    // The span with a pixel; NULL if no tile has it.
+    const Span *find(std::uint32_t x, std::uint32_t y) const;
+
+private:
+    std::vector<Band> bands_;
+};
+
+// The smallest rectangle with all tiles, of which there is at least one.
+Rectangle bounds_of(const std::vector<FilmTile> &tiles);
+
+bool has_same_rectangles(const std::vector<FilmTile> &a, const std::vector<FilmTile> &b);
+
+// The rectangles into which two tile lists cut each other: each lies in one tile of each list or in none, and all
+// together they have the pixels of both.
+std::vector<Rectangle> common_cuts(const TileMap &a, const TileMap &b);
+
+// The one list of tiles with these samples of these pixels, however they were listed: neighbours in a row with equal
+// samples are together, and so are equal such runs in rows one below the other. From the top down, and from left to
+// right among those that begin in one row.
+std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles);
+
+} // namespace pt
