@@ -78,6 +78,11 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
     subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
                     accumulate.target_error, "must be finite and >= 0");
+    subject.require(accumulate.sampling <= PT_SAMPLING_ADAPTIVE, "sampling", accumulate.sampling,
+                    "must be a PT_SAMPLING_* of pt.h");
+    subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",
+                    accumulate.sampling, "needs a target_error > 0, which ends it");
+    subject.require(accumulate.reserved == 0, "reserved", accumulate.reserved, "must be 0");
     if (accumulate.progress && !may_call_back)
         subject.refuse("progress", "a function", "must be NULL for pt_start: pt_poll says how far the samples are");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
@@ -229,7 +234,7 @@ pt_result pt_prepare(pt_context *context) {
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::validated_accumulate(info, true);
-        return renderer.accumulate(accumulate.sample_count, accumulate.target_error,
+        return renderer.accumulate({accumulate.sample_count, accumulate.target_error, accumulate.sampling},
                                    {accumulate.progress, accumulate.progress_user});
     });
 }
@@ -237,7 +242,7 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
 pt_result pt_start(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::validated_accumulate(info, false);
-        return renderer.start(accumulate.sample_count, accumulate.target_error);
+        return renderer.start({accumulate.sample_count, accumulate.target_error, accumulate.sampling});
     });
 }
 

@@ -38,7 +38,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
                            std::uint32_t width, std::uint32_t height) {
     const ImageLayout layout{rectangle_of(source, width, height), source.quantity, source.format, source.row_bytes};
     const Rectangle &pixels = layout.pixels;
-    image.require(source.quantity <= PT_QUANTITY_STANDARD_ERROR, "quantity", source.quantity,
+    image.require(source.quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", source.quantity,
                   "must be a PT_QUANTITY_* of pt.h");
     image.require(source.format < format_count, "format", source.format, "must be a PT_FORMAT_* of pt.h");
     image.require(source.reserved == 0, "reserved", source.reserved, "must be 0");

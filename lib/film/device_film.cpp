@@ -197,15 +197,31 @@ void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
         function(first, std::min(most_pixels, pixel_count - first));
 }
 
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
+namespace {
+
+// Those of consecutive pixels of a film.
+void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSamples &samples) {
+    std::vector<PartCounts> expected;
+    for (const SampleSet &set : samples.sets())
+        expected.push_back(part_counts(set));
+    const TileGrid &grid = samples.grid();
+    for (std::uint32_t i = 0; i < sums.pixel_count(); ++i) {
+        const std::uint32_t pixel = first_pixel + i;
+        const std::size_t tile = samples.even() ? 0 : grid.tile_at(pixel % grid.width, pixel / grid.width);
+        require_samples(sums.samples_of(i), expected[samples.set_of(tile)]);
+    }
+}
+
+} // namespace
+
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive) {
     read_films(films, samples, {0, films.front()->pixel_count()}, most_pixels, receive);
 }
 
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, const PixelRange &pixels,
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
     const std::uint64_t split = split_of(samples.hull());
-    const PartCounts expected = part_counts(samples);
     PixelSums sums;
     PixelSums others;
     for_each_piece(pixels.count, most_pixels, [&](std::uint32_t first, std::uint32_t count) {
@@ -216,7 +232,7 @@ void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, co
             film->read(pixels.first + first, split, others);
             sums.add(others);
         }
-        sums.require_samples(expected);
+        require_all(sums, pixels.first + first, samples);
         receive(sums);
     });
 }

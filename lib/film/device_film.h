@@ -3,6 +3,7 @@
 
 #include "lib/film/film_parts.h"
 #include "lib/film/pixel_sums.h"
+#include "lib/film/tile_samples.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
@@ -41,6 +42,7 @@ public:
 
     std::uint32_t width() const { return width_; }
     std::uint32_t pixel_count() const { return width_ * height_; }
+    TileGrid grid() const { return {width_, height_}; }
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
@@ -105,9 +107,9 @@ private:
 
 // Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the
 // first beginning with pixel 0, or with the first of a range. Throws PT_ERROR_INTERNAL if a driver lost work.
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, std::uint32_t most_pixels,
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive);
-void read_films(std::span<DeviceFilm *const> films, const SampleSet &samples, const PixelRange &pixels,
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
 // Pixels of the pieces in which films are read and written, so that a large image is not held twice. Were planes a

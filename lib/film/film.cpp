@@ -53,7 +53,7 @@ Film::Film(std::span<const std::byte> bytes) {
     bounds_ = bounds_of(tiles);
     if (bounds_.x + bounds_.width > facts_.width || bounds_.y + bounds_.height > facts_.height)
         throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles reach beyond the image");
-    header_ = {reader.header().identity, canonical_tiles(tiles)};
+    header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round};
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         tiles_.push_back({tiles[i].pixels, tiles[i].samples, {}});
         tiles_.back().sums.resize(tiles[i].pixels.pixel_count());
@@ -99,7 +99,7 @@ void Film::add(Film other) {
     }
     std::vector<Tile> &tiles = is_cut_alike ? tiles_ : cut;
     std::vector<FilmTile> sum = sum_of(tiles, other.tiles_);
-    FilmHeader header{header_.identity, canonical_tiles(sum)};
+    FilmHeader header{header_.identity, canonical_tiles(sum), later_of(header_.round, other.header_.round)};
     // From here on nothing can fail.
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         split_for(tiles[i].sums, tiles[i].samples, sum[i].samples);

@@ -18,6 +18,10 @@ constexpr std::string_view planes_line = "planes red 4 green 4 blue 4 accepted 1
 static_assert(3 * gpu::FILM_SUM_WORDS == gpu::FILM_ACCEPTED && gpu::FILM_REJECTED + 1 == gpu::FILM_WORDS);
 constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
+constexpr std::string_view round_name = "round";
+
+// Far beyond the rounds of any error that is a double.
+constexpr std::uint64_t max_round = 10'000;
 
 // Several times what there are: each takes many times the memory of a short line.
 constexpr std::size_t max_facts = 100;
@@ -82,6 +86,16 @@ void read_samples(std::string_view value, FilmHeader &header) {
     samples.add(range);
 }
 
+// Two numbers, of which the first may be negative.
+void read_round(std::string_view value, FilmHeader &header) {
+    const bool negative = value.starts_with('-');
+    const auto round = numbers<2>(value.substr(negative ? 1 : 0));
+    if (!round || (*round)[0] > max_round || (*round)[1] > UINT32_MAX)
+        refuse("round is not a number of at most " + std::to_string(max_round) + " and a number of samples");
+    const auto number = static_cast<std::int32_t>((*round)[0]);
+    header.round = {negative ? -number : number, (*round)[1]};
+}
+
 // Of each tile, and of all together: they are pixels of one image.
 void require_counts(const std::vector<FilmTile> &tiles) {
     std::uint64_t pixels = 0;
@@ -103,6 +117,9 @@ std::string text_of(const FilmHeader &header) {
     text.append(planes_line) += '\n';
     for (const FilmFact &fact : header.identity)
         text += fact.name + ' ' + fact.value + '\n';
+    if (header.round.number != AdaptiveRound::none)
+        text += std::string(round_name) + ' ' + std::to_string(header.round.number) + ' ' +
+                std::to_string(header.round.floor) + '\n';
     for (const FilmTile &tile : header.tiles) {
         text.append(tile_name);
         for (const std::uint32_t side : {tile.pixels.x, tile.pixels.y, tile.pixels.width, tile.pixels.height})
@@ -133,6 +150,8 @@ FilmHeader parsed_film_header(std::string_view text) {
             read_tile(value, header);
         else if (name == samples_name)
             read_samples(value, header);
+        else if (name == round_name)
+            read_round(value, header);
         else if (header.identity.size() < max_facts)
             header.identity.push_back({std::string(name), std::string(value)});
         else

@@ -2,6 +2,7 @@
 // line for each fact; FORMAT.md describes it. Written and read by film_bytes.
 #pragma once
 
+#include "lib/film/adaptive_round.h"
 #include "lib/film/sample_set.h"
 
 #include <cstdint>
@@ -39,6 +40,7 @@ struct FilmTile {
 struct FilmHeader {
     FilmIdentity identity;
     std::vector<FilmTile> tiles; // their sums follow in this order
+    AdaptiveRound round{};       // that has been begun on the way to a target error, if there is one
 
     bool operator==(const FilmHeader &) const = default;
 };

@@ -48,6 +48,13 @@ public:
     // Samples are added within this range, after a fold if it takes one.
     void extend(const SampleRange &range);
 
+    // Where tiles of the film have samples of their own, and so splits: all samples lie within this range, and the parts in
+    // memory stay what they are.
+    void cover(const SampleRange &hull) {
+        hull_ = hull;
+        holds_samples_ = !hull.empty();
+    }
+
     // The part in memory with the older samples, and that of a sample within the range so far.
     std::uint32_t older() const { return older_; }
     std::uint32_t part_of(std::uint64_t sample) const { return sample < split() ? older_ : 1 - older_; }

@@ -90,13 +90,16 @@ void PixelSums::copy(const PixelSums &from, std::size_t first, std::size_t count
             std::ranges::copy(from.plane(part, i).subspan(first, count), plane(part, i).subspan(to_first).begin());
 }
 
-void PixelSums::require_samples(const PartCounts &expected) const {
+PartCounts PixelSums::samples_of(std::size_t pixel) const {
+    return {PartPixel(*this, 0, pixel).done(), PartPixel(*this, 1, pixel).done()};
+}
+
+void require_samples(const PartCounts &done, const PartCounts &expected) {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel)
-            if (const std::uint64_t done = PartPixel(*this, part, pixel).done(); done != expected[part])
-                throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(done) + " of " +
-                                                   std::to_string(expected[part]) +
-                                                   " samples of a pixel in one part of the film");
+        if (done[part] != expected[part])
+            throw Error(PT_ERROR_INTERNAL, "the driver did " + std::to_string(done[part]) + " of " +
+                                               std::to_string(expected[part]) +
+                                               " samples of a pixel in one part of the film");
 }
 
 bool PixelSums::holds(const PartCounts &expected) const {
@@ -142,6 +145,16 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
         }
     }
     return estimates;
+}
+
+std::vector<float> PixelSums::sample_counts() const {
+    std::vector<float> counts;
+    counts.reserve(3 * pixel_count_);
+    for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
+        const auto [older, newer] = samples_of(pixel);
+        counts.insert(counts.end(), 3, static_cast<float>(older + newer));
+    }
+    return counts;
 }
 
 } // namespace pt

@@ -47,9 +47,8 @@ public:
     // Sets consecutive pixels to those of others.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;
 
-    // Throws PT_ERROR_INTERNAL, which tells that a driver lost work, if a part of a pixel does not hold the expected
-    // samples, accepted or rejected.
-    void require_samples(const PartCounts &expected) const;
+    // Samples of a pixel in each part, accepted or rejected.
+    PartCounts samples_of(std::size_t pixel) const;
 
     // Whether so many samples can have these sums: each of those accepted is below 2^FILM_MAX_EXPONENT.
     bool holds(const PartCounts &expected) const;
@@ -57,11 +56,17 @@ public:
     // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
+    // Of all samples of each pixel, as R, G, B.
+    std::vector<float> sample_counts() const;
+
     bool operator==(const PixelSums &) const = default;
 
 private:
     std::size_t pixel_count_ = 0;
     std::vector<std::uint32_t> words_;
 };
+
+// Throws PT_ERROR_INTERNAL, which tells that a driver lost work, if a pixel does not hold the expected samples.
+void require_samples(const PartCounts &done, const PartCounts &expected);
 
 } // namespace pt

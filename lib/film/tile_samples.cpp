@@ -74,14 +74,25 @@ void TileSamples::add(std::span<const std::uint32_t> tiles, const SampleRange &r
     }
 }
 
-void TileSamples::add_to_all(const SampleRange &range) {
-    for (SampleSet &set : sets_)
-        set.add(range);
-}
-
 void TileSamples::set(std::size_t tile, const SampleSet &samples) {
     tell_apart();
     set_of_[tile] = index_of(samples);
+}
+
+TileSamples TileSamples::rows(std::uint32_t first_row, std::uint32_t row_count) const {
+    TileSamples part({grid_.width, row_count});
+    part.sets_ = sets_;
+    if (!even()) {
+        const auto first = set_of_.begin() + static_cast<std::ptrdiff_t>(grid_.tile_at(0, first_row));
+        part.set_of_.assign(first, first + static_cast<std::ptrdiff_t>(part.grid_.count()));
+    }
+    return part;
+}
+
+void TileSamples::clear() noexcept {
+    sets_.erase(sets_.begin() + 1, sets_.end());
+    sets_.front() = SampleSet();
+    set_of_.clear();
 }
 
 void TileSamples::tidy() {

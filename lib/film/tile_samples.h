@@ -38,8 +38,13 @@ public:
 
     // What is added must not be there; tiles ascend.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
-    void add_to_all(const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
+
+    // Those of consecutive rows of pixels, the first being the first of a row of tiles.
+    TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
+
+    // Takes no memory.
+    void clear() noexcept;
 
     // Forgets sets that no tile has, and what tells tiles apart where nothing does.
     void tidy();

@@ -26,10 +26,6 @@ std::uint64_t most_region_bytes(DeviceFilm &film) {
     return region_bytes(film, film.strips().front());
 }
 
-TileGrid grid_of(const DeviceFilm &film) {
-    return {film.width(), film.pixel_count() / film.width()};
-}
-
 // How the kernel measures relative errors, so that all squares are normal floats.
 struct RelativeUnits {
     float offset;  // in film units
@@ -99,9 +95,9 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     estimate_(estimate),
     film_(film),
     regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image"),
-    tile_counts_(device, vulkan::BufferUse::HostWritten, (uneven ? grid_of(film).count() : 1) * sizeof(gpu::uvec2),
+    tile_counts_(device, vulkan::BufferUse::HostWritten, (uneven ? film.grid().count() : 1) * sizeof(gpu::uvec2),
                  "samples of tiles"),
-    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? grid_of(film).count() : 1) * sizeof(float),
+    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? film.grid().count() : 1) * sizeof(float),
                   "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {
         const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,        &strip.words,
@@ -163,7 +159,7 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
     constants.strip_pixel_count = pixel_count;
     constants.row_count = pixel_count / width;
     constants.first_tile = static_cast<std::uint32_t>(
-        grid_of(film_).tile_at(0, film_.strips()[strip].first_pixel / width));
+        film_.grid().tile_at(0, film_.strips()[strip].first_pixel / width));
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
     estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},

@@ -253,6 +253,18 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
     return ticket;
 }
 
+vulkan::Device::Ticket Kernel::start_fold(const SampleRange &hull) {
+    const Slice all_pixels{0, film_.pixel_count(), 1, true};
+    bind_film(pipelines_.fold());
+    PartUse parts = film_.parts();
+    parts.extend(hull);
+    const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
+        dispatch(commands, pipelines_.fold(), all_pixels, {}, 0, 1);
+    });
+    film_.set_parts(parts);
+    return ticket;
+}
+
 // Folds range by range too, which is safe because the film is read only after the pass has been added to all pixels.
 vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, const SampleRange &hull) {
     const Batch batch{sample, 1, 0};

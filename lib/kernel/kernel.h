@@ -71,6 +71,9 @@ public:
     // Starts to take them; like start().
     vulkan::Device::Ticket start_tiles(const TileWork &work);
 
+    // Starts to bring the film's parts to the split of samples that others have begun.
+    vulkan::Device::Ticket start_fold(const SampleRange &hull);
+
     // Waits for a slice of start() and returns the seconds it took, or where these are not known what comes nearest to
     // those expected.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);

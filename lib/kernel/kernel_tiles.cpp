@@ -23,7 +23,7 @@ void Kernel::prepare_tiles() {
     pipelines_.fold_tiles();
     if (tile_lists_)
         return;
-    const TileGrid grid{film_.width(), film_.pixel_count() / film_.width()};
+    const TileGrid grid = film_.grid();
     tile_lists_.emplace(device_, vulkan::BufferUse::HostWritten,
                         grid.count() * device_.policy().queue_depth * sizeof(std::uint32_t), "lists of tiles");
     const vulkan::ComputePipeline &fold = pipelines_.fold_tiles();
@@ -33,7 +33,7 @@ void Kernel::prepare_tiles() {
 
 // Returns the first of the entries. There is a list for each slice that may be under way.
 std::uint32_t Kernel::list_tiles(std::span<const std::uint32_t> tiles) {
-    const TileGrid grid{film_.width(), film_.pixel_count() / film_.width()};
+    const TileGrid grid = film_.grid();
     const std::uint32_t first = next_tile_list_ * static_cast<std::uint32_t>(grid.count());
     next_tile_list_ = (next_tile_list_ + 1) % device_.policy().queue_depth;
     auto *const entries = reinterpret_cast<std::uint32_t *>(tile_lists_->host_memory().data()) + first;
@@ -52,7 +52,7 @@ std::uint32_t Kernel::list_tiles(std::span<const std::uint32_t> tiles) {
 void Kernel::dispatch_tiles(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                             std::span<const std::uint32_t> tiles, std::uint32_t first_entry, gpu::FrameConstants frame,
                             std::uint32_t table_offset, std::uint32_t sharers) const {
-    const TileGrid grid{film_.width(), film_.pixel_count() / film_.width()};
+    const TileGrid grid = film_.grid();
     for (std::size_t i = 0; i < tile_sets_.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
         const std::uint64_t strip_end = std::uint64_t{strip.first_pixel} + strip.pixel_count;

@@ -3,6 +3,7 @@
 #include "lib/render/image_rows.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pt {
 
@@ -10,6 +11,14 @@ namespace {
 
 // Pixels of a band, 56 MiB: many times what is on its way between two devices, and little beside a large film.
 constexpr std::uint32_t most_band_pixels = 1U << 19;
+
+std::vector<float> values_of(const PixelSums &sums, const ImageQuery &query) {
+    if (query.quantity == PT_QUANTITY_SAMPLE_COUNT)
+        return sums.sample_counts();
+    const bool with_standard_error = query.quantity == PT_QUANTITY_STANDARD_ERROR;
+    PixelEstimates pixels = sums.estimates(query.unit, with_standard_error);
+    return with_standard_error ? std::move(pixels.standard_error) : std::move(pixels.radiance);
+}
 
 } // namespace
 
@@ -21,7 +30,7 @@ std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
 }
 
 // Whether the first film has all samples, in parts that no sample of another has moved.
-bool FilmView::is_one_film(const SampleSet &samples) const {
+bool FilmView::is_one_film(const TileSamples &samples) const {
     return devices_.size() == 1 && home().film().parts().split() == split_of(samples.hull());
 }
 
@@ -60,7 +69,7 @@ void FilmView::prepare() {
         home().add_pipeline();
 }
 
-void FilmView::read(const Image &image, const ImageQuery &query, const SampleSet &samples) {
+void FilmView::read(const Image &image, const ImageQuery &query, const TileSamples &samples) {
     if (!home().device().policy().resolve_on_device) {
         read_on_host(image, query, samples);
         return;
@@ -88,42 +97,59 @@ void FilmView::read(const Image &image, const ImageQuery &query, const SampleSet
 }
 
 // Of the rows that the image has a part of.
-void FilmView::read_on_host(const Image &image, const ImageQuery &query, const SampleSet &samples) const {
+void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {
     ImageRows rows(image);
     const std::uint32_t width = home().film().width();
     const PixelRange range{query.pixels.y * width, query.pixels.height * width};
     std::uint64_t first = range.first;
     read_films(films(devices_), samples, range, piece_pixels, [&](const PixelSums &sums) {
-        const PixelEstimates pixels = sums.estimates(query.unit, query.standard_error);
-        rows.put_part(first, width, query.standard_error ? pixels.standard_error : pixels.radiance);
+        rows.put_part(first, width, values_of(sums, query));
         first += sums.pixel_count();
     });
 }
 
 // Regions come in one order, whoever sums them up: an image has the same estimate on one device and on several.
-void FilmView::estimate(ErrorEstimator &estimator, double unit, const SampleSet &samples, bool is_recorded) {
-    const ErrorQuery query{unit, part_counts(samples)};
+void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples,
+                        std::span<double> tile_squares, bool is_recorded) {
+    ErrorQuery query{unit, part_counts(samples.of(0)), nullptr, tile_squares};
+    if (!tile_squares.empty())
+        query.uneven = &samples;
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!home().device().policy().resolve_on_device || !home().film().has_whole_regions()) {
         read_films(films(devices_), samples, piece_pixels,
                    [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
         return;
     }
-    if (is_one_film(samples)) {
-        if (is_recorded)
-            home().error_reader().collect(query, add);
-        else
-            home().error_reader().read(query, add);
-        return;
-    }
+    if (!is_one_film(samples))
+        estimate_bands(query, samples, add);
+    else if (is_recorded)
+        home().error_reader().collect(query, add);
+    else
+        (query.uneven ? home().uneven_error_reader() : home().error_reader()).read(query, add);
+}
+
+// Each band is a film of its own, with tiles of its own.
+void FilmView::estimate_bands(const ErrorQuery &query, const TileSamples &samples,
+                              const ErrorReader::Receive &receive) {
     films(devices_);
     const std::uint32_t width = home().film().width();
     for (const Band &band : bands()) {
         Sum &sum = this->sum(band.row_count);
         sum.rows.gather(band.first_row, {band.first_row * width, band.row_count * width}, samples.hull());
-        if (!sum.error)
-            sum.error.emplace(home().device(), home().estimate_pipeline(), sum.rows.film());
-        sum.error->read(query, add);
+        std::optional<ErrorReader> &reader = query.uneven ? sum.uneven_error : sum.error;
+        if (!reader)
+            reader.emplace(home().device(),
+                           query.uneven ? home().uneven_estimate_pipeline() : home().estimate_pipeline(),
+                           query.uneven != nullptr, sum.rows.film());
+        ErrorQuery of_band = query;
+        TileSamples band_samples;
+        if (query.uneven) {
+            band_samples = samples.rows(band.first_row, band.row_count);
+            of_band.uneven = &band_samples;
+            of_band.tile_squares = query.tile_squares.subspan(samples.grid().tile_at(0, band.first_row),
+                                                              band_samples.grid().count());
+        }
+        reader->read(of_band, receive);
     }
 }
 

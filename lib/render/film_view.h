@@ -4,7 +4,7 @@
 
 #include "lib/api/image.h"
 #include "lib/film/error_estimate.h"
-#include "lib/film/sample_set.h"
+#include "lib/film/tile_samples.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/image_reader.h"
@@ -16,6 +16,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pt {
@@ -28,11 +29,12 @@ public:
     explicit FilmView(const Devices &devices) : devices_(devices) {}
 
     // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
-    void read(const Image &image, const ImageQuery &query, const SampleSet &samples);
+    void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Gives the estimator all that is known of the error. is_recorded: it is there already, of a submission that took the
-    // samples on the only device. Throws likewise.
-    void estimate(ErrorEstimator &estimator, double unit, const SampleSet &samples, bool is_recorded);
+    // Gives the estimator all that is known of the error. tile_squares: those of the estimator, if it has any. is_recorded:
+    // it is there already, of a submission that took the samples on the only device. Throws likewise.
+    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, std::span<double> tile_squares,
+                  bool is_recorded);
 
     // Builds what it needs of kernels beside those of each device.
     void prepare();
@@ -51,6 +53,7 @@ private:
         FilmSum rows;
         ImageReader image;
         std::optional<ErrorReader> error;
+        std::optional<ErrorReader> uneven_error;
     };
 
     // Rows of the films that meet on the first device at a time.
@@ -60,10 +63,11 @@ private:
     };
 
     RenderDevice &home() const { return *devices_.front(); }
-    bool is_one_film(const SampleSet &samples) const;
+    bool is_one_film(const TileSamples &samples) const;
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
-    void read_on_host(const Image &image, const ImageQuery &query, const SampleSet &samples) const;
+    void estimate_bands(const ErrorQuery &query, const TileSamples &samples, const ErrorReader::Receive &receive);
+    void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const Devices &devices_;
     std::list<Sum> sums_; // of the sizes that bands have: two at the most

@@ -92,12 +92,14 @@ void RenderDevice::drop_bound() noexcept {
     image_reader_.reset();
     buffer_writer_.reset();
     error_reader_.reset();
+    uneven_error_reader_.reset();
 }
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
     drop_bound(); // it uses the old ones
     resolve_.reset();
     estimate_.reset();
+    uneven_estimate_.reset();
     add_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
@@ -198,8 +200,14 @@ ResolvePipelines &RenderDevice::resolve_pipelines() {
 
 const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {
     if (!estimate_)
-        estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate));
+        estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate, false));
     return *estimate_;
+}
+
+const vulkan::ComputePipeline &RenderDevice::uneven_estimate_pipeline() {
+    if (!uneven_estimate_)
+        uneven_estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate, true));
+    return *uneven_estimate_;
 }
 
 const vulkan::ComputePipeline &RenderDevice::add_pipeline() {
@@ -215,8 +223,15 @@ ErrorReader &RenderDevice::error_reader() {
 
 ErrorReader &RenderDevice::bound_error_reader() {
     if (!error_reader_)
-        error_reader_.emplace(device_, estimate_pipeline(), *film_);
+        error_reader_.emplace(device_, estimate_pipeline(), false, *film_);
     return *error_reader_;
+}
+
+ErrorReader &RenderDevice::uneven_error_reader() {
+    film();
+    if (!uneven_error_reader_)
+        uneven_error_reader_.emplace(device_, uneven_estimate_pipeline(), true, *film_);
+    return *uneven_error_reader_;
 }
 
 void RenderDevice::discard_pass() {
@@ -273,6 +288,41 @@ RenderDevice::Started RenderDevice::start_samples(const SampleRange &samples, co
         pass_hull_ = hull;
     }
     return {in_pass ? 0 : slice.sample_count, estimates};
+}
+
+std::uint64_t RenderDevice::affordable_samples(std::size_t tile_count, std::uint64_t most) const {
+    const double paths = static_cast<double>(tile_count) * gpu::WORKGROUP_SIZE;
+    const double affordable = std::max(schedule_->budget() / paths, 1.0);
+    return std::min({static_cast<std::uint64_t>(std::min(affordable, 0x1p32)), most,
+                     std::uint64_t{kernel_->max_samples()}});
+}
+
+std::size_t RenderDevice::affordable_tiles(std::uint64_t sample_count) const {
+    const double paths = static_cast<double>(sample_count) * gpu::WORKGROUP_SIZE;
+    return static_cast<std::size_t>(std::clamp(schedule_->budget() / paths, 1.0, 0x1p32));
+}
+
+void RenderDevice::start_tiles(const TileSlice &slice) {
+    const std::uint64_t split = slice.split();
+    const std::uint32_t older = film_->parts().older();
+    Kernel::TileWork work{slice.tiles, slice.takes ? slice.samples : SampleRange{},
+                          slice.samples.first < split ? older : 1 - older, std::nullopt};
+    if (slice.moves_split())
+        work.fold_into = split_of(slice.before) < split ? older : 1 - older;
+    const Slice measured{0, static_cast<std::uint32_t>(slice.tiles.size()) * gpu::WORKGROUP_SIZE,
+                         static_cast<std::uint32_t>(slice.samples.count()), true};
+    under_way_.push_back({measured, kernel_->start_tiles(work), !slice.takes});
+}
+
+void RenderDevice::fold_to(const SampleRange &hull) {
+    if (film_->parts().needs_fold(hull))
+        device_.finish(kernel_->start_fold(hull));
+}
+
+void RenderDevice::cover(const SampleRange &hull) {
+    PartUse parts = film_->parts();
+    parts.cover(hull);
+    film_->set_parts(parts);
 }
 
 RenderDevice::Finished RenderDevice::finish() {

@@ -20,9 +20,21 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pt {
+
+// Samples of some tiles, which lie in one part of the film.
+struct TileSlice {
+    std::span<const std::uint32_t> tiles; // ascending
+    SampleRange before;                   // from the first to the last sample that they have; empty if they have none
+    SampleRange samples;
+    bool takes; // them, instead of making room for them alone: where another device takes them
+
+    std::uint64_t split() const { return split_of(before.empty() ? samples : hull_of(before, samples)); }
+    bool moves_split() const { return !before.empty() && split_of(before) != split(); }
+};
 
 class RenderDevice {
 public:
@@ -46,10 +58,12 @@ public:
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
+    ErrorReader &uneven_error_reader(); // of tiles that may have different samples
 
     // Kernels for other films than this device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
+    const vulkan::ComputePipeline &uneven_estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
 
     // Takes over kernels that the caller has kept, and hands over those that are built.
@@ -103,6 +117,23 @@ public:
     Started start(const SampleRange &samples, const SampleRange &hull,
                   const std::optional<ErrorQuery> &estimate = std::nullopt);
 
+    // Of a slice of so many tiles how many samples are affordable, of those that there are; and of so many samples how many
+    // tiles: 1 at least.
+    std::uint64_t affordable_samples(std::size_t tile_count, std::uint64_t most) const;
+    std::size_t affordable_tiles(std::uint64_t sample_count) const;
+
+    // Starts a slice of tiles. has_room() must hold, film_is_behind() and a pass under way must not.
+    void start_tiles(const TileSlice &slice);
+
+    // Brings the parts of a film with the same samples in all tiles to the split of those of other films too. Idle.
+    void fold_to(const SampleRange &hull);
+
+    // Whether the film's tiles lie each in one of its strips.
+    bool has_whole_regions() const { return film_->has_whole_regions(); }
+
+    // All tiles have samples within this range alone.
+    void cover(const SampleRange &hull);
+
     // Whether finish() would not wait, having waited for that until a time. Not idle.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
 
@@ -143,11 +174,13 @@ private:
     double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
     std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
+    std::optional<vulkan::ComputePipeline> uneven_estimate_; // likewise
     std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
+    std::optional<ErrorReader> uneven_error_reader_;
     std::shared_ptr<const SphereTree> tree_; // that is in the buffer
     std::optional<vulkan::Buffer> tree_buffer_;
     std::optional<Kernel> kernel_;

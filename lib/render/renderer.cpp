@@ -4,6 +4,8 @@
 #include "lib/base/error.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
+#include "lib/film/adaptive_rule.h"
+#include "lib/film/film.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/kernels_kept.h"
 #include "lib/render/missed_lamps.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <numeric>
 #include <utility>
 
 namespace pt {
@@ -86,7 +89,9 @@ void Renderer::require_alive() const {
 void Renderer::discard_samples() noexcept {
     for (const auto &device : devices_)
         device->discard_samples();
-    take_over({});
+    round_ = {};
+    samples_.clear();
+    forget_error();
 }
 
 void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
@@ -108,6 +113,7 @@ void Renderer::set_camera(const Camera &camera) {
 
 void Renderer::set_render(const RenderSettings &settings) {
     require_alive();
+    TileSamples none({settings.width, settings.row_count});
     const bool same_size =
         settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
     if (!same_size) {
@@ -121,6 +127,7 @@ void Renderer::set_render(const RenderSettings &settings) {
     discard_samples();
     gpu_scene_.reset();
     settings_ = settings;
+    samples_ = std::move(none);
 }
 
 void Renderer::reload_shaders() {
@@ -164,14 +171,19 @@ bool Renderer::is_in_pass() const {
 }
 
 const ErrorEstimate &Renderer::error() {
-    if (!error_ && samples_.count() < min_estimate_samples)
+    if (!error_ && samples_.least() < min_estimate_samples)
         error_ = unknown_error();
     if (!error_) {
         const KernelsKept kept(devices_);
-        const std::uint64_t samples = samples_.count() * devices_.front()->pixel_count();
-        ErrorEstimator estimator({settings_->width, samples_.count(), settings_->sampler,
-                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
-        view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->accumulation.has_estimate());
+        const std::uint64_t samples = samples_.total();
+        const bool by_tiles = !samples_.even() || (job_ && job_->uneven);
+        tile_squares_.resize(by_tiles ? samples_.grid().count() : 0);
+        ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
+                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples),
+                                  by_tiles ? &samples_ : nullptr},
+                                 tile_squares_);
+        view_.estimate(estimator, scene_->film_unit, samples_, tile_squares_,
+                       job_ && job_->even && job_->even->has_estimate());
         rejected_samples_ = estimator.rejected();
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
@@ -179,18 +191,20 @@ const ErrorEstimate &Renderer::error() {
 }
 
 bool Renderer::is_on_target(double target_error) {
-    return target_error > 0.0 && is_check(samples_.count()) && error().relative_rmse.high <= target_error;
+    return target_error > 0.0 && is_check(samples_.of(0).count()) && error().relative_rmse.high <= target_error;
 }
 
 // The next sample is the first from first_sample on that the film lacks.
 void Renderer::require_room_for(std::uint32_t sample_count) const {
     const std::uint64_t first = settings_->first_sample;
-    const std::uint64_t missing = sample_index_end - first - (samples_.count() - samples_.count_below(first));
-    if (sample_count > missing)
-        throw too_many_samples(sample_count, "sample indices would pass 2^32 (the next is ",
-                               samples_.next_missing(first).first);
-    if (sample_count > UINT32_MAX - samples_.count())
-        throw too_many_samples(sample_count, "a pixel holds at most 2^32 - 1 samples (it has ", samples_.count());
+    for (const SampleSet &samples : samples_.sets()) {
+        const std::uint64_t missing = sample_index_end - first - (samples.count() - samples.count_below(first));
+        if (sample_count > missing)
+            throw too_many_samples(sample_count, "sample indices would pass 2^32 (the next is ",
+                                   samples.next_missing(first).first);
+        if (sample_count > UINT32_MAX - samples.count())
+            throw too_many_samples(sample_count, "a pixel holds at most 2^32 - 1 samples (it has ", samples.count());
+    }
 }
 
 const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {
@@ -207,22 +221,55 @@ void Renderer::prepare() {
     view_.prepare();
 }
 
-void Renderer::begin(std::uint32_t sample_count, double target_error, const Progress &progress) {
+// Tiles are told apart where an error is asked for, on devices whose films have whole tiles.
+bool Renderer::is_adaptive(const SamplesWanted &wanted) const {
+    return wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM &&
+           std::ranges::all_of(devices_, [](const auto &device) { return device->has_whole_regions(); });
+}
+
+void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
     require_settings();
-    require_room_for(sample_count);
+    require_room_for(wanted.count);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
-    job_.emplace(Job{samples_.count() + sample_count, target_error,
-                     Accumulation(devices_, samples_, settings_->first_sample, sample_count, progress, work_)});
+    if (is_adaptive(wanted) || !samples_.even()) {
+        begin_tiles(wanted, progress);
+        return;
+    }
+    const SampleSet &samples = samples_.of(0);
+    auto dealing =
+        std::make_unique<Accumulation>(devices_, samples, settings_->first_sample, wanted.count, progress, work_);
+    job_.emplace(Job{samples.count() + wanted.count, wanted.target_error, std::move(dealing), nullptr, {}});
+}
+
+// What is left of an even film: a pass, of which it has nothing yet, and splits that have moved while a device took no
+// samples.
+void Renderer::begin_tiles(const SamplesWanted &wanted, const Progress &progress) {
+    for (const auto &device : devices_) {
+        device->film();
+        if (!device->pass().empty())
+            device->discard_pass();
+        device->fold_to(samples_.hull());
+    }
+    forget_error(); // of an even film, without those of tiles
+    const std::uint64_t pixels = std::uint64_t{samples_.grid().width} * samples_.grid().height;
+    Job job{samples_.most() + wanted.count, wanted.target_error, nullptr,
+            std::make_unique<TileAccumulation>(devices_, samples_, settings_->first_sample, wanted.count * pixels, progress,
+                                               work_),
+            {}};
+    if (!is_adaptive(wanted))
+        for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
+            job.goals.push_back(samples_.of(tile).count() + wanted.count);
+    job_ = std::move(job);
 }
 
 Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
-    using Clock = Accumulation::Clock;
+    using Clock = SampleDealing::Clock;
     const Clock::time_point now = Clock::now();
     const auto most = static_cast<std::uint64_t>((Clock::time_point::max() - now).count());
     try {
         const pt_result result = advance(now + std::chrono::nanoseconds(std::min(nanoseconds, most)));
-        const Advance advanced{result, job_->accumulation.fraction()};
+        const Advance advanced{result, job_->dealing().fraction()};
         if (result != PT_PENDING)
             job_.reset();
         return advanced;
@@ -232,15 +279,15 @@ Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
     }
 }
 
-pt_result Renderer::accumulate(std::uint32_t sample_count, double target_error, const Progress &progress) {
+pt_result Renderer::accumulate(const SamplesWanted &wanted, const Progress &progress) {
     const KernelsKept kept(devices_);
-    begin(sample_count, target_error, progress);
+    begin(wanted, progress);
     return go_on(UINT64_MAX).result;
 }
 
-pt_result Renderer::start(std::uint32_t sample_count, double target_error) {
+pt_result Renderer::start(const SamplesWanted &wanted) {
     const KernelsKept kept(devices_);
-    begin(sample_count, target_error, {nullptr, nullptr});
+    begin(wanted, {nullptr, nullptr});
     return go_on(0).result;
 }
 
@@ -252,7 +299,7 @@ Renderer::Advance Renderer::poll(std::uint64_t nanoseconds) {
 
 void Renderer::cancel() {
     require_under_way();
-    job_->accumulation.stop();
+    job_->dealing().stop();
 }
 
 void Renderer::require_under_way() const {
@@ -262,30 +309,92 @@ void Renderer::require_under_way() const {
 
 // With a target error in runs, from each number of samples at which the error is looked at to the next.
 Accumulation::Goal Renderer::next_goal() const {
-    const std::uint64_t check = job_->target_error > 0.0 ? next_check(samples_.count()) : job_->count;
+    const std::uint64_t check = job_->target_error > 0.0 ? next_check(samples_.of(0).count()) : job_->count;
     if (check < job_->count)
         return {check, scene_->film_unit};
     return {job_->count, std::nullopt};
 }
 
-pt_result Renderer::advance(Accumulation::Clock::time_point until) {
-    Accumulation &accumulation = job_->accumulation;
+pt_result Renderer::advance(SampleDealing::Clock::time_point until) {
+    if (job_->uneven)
+        return advance_tiles(until);
+    Accumulation &accumulation = *job_->even;
     const double target_error = job_->target_error;
     const std::uint64_t wanted = job_->count;
-    while (samples_.count() < wanted) {
+    while (samples_.of(0).count() < wanted) {
         if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(target_error))
             return PT_TARGET_REACHED;
         if (!accumulation.run(next_goal(), until))
             return PT_PENDING;
-        take_over(accumulation.samples());
-        if (accumulation.stopped() && samples_.count() < wanted)
+        take_over(samples_of_job());
+        if (accumulation.stopped() && samples_.of(0).count() < wanted)
             return PT_CANCELLED;
     }
     return PT_OK;
 }
 
-void Renderer::take_over(SampleSet samples) noexcept {
+pt_result Renderer::advance_tiles(SampleDealing::Clock::time_point until) {
+    for (;;) {
+        TileAccumulation &accumulation = *job_->uneven;
+        if (!accumulation.is_under_way()) {
+            if (const std::optional<pt_result> result = next_tiles())
+                return *result;
+        }
+        if (!accumulation.run(until))
+            return PT_PENDING;
+        take_over(samples_of_job());
+        if (accumulation.stopped())
+            return PT_CANCELLED;
+    }
+}
+
+// Those of the tiles that are to take samples now, until the next level of adaptive_rule.h or what has been asked for.
+// False if none is.
+bool Renderer::set_tiles(const std::vector<std::uint32_t> &tiles) {
+    return job_->uneven->set_goal(tiles, [&](std::uint32_t tile) {
+        return job_->goals.empty() ? std::min(next_level(samples_.of(tile).count()), job_->count) : job_->goals[tile];
+    });
+}
+
+// Decides what is done next, or that nothing is.
+std::optional<pt_result> Renderer::next_tiles() {
+    if (!job_->goals.empty()) {
+        std::vector<std::uint32_t> all(samples_.grid().count());
+        std::iota(all.begin(), all.end(), 0U);
+        return set_tiles(all) ? std::nullopt : std::optional<pt_result>(PT_OK);
+    }
+    if (const std::vector<std::uint32_t> unfinished = unfinished_tiles(samples_); !unfinished.empty())
+        return set_tiles(unfinished) ? std::nullopt : std::optional<pt_result>(PT_OK);
+    return next_adaptive_tiles();
+}
+
+// The error is looked at while all tiles are at a level: the round goes on, or ends, and with the last one the samples.
+std::optional<pt_result> Renderer::next_adaptive_tiles() {
+    const double high = error().relative_rmse.high;
+    std::vector<std::uint32_t> tiles = wanting_tiles(samples_, tile_squares_, round_);
+    if (tiles.empty()) {
+        if (high <= job_->target_error)
+            return PT_TARGET_REACHED;
+        round_ = round_after(round_, samples_, tile_squares_, squared(high / job_->target_error));
+        tiles = wanting_tiles(samples_, tile_squares_, round_);
+    }
+    return set_tiles(tiles) ? std::nullopt : std::optional<pt_result>(PT_OK);
+}
+
+// The whole ones that the films hold. Nothing may be under way.
+TileSamples Renderer::samples_of_job() {
+    return job_->even ? TileSamples(samples_.grid(), job_->even->samples()) : job_->uneven->tidy_samples();
+}
+
+void Renderer::take_over(TileSamples samples) noexcept {
     samples_ = std::move(samples);
+    forget_error();
+    if (job_ && job_->uneven)
+        for (const auto &device : devices_)
+            device->cover(samples_.hull());
+}
+
+void Renderer::forget_error() noexcept {
     error_.reset();
     rejected_samples_.reset();
 }
@@ -293,8 +402,8 @@ void Renderer::take_over(SampleSet samples) noexcept {
 // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
 void Renderer::give_up() noexcept {
     try {
-        if (job_->accumulation.complete())
-            take_over(job_->accumulation.samples());
+        if (job_->dealing().complete())
+            take_over(samples_of_job());
         else
             discard_samples();
     } catch (...) {
@@ -304,8 +413,9 @@ void Renderer::give_up() noexcept {
 }
 
 ImageQuery Renderer::query(const ImageLayout &layout) const {
-    return {layout.pixels, layout.quantity == PT_QUANTITY_STANDARD_ERROR, scene_->film_unit, part_counts(samples_),
-            layout.format};
+    const std::optional<PartCounts> counts =
+        samples_.even() ? std::optional(part_counts(samples_.of(0))) : std::nullopt;
+    return {layout.pixels, layout.quantity, scene_->film_unit, counts, layout.format};
 }
 
 void Renderer::readback(const Image &image) {
@@ -345,11 +455,11 @@ Rectangle Renderer::pixels() const {
 FilmHeader Renderer::film_header() const {
     require_settings();
     require_samples();
-    return {identity(), {{pixels(), samples_}}};
+    return {identity(), film_tiles(samples_, pixels()), round_};
 }
 
 void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {
-    save(FilmView::films(devices_), header, bytes);
+    save(FilmView::films(devices_), samples_, header, bytes);
 }
 
 // A pass under way, of which no sample is counted yet, ends where the film brings its sample.
@@ -357,16 +467,47 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);
     require_same(film.header().identity, identity());
-    require_addable(film, pixels(), samples_);
+    if (!samples_.even() || !is_even(film.header(), pixels())) {
+        add_to_tiles(bytes);
+        return;
+    }
+    require_addable(film, samples_.of(0));
     RenderDevice &device = *devices_.front();
     const SampleSet &added = film.header().tiles.front().samples;
-    SampleSet all = samples_;
+    SampleSet all = samples_.of(0);
     all.add(added);
     DeviceFilm &device_film = device.film();
     if (is_in_pass() && added.overlap(device.pass()))
         device.discard_pass();
     add(film, all.hull(), device.device(), device_film);
-    take_over(std::move(all));
+    round_ = later_of(round_, film.header().round);
+    take_over(TileSamples(samples_.grid(), std::move(all)));
+}
+
+// By way of the host, where films are values.
+void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
+    for (const auto &device : devices_)
+        if (!device->has_whole_regions())
+            throw Error(PT_ERROR_UNSUPPORTED, "film: this device holds films in parts that cut tiles, so that all pixels "
+                                              "must have the same samples");
+    Film sum(bytes);
+    if (!samples_.empty()) {
+        const FilmHeader header = film_header();
+        std::vector<std::byte> own(FilmLayout(header).size_bytes());
+        save_film(header, own);
+        sum.add(Film(own));
+    }
+    TileSamples samples = tile_samples(sum.header().tiles, pixels());
+    for (const auto &device : devices_)
+        if (!device->pass().empty())
+            device->discard_pass();
+    const AdaptiveRound round = sum.header().round;
+    RenderDevice &device = *devices_.front();
+    replace(sum, samples, pixels(), device.device(), device.film());
+    for (const auto &other : std::span(devices_).subspan(1))
+        other->discard_samples();
+    round_ = round;
+    take_over(std::move(samples));
 }
 
 pt_stats Renderer::stats(bool with_error) {
@@ -374,7 +515,10 @@ pt_stats Renderer::stats(bool with_error) {
     const bool readable = settings_ && alive;
     const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
     pt_stats stats{};
-    stats.sample_count = static_cast<std::uint32_t>(samples_.count());
+    stats.sample_count = static_cast<std::uint32_t>(samples_.least());
+    stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
+    if (settings_)
+        stats.mean_sample_count = static_cast<double>(samples_.total()) / (1.0 * settings_->width * settings_->row_count);
     stats.submit_count = work_.submit_count;
     stats.device_seconds = work_.seconds;
     for (const auto &device : devices_) {

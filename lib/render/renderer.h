@@ -10,7 +10,9 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
+#include "lib/film/tile_samples.h"
 #include "lib/render/accumulation.h"
+#include "lib/render/tile_accumulation.h"
 #include "lib/render/film_view.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
@@ -53,6 +55,13 @@ std::vector<pt_device_info> list_devices();
 
 // Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that those
 // that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
+// What pt_accumulate is asked for.
+struct SamplesWanted {
+    std::uint32_t count;    // more in every pixel, or with a target error at most
+    double target_error;    // relative; 0: none
+    std::uint32_t sampling; // PT_SAMPLING_*
+};
+
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -82,10 +91,10 @@ public:
     void prepare();
 
     // Takes samples: PT_OK, PT_CANCELLED or PT_TARGET_REACHED.
-    pt_result accumulate(std::uint32_t sample_count, double target_error, const Progress &progress);
+    pt_result accumulate(const SamplesWanted &wanted, const Progress &progress);
 
     // The same, without waiting for any: PT_PENDING where they are under way then, or PT_TARGET_REACHED.
-    pt_result start(std::uint32_t sample_count, double target_error);
+    pt_result start(const SamplesWanted &wanted);
 
     struct Advance {
         pt_result result; // PT_PENDING while samples are under way, then that of accumulate()
@@ -118,9 +127,13 @@ public:
 private:
     // Samples that are to be taken.
     struct Job {
-        std::uint64_t count; // of the film, with all of them
+        std::uint64_t count; // of the film's pixels, with all of them, and the most of any of them
         double target_error;
-        Accumulation accumulation;
+        std::unique_ptr<Accumulation> even; // one of the two
+        std::unique_ptr<TileAccumulation> uneven;
+        std::vector<std::uint64_t> goals; // of tiles that are to take equal numbers of samples, though they are uneven
+
+        SampleDealing &dealing() { return even ? static_cast<SampleDealing &>(*even) : *uneven; }
     };
 
     void use_own_devices(const CreateSettings &settings);
@@ -139,12 +152,21 @@ private:
     Rectangle pixels() const;
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
-    void begin(std::uint32_t sample_count, double target_error, const Progress &progress);
+    bool is_adaptive(const SamplesWanted &wanted) const;
+    void begin(const SamplesWanted &wanted, const Progress &progress);
+    void begin_tiles(const SamplesWanted &wanted, const Progress &progress);
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
     Accumulation::Goal next_goal() const;
-    pt_result advance(Accumulation::Clock::time_point until);
-    void take_over(SampleSet samples) noexcept;
+    pt_result advance(SampleDealing::Clock::time_point until);
+    pt_result advance_tiles(SampleDealing::Clock::time_point until);
+    std::optional<pt_result> next_tiles();
+    std::optional<pt_result> next_adaptive_tiles();
+    bool set_tiles(const std::vector<std::uint32_t> &tiles);
+    TileSamples samples_of_job();
+    void take_over(TileSamples samples) noexcept;
+    void forget_error() noexcept;
+    void add_to_tiles(std::span<const std::byte> bytes);
     void give_up() noexcept;
 
     ShaderSource source_;
@@ -156,9 +178,11 @@ private:
     std::optional<Camera> camera_;
     std::optional<RenderSettings> settings_;        // the devices have films if it is there
     std::shared_ptr<const GpuScene> gpu_scene_;     // of the three above; NULL where one has changed
-    SampleSet samples_;                             // whole ones, in every pixel
+    TileSamples samples_;                           // whole ones
+    AdaptiveRound round_;                           // that they have come to
     std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_; // likewise
+    std::vector<double> tile_squares_;              // likewise, if they are uneven or may come to be
     DeviceWork work_;
     std::optional<Job> job_; // while samples are under way
 };

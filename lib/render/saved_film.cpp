@@ -1,7 +1,9 @@
 #include "lib/render/saved_film.h"
 
 #include "lib/base/rules.h"
+#include "lib/film/tile_map.h"
 
+#include <algorithm>
 #include <string>
 
 namespace pt {
@@ -14,31 +16,118 @@ void refuse(const std::string &field, const std::string &value, const std::strin
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
 }
 
-std::string text_of(const Rectangle &pixels) {
+std::string rows_and_columns(const Rectangle &pixels) {
     return "rows [" + std::to_string(pixels.y) + ", " + std::to_string(std::uint64_t{pixels.y} + pixels.height) +
            "), columns [" + std::to_string(pixels.x) + ", " + std::to_string(std::uint64_t{pixels.x} + pixels.width) +
            ')';
 }
 
+Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
+    return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
+}
+
+bool lies_in(const Rectangle &inner, const Rectangle &outer) {
+    return inner.x >= outer.x && inner.y >= outer.y && inner.x + inner.width <= outer.x + outer.width &&
+           inner.y + inner.height <= outer.y + outer.height;
+}
+
+// Whole rows of a film at a time.
+std::uint32_t rows_of_piece(std::uint32_t width) {
+    return std::max(piece_pixels / width, 1U);
+}
+
+// The rows of a tile that lie in consecutive rows of its film.
+struct RowsInTile {
+    std::uint32_t first; // of the film
+    std::uint32_t end;
+
+    RowsInTile(const Rectangle &tile, std::uint32_t first_row, std::uint32_t row_count) :
+        first(std::max(tile.y, first_row)),
+        end(std::max(std::min(tile.y + tile.height, first_row + row_count), first)) {}
+
+    std::uint32_t count() const { return end - first; }
+};
+
+// Copies the pixels of a tile's rows between them alone and the rows of the film from first_row on.
+template <typename Copy>
+void for_each_row(const Rectangle &tile, const RowsInTile &rows, std::uint32_t first_row, std::uint32_t width,
+                  const Copy &copy) {
+    for (std::uint32_t y = rows.first; y < rows.end; ++y)
+        copy(std::size_t{y - first_row} * width + tile.x, std::size_t{y - rows.first} * tile.width, tile.width);
+}
+
 } // namespace
 
-void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::span<std::byte> bytes) {
+std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels) {
+    if (samples.even())
+        return {{pixels, samples.of(0)}};
+    std::vector<FilmTile> tiles;
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
+        if (!samples.of(tile).empty())
+            tiles.push_back({shifted(samples.grid().pixels(tile), pixels), samples.of(tile)});
+    return canonical_tiles(tiles);
+}
+
+bool is_even(const FilmHeader &film, const Rectangle &pixels) {
+    return film.tiles.size() == 1 && film.tiles.front().pixels == pixels;
+}
+
+// The tiles of a film do not overlap: those of the context's that it covers as a whole are as large as what it has in them.
+TileSamples tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
+    TileSamples samples({pixels.width, pixels.height});
+    const TileMap map(tiles);
+    for (const FilmTile &tile : tiles)
+        if (!lies_in(tile.pixels, pixels))
+            refuse("tile", rows_and_columns(tile.pixels),
+                   "must lie in " + rows_and_columns(pixels) + ", as in this context");
+    const auto samples_at = [&](std::uint32_t x, std::uint32_t y) {
+        const TileMap::Span *const span = map.find(x, y);
+        return span ? &tiles[span->tile].samples : nullptr;
+    };
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
+        const Rectangle own = shifted(samples.grid().pixels(tile), pixels);
+        const SampleSet *const first = samples_at(own.x, own.y);
+        for (std::uint32_t y = own.y; y < own.y + own.height; ++y)
+            for (std::uint32_t x = own.x; x < own.x + own.width; ++x)
+                if (const SampleSet *const here = samples_at(x, y);
+                    (here == nullptr) != (first == nullptr) || (here && *here != *first))
+                    refuse("tile", rows_and_columns(own),
+                           "these pixels, a tile of this context, must all have the same samples");
+        if (first)
+            samples.set(tile, *first);
+    }
+    samples.tidy();
+    return samples;
+}
+
+void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
+          std::span<std::byte> bytes) {
     FilmWriter writer(header, bytes);
-    std::uint64_t first_pixel = 0;
-    read_films(films, header.tiles.front().samples, piece_pixels, [&](const PixelSums &sums) {
-        writer.write(0, first_pixel, sums);
-        first_pixel += sums.pixel_count();
+    const std::uint32_t width = samples.grid().width;
+    const Rectangle origin = bounds_of(header.tiles);
+    std::uint32_t row = 0;
+    PixelSums part;
+    read_films(films, samples, rows_of_piece(width) * width, [&](const PixelSums &sums) {
+        const auto row_count = static_cast<std::uint32_t>(sums.pixel_count() / width);
+        for (std::size_t i = 0; i < header.tiles.size(); ++i) {
+            const Rectangle &pixels = header.tiles[i].pixels;
+            const Rectangle tile{pixels.x - origin.x, pixels.y - origin.y, pixels.width, pixels.height};
+            const RowsInTile rows(tile, row, row_count);
+            if (rows.count() == 0)
+                continue;
+            part.resize(std::size_t{rows.count()} * tile.width);
+            for_each_row(tile, rows, row, width, [&](std::size_t in_film, std::size_t in_part, std::size_t count) {
+                part.copy(sums, in_film, count, in_part);
+            });
+            writer.write(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
+        }
+        row += row_count;
     });
     writer.end();
 }
 
-void require_addable(const FilmReader &film, const Rectangle &pixels, const SampleSet &present) {
-    const std::vector<FilmTile> &tiles = film.header().tiles;
-    if (tiles.size() != 1)
-        refuse("tiles", std::to_string(tiles.size()), "must be one");
-    const FilmTile &tile = tiles.front();
-    if (tile.pixels != pixels)
-        refuse("tile", text_of(tile.pixels), "must be " + text_of(pixels) + ", as in this context");
+void require_addable(const FilmReader &film, const SampleSet &present) {
+    const FilmTile &tile = film.header().tiles.front();
     if (const auto overlap = tile.samples.overlap(present))
         refuse("samples", text_of(tile.samples), text_of(*overlap) + " are in this context's film already");
     if (present.count() + tile.samples.count() > UINT32_MAX)
@@ -63,6 +152,40 @@ void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device
     });
     PartUse parts;
     parts.extend(hull);
+    all.replace(parts);
+}
+
+void replace(const Film &by, const TileSamples &samples, const Rectangle &pixels, vulkan::Device &device,
+             DeviceFilm &film) {
+    std::vector<std::byte> bytes(FilmLayout(by.header()).size_bytes());
+    by.write(bytes);
+    const FilmReader reader(bytes);
+    const std::vector<FilmTile> &tiles = reader.header().tiles;
+    DeviceFilm::NewSums all(device, film);
+    PixelSums sums;
+    PixelSums part;
+    const std::uint32_t step = rows_of_piece(pixels.width);
+    for (std::uint32_t row = 0; row < pixels.height; row += step) {
+        const std::uint32_t row_count = std::min(step, pixels.height - row);
+        sums = PixelSums();
+        sums.resize(std::size_t{row_count} * pixels.width);
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            const Rectangle tile{tiles[i].pixels.x - pixels.x, tiles[i].pixels.y - pixels.y, tiles[i].pixels.width,
+                                 tiles[i].pixels.height};
+            const RowsInTile rows(tile, row, row_count);
+            if (rows.count() == 0)
+                continue;
+            part.resize(std::size_t{rows.count()} * tile.width);
+            reader.read(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
+            for_each_row(tile, rows, row, pixels.width,
+                         [&](std::size_t in_film, std::size_t in_part, std::size_t count) {
+                             sums.copy(part, in_part, count, in_film);
+                         });
+        }
+        all.write(row * pixels.width, sums);
+    }
+    PartUse parts;
+    parts.cover(samples.hull());
     all.replace(parts);
 }
 

@@ -2,22 +2,40 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/film/film.h"
 #include "lib/film/film_bytes.h"
+#include "lib/film/tile_samples.h"
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace pt {
 
-// Writes the sum of films of one size, which together hold the samples of the header's one tile, to memory of the size
+// The tiles of a film of these pixels of an image, as few as may be.
+std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
+
+// Whether a film has just these pixels, all with the same samples.
+bool is_even(const FilmHeader &film, const Rectangle &pixels);
+
+// What the tiles of a film say of those of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if they have others,
+// or cut the context's tiles.
+TileSamples tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
+
+// Writes the sum of films of one size, which together hold these samples and those of the header, to memory of the size
 // that FilmLayout asks for.
-void save(std::span<DeviceFilm *const> films, const FilmHeader &header, std::span<std::byte> bytes);
+void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
+          std::span<std::byte> bytes);
 
-// Throws PT_ERROR_INCOMPATIBLE if the film has no tile with just these pixels, or samples that a context has already.
-void require_addable(const FilmReader &film, const Rectangle &pixels, const SampleSet &present);
+// Throws PT_ERROR_INCOMPATIBLE if an even film has samples that a context has already.
+void require_addable(const FilmReader &film, const SampleSet &present);
 
-// Adds a film of one tile to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that
-// its samples cannot have; hull: of the samples of both, and of all films that are rendered together.
+// Adds an even film to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that its
+// samples cannot have; hull: of the samples of both, and of all films that are rendered together.
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
+
+// Makes a film in a device's memory, of these pixels, what a film on the host is, which has these samples.
+void replace(const Film &by, const TileSamples &samples, const Rectangle &pixels, vulkan::Device &device,
+             DeviceFilm &film);
 
 } // namespace pt

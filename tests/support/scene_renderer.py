@@ -28,7 +28,8 @@ class Stats(smallest.Sized):
                 ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
                 ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
                 ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
-                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("reserved", c_uint32)]
+                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("max_sample_count", c_uint32),
+                ("mean_sample_count", c_double)]
 
 
 class SceneRenderer(smallest.Renderer):

@@ -229,10 +229,20 @@ typedef struct pt_render {
     uint32_t row_count;       /**< large for a device is rendered piece by piece, same bits. 0: all from first_row on */
 } pt_render;
 
+/** Values of pt_accumulate_info.sampling: where samples go. All converge to the same image. */
+enum {
+    PT_SAMPLING_BEST = 0,    /**< adaptive with a target error, else uniform */
+    PT_SAMPLING_UNIFORM = 1, /**< to all pixels alike */
+    /** where they lessen the error most, which takes a target error: a tile of 8 x 8 pixels gets 16 samples a pixel, and as
+     * many again while what that gains for its cost exceeds a bound, which falls until the image has the target error. No
+     * pixel gets fewer than a fourth of the mean by the time the bound falls. */
+    PT_SAMPLING_ADAPTIVE = 2
+};
+
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size;  /**< sizeof(pt_accumulate_info) */
-    uint32_t sample_count; /**< samples to add to every pixel, >= 1; indices must stay below 2^32 */
+    uint32_t sample_count; /**< samples to add to every pixel, >= 1; indices must stay below 2^32. See target_error */
     /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
      *
      * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
@@ -245,10 +255,13 @@ typedef struct pt_accumulate_info {
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
-     * PT_TARGET_REACHED, and sample_count is the most that it adds. The error is looked at when the image has as many
-     * samples as pt_next_check says, and at no other time: where a sequence ends does not depend on how it is split
-     * over calls. Finite, >= 0. */
+     * PT_TARGET_REACHED, and sample_count is the most that it adds to the pixels that have most. The error is looked at when
+     * no tile wants more for the bound of the time (PT_SAMPLING_ADAPTIVE) or, with PT_SAMPLING_UNIFORM, when the image has
+     * as many samples as pt_next_check says, and at no other time: where a sequence ends does not depend on how it is split
+     * over calls, devices, or films that are saved and added again. Finite, >= 0. */
     double target_error;
+    uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
+    uint32_t reserved; /**< 0 */
 } pt_accumulate_info;
 
 /** Values of pt_image.quantity. */

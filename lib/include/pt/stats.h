@@ -45,7 +45,7 @@ enum {
  * them avoids. */
 typedef struct pt_stats {
     uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
-    uint32_t sample_count;     /**< whole samples in every pixel */
+    uint32_t sample_count;     /**< whole samples in every pixel; the fewest that one has */
     uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
     uint64_t device_bytes;     /**< memory allocated on all its devices now */
     uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
@@ -59,10 +59,11 @@ typedef struct pt_stats {
     double relative_rmse_low;  /**< lower bound of relative_rmse */
     double relative_rmse_high; /**< upper bound of relative_rmse */
     uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
-    uint32_t reserved;         /**< 0 */
+    uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
+    double mean_sample_count;  /**< of all pixels */
 } pt_stats;
 
-/** The first number of samples above this one with which a target error is looked at: 16, 20, 24, 28, 32, 40, 48,
+/** The first number of samples above this one with which a target error is looked at by PT_SAMPLING_UNIFORM: 16, 20, 24, 28, 32, 40, 48,
  * 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none. Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 

@@ -1,4 +1,4 @@
-#include "lib/film/adaptive_round.h"
+#include "lib/film/adaptive_rule.h"
 
 #include <algorithm>
 #include <bit>
@@ -50,10 +50,6 @@ double expected_sum(const SquaresByRound &squares, std::int32_t round) {
 }
 
 } // namespace
-
-AdaptiveRound later_of(const AdaptiveRound &a, const AdaptiveRound &b) {
-    return {std::max(a.number, b.number), std::max(a.floor, b.floor)};
-}
 
 std::uint64_t next_level(std::uint64_t sample_count) {
     return std::max(first_level, 2 * std::bit_floor(sample_count));

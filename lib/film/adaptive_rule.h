@@ -1,0 +1,37 @@
+// Which tiles of a film take more samples. A tile holds 16, 32, 64, ... samples a pixel and takes as many again while what
+// that is expected to gain, for each sample it costs, exceeds a bound; the bound falls from round to round, until the error
+// of the image is small enough. So samples go where they gain most: equal errors everywhere would take as many as an even
+// film (mean squares v after equal times), equal gains take them in proportion to the root of v.
+//
+// Pure arithmetic on what a film says. A tile's decision depends on its own sums and on the round alone, so that at the end
+// of a round it holds the first of these numbers of samples at which it gains no more than the bound: whatever the order in
+// which tiles came to it, and whatever was interrupted on the way.
+#pragma once
+
+#include "lib/film/adaptive_round.h"
+#include "lib/film/tile_samples.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// The least number of samples of a tile above this one: 16 times a power of two.
+std::uint64_t next_level(std::uint64_t sample_count);
+bool is_level(std::uint64_t sample_count);
+
+// The tiles that were interrupted on their way to a level, or have not begun.
+std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
+
+// The tiles that are to take as many samples again in this round, all of them being at a level. squares: by tile, what is
+// expected of the sum of the squares of its values' relative errors.
+std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> squares,
+                                         const AdaptiveRound &round);
+
+// The round that follows one in which no tile wants more. excess > 1: the square of the image's error over that of its
+// target; infinite if the error is unknown. Some tile wants more in it.
+AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
+                          double excess);
+
+} // namespace pt

@@ -1,0 +1,97 @@
+// Deals samples of tiles; see tile_accumulation.h.
+#include "lib/render/tile_accumulation.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace pt {
+
+TileAccumulation::TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
+                                   std::uint64_t pixels_wanted, const Progress &progress, DeviceWork &work) :
+    SampleDealing(devices, pixels_wanted, progress, work),
+    samples_(samples),
+    first_sample_(first_sample) {}
+
+// Tiles with fewer samples come first, since they are the most: a device is busiest with them.
+bool TileAccumulation::set_goal(std::span<const std::uint32_t> tiles,
+                                const std::function<std::uint64_t(std::uint32_t)> &goal) {
+    std::map<std::pair<std::uint32_t, std::uint64_t>, Task> tasks; // by what tiles have and are to have
+    for (const std::uint32_t tile : tiles) {
+        const SampleSet &present = samples_.of(tile);
+        const std::uint64_t wanted = goal(tile);
+        if (wanted <= present.count())
+            continue;
+        const auto [entry, is_new] = tasks.try_emplace({samples_.set_of(tile), wanted});
+        Task &task = entry->second;
+        task.tiles.push_back(tile);
+        if (is_new) {
+            task.before = present.empty() ? SampleRange{} : present.hull();
+            task.samples = present.next_missing(first_sample_);
+            task.samples.end = std::min({task.samples.end, task.samples.first + (wanted - present.count()),
+                                         end_of_run(task.before, task.samples.first)});
+        }
+    }
+    tasks_.clear();
+    for (auto &[key, task] : tasks)
+        tasks_.push_back(std::move(task));
+    std::ranges::stable_sort(tasks_, std::ranges::greater(),
+                             [](const Task &task) { return task.samples.count(); });
+    return !tasks_.empty();
+}
+
+bool TileAccumulation::run(Clock::time_point until) {
+    return go_on(until);
+}
+
+const TileSamples &TileAccumulation::tidy_samples() {
+    samples_.tidy();
+    return samples_;
+}
+
+void TileAccumulation::deal() {
+    for (bool dealt = true; dealt;) {
+        dealt = false;
+        for (const auto &device : devices())
+            dealt |= deal_to(*device);
+    }
+}
+
+// Starts the next slice: some tiles of the task under way, with some of its samples. What has been begun of a tile's samples
+// is whole as soon as the slice is done.
+bool TileAccumulation::deal_to(RenderDevice &device) {
+    const auto has_room = [](const auto &each) { return each->has_room(); };
+    if (stopped() || tasks_.empty() || !std::ranges::all_of(devices(), has_room))
+        return false;
+    Task &task = tasks_.back();
+    if (task.chunk.empty())
+        task.chunk = {task.samples.first,
+                      task.samples.first + device.affordable_samples(task.tiles.size(), task.samples.count())};
+    const std::span<const std::uint32_t> left = std::span(task.tiles).subspan(task.next_tile);
+    const TileSlice slice{left.first(std::min(device.affordable_tiles(task.chunk.count()), left.size())), task.before,
+                          task.chunk, true};
+    TileSamples with_slice = samples_; // before anything is started: what is must be counted
+    with_slice.add(slice.tiles, task.chunk);
+    fold_on_others(device, slice);
+    device.start_tiles(slice);
+    samples_ = std::move(with_slice);
+    task.next_tile += slice.tiles.size();
+    if (task.next_tile == task.tiles.size()) {
+        task.before = task.before.empty() ? task.chunk : hull_of(task.before, task.chunk);
+        task.samples.first = task.chunk.end;
+        task.chunk = {};
+        task.next_tile = 0;
+        if (task.samples.empty())
+            tasks_.pop_back();
+    }
+    return true;
+}
+
+// So that the films of all devices have the same samples in each part, and add up part by part.
+void TileAccumulation::fold_on_others(const RenderDevice &device, const TileSlice &slice) const {
+    for (const auto &other : devices())
+        if (other.get() != &device && slice.moves_split())
+            other->start_tiles({slice.tiles, slice.before, slice.samples, false});
+}
+
+} // namespace pt

@@ -1,0 +1,53 @@
+// Samples for some tiles on their way into the films of a context's devices.
+#pragma once
+
+#include "lib/film/tile_samples.h"
+#include "lib/render/sample_dealing.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+class TileAccumulation : public SampleDealing {
+public:
+    // Devices and work must outlive it. samples: those that the films hold. pixels_wanted: times samples, which the
+    // progress is about.
+    TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
+                     std::uint64_t pixels_wanted, const Progress &progress, DeviceWork &work);
+
+    // Sets what is to be done next: those of the tiles that have fewer samples than they are to have take more, as far as
+    // a part of the film stays the same: some may have fewer than that afterwards, and are to be set again. False if none
+    // has fewer. goal: by number of samples that a tile has, how many it is to have.
+    bool set_goal(std::span<const std::uint32_t> tiles, const std::function<std::uint64_t(std::uint32_t)> &goal);
+
+    // Takes these samples, or fewer if it was stopped. False if they are still under way at a time; it is to be called
+    // again then.
+    bool run(Clock::time_point until);
+
+    // Those that the films hold. Nothing may be under way.
+    const TileSamples &tidy_samples();
+
+private:
+    // Tiles with equal samples that take the same ones.
+    struct Task {
+        std::vector<std::uint32_t> tiles; // ascending
+        SampleRange before;               // from the first to the last that they have
+        SampleRange samples;              // to be taken
+        SampleRange chunk{};              // of these, that which tiles take now
+        std::size_t next_tile = 0;        // that takes it next
+    };
+
+    void deal() override;
+    bool deal_to(RenderDevice &device);
+    void fold_on_others(const RenderDevice &device, const TileSlice &slice) const;
+
+    TileSamples samples_; // that the films hold or have begun
+    std::uint32_t first_sample_;
+    std::vector<Task> tasks_; // the last is under way
+};
+
+} // namespace pt
