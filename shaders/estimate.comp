@@ -14,10 +14,10 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
 // Of a film whose tiles have different numbers of samples: those in the older and in the newer part of each tile, and what
-// its samples alone say of the sum of its values' relative errors squared.
+// its samples alone say of the sum of its values' relative errors squared, and of that of light that none of them met.
 layout(constant_id = 0) const uint UNEVEN = 0u;
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
-layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { float squares[]; } tile_errors;
+layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_errors;
 
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
@@ -131,6 +131,19 @@ Neighbourhood neighbourhood(ivec2 place, ivec2 size)
     return Neighbourhood(count > 1 ? median : 0.0, largest);
 }
 
+// Of the pixels of its tile that touch a pixel, and itself.
+float largest_in_tile(uvec2 place, uvec2 size)
+{
+    uvec2 corner = place / TILE_SIZE * TILE_SIZE;
+    uvec2 first = max(place, corner + 1u) - 1u;
+    uvec2 last = min(place + 1u, min(corner + TILE_SIZE, size) - 1u);
+    float largest = 0.0;
+    for (uint y = first.y; y <= last.y; ++y)
+        for (uint x = first.x; x <= last.x; ++x)
+            largest = max(largest, means[y * REGION_SIZE + x]);
+    return largest;
+}
+
 // Sums of squares with the sum of the squares of their shares in them.
 void add_squares(inout float sum, inout float shares, float other_sum, float other_shares)
 {
@@ -167,7 +180,7 @@ void main()
     barrier();
 
     float unseen[PIXELS_OF_INVOCATION];
-    float own_squares[PIXELS_OF_INVOCATION];
+    vec2 own_squares[PIXELS_OF_INVOCATION];
     for (uint channel = 0u; channel < 3u; ++channel) {
         // What the samples of each pixel show.
         float standard_errors[PIXELS_OF_INVOCATION];
@@ -190,7 +203,7 @@ void main()
                 squares[index] = 0.0;
                 relative_squares[index] = 0.0;
                 unseen[i] = 0.0;
-                own_squares[i] = 0.0;
+                own_squares[i] = vec2(0.0);
             }
         }
         barrier();
@@ -231,8 +244,10 @@ void main()
             relative_squares[index] += relative_square(standard_errors[i], mean, lessers[i], around, relative);
             unseen[i] += unseen_square(mean, near.largest, float(counts.x + counts.y), estimate.relative_offset);
             if (UNEVEN == 1u)
-                own_squares[i] += relative_square(standard_errors[i], mean, lessers[i],
-                                                  mean_besides_and_without_largest(tile_set, mean), relative);
+                own_squares[i] += vec2(
+                    relative_square(standard_errors[i], mean, lessers[i],
+                                    mean_besides_and_without_largest(tile_set, mean), relative),
+                    unseen_square(mean, largest_in_tile(place, size), float(counts.x + counts.y), relative.offset));
         }
         barrier(); // before the next channel's means
     }
@@ -300,21 +315,23 @@ void main()
 
     // What tiles say of themselves, in the same order.
     barrier(); // the region has been written
-    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i)
-        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i];
+    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
+        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i].x;
+        squares[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i].y;
+    }
     barrier();
-    float row_square = 0.0;
+    vec2 row_squares = vec2(0.0);
     for (uint i = 0u; i < row_pixels; ++i)
-        row_square += means[row_first + i];
-    rows[invocation].x = row_square;
+        row_squares += vec2(means[row_first + i], squares[row_first + i]);
+    rows[invocation].xy = row_squares;
     barrier();
     uvec2 tile_place = uvec2(invocation % TILES_IN_ROW, invocation / TILES_IN_ROW) * TILE_SIZE;
     if (invocation < TILES_IN_REGION && all(lessThan(tile_place, size))) {
-        float tile_square = 0.0;
+        vec2 tile_squares = vec2(0.0);
         for (uint i = 0u; i < TILE_SIZE; ++i)
-            tile_square += rows[invocation * TILE_SIZE + i].x;
+            tile_squares += rows[invocation * TILE_SIZE + i].xy;
         // Where both parts of some pixel do not have a sample, nothing is known.
         tile_errors.squares[film_tile(region_place + tile_place)] =
-            tile_counts[invocation][2] > 0u ? uintBitsToFloat(INFINITY_BITS) : tile_square;
+            tile_counts[invocation][2] > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : tile_squares;
     }
 }

@@ -82,10 +82,12 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
 // The further the target, the more rounds are left out: half of those that it is expected to take. With stratified samples
 // squares fall faster than expected, so that the target is hardly ever left behind by much.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
-                          double excess) {
+                          double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
     const std::uint64_t share = samples.total() / pixels / floor_share;
     AdaptiveRound next{round.number, std::max(round.floor, std::bit_floor(share))};
+    if (sees_too_little)
+        next.floor = std::max(next.floor, next_level(samples.least()));
     SquaresByRound by_round;
     for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
         if (const double gain = gain_of(samples, squares, tile); gain > 0.0)
@@ -97,7 +99,8 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
     }
     const std::int32_t first = std::max(round.number, by_round.begin()->first) + 1;
     std::int32_t last = first;
-    for (const double aim = expected_sum(by_round, first - 1) / excess; aim > 0.0 && expected_sum(by_round, last) > aim;)
+    for (const double aim = expected_sum(by_round, first - 1) / excess;
+         aim > 0.0 && expected_sum(by_round, last) > aim;)
         ++last;
     next.number = first + (last - first) / 2;
     return next;

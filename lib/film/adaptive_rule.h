@@ -30,8 +30,9 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
                                          const AdaptiveRound &round);
 
 // The round that follows one in which no tile wants more. excess > 1: the square of the image's error over that of its
-// target; infinite if the error is unknown. Some tile wants more in it.
+// target; infinite if the error is unknown. sees_too_little: much of it is light that no sample has met
+// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more. Some tile wants more in it.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
-                          double excess);
+                          double excess, bool sees_too_little);
 
 } // namespace pt

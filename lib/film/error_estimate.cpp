@@ -48,12 +48,6 @@ double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
 
-void add_tile(ErrorSquares &to, double square, double value_count) {
-    to.sum += square;
-    to.of_tiles += squared(square);
-    to.times_tile_sizes += square * value_count;
-}
-
 void add_squares(ErrorSquares &to, const ErrorSquares &other) {
     to.sum += other.sum;
     to.of_pixels += other.of_pixels;
@@ -110,84 +104,27 @@ void ErrorEstimator::add(const PixelEstimates &pixels) {
 void ErrorEstimator::finish_band() {
     const std::size_t height = radiance_.size() / (std::size_t{3} * conditions_.width);
     for (std::size_t left = 0; left < conditions_.width; left += region_size)
-        add_region(left, std::min<std::size_t>(region_size, conditions_.width - left), height);
+        add(region_errors(region_of_band(left, std::min<std::size_t>(region_size, conditions_.width - left), height),
+                          nullptr));
     radiance_.clear();
     standard_error_.clear();
     lesser_.clear();
-    band_row_ += region_size;
 }
 
-// Of the tiles of a region in the band.
-std::vector<double> ErrorEstimator::sample_counts(std::size_t left, std::size_t width, std::size_t height) const {
-    std::vector<double> counts;
-    for (std::size_t y = 0; y < height; y += tile_size)
-        for (std::size_t x = left; x < left + width; x += tile_size)
-            counts.push_back(static_cast<double>(
-                conditions_.uneven ? conditions_.uneven->of(tile_at(x, y)).count() : conditions_.sample_count));
-    return counts;
-}
-
-// Of the film, from a place in the band.
-std::size_t ErrorEstimator::tile_at(std::size_t x, std::size_t y) const {
-    const std::size_t columns = (conditions_.width + tile_size - 1) / tile_size;
-    return (band_row_ + y) / tile_size * columns + x / tile_size;
-}
-
-RegionChannel ErrorEstimator::channel_of(std::size_t channel, std::size_t left, std::size_t width,
-                                         std::size_t height) const {
-    RegionChannel region{width, height, {}, {}, {}};
-    for (auto *const values : {&region.mean, &region.standard_error, &region.lesser})
-        values->reserve(width * height);
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = left; x < left + width; ++x) {
-            const std::size_t value = 3 * (y * conditions_.width + x) + channel;
-            region.mean.push_back(static_cast<double>(radiance_[value]));
-            region.standard_error.push_back(static_cast<double>(standard_error_[value]));
-            region.lesser.push_back(static_cast<double>(lesser_[value]));
-        }
-    return region;
-}
-
-void ErrorEstimator::add_region(std::size_t left, std::size_t width, std::size_t height) {
-    const std::vector<double> counts = sample_counts(left, width, height);
-    std::vector<ValueError> pixels(width * height);
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        const std::vector<ValueError> values =
-            value_errors(channel_of(channel, left, width, height), counts, !tile_squares_.empty());
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            pixels[i].square += values[i].square;
-            pixels[i].relative_square += values[i].relative_square;
-            pixels[i].unseen += values[i].unseen;
-            pixels[i].own_square += values[i].own_square;
-        }
+RegionPixels ErrorEstimator::region_of_band(std::size_t left, std::size_t width, std::size_t height) const {
+    RegionPixels region{width, height, {}, {}};
+    const std::size_t tiles = ((width + tile_size - 1) / tile_size) * ((height + tile_size - 1) / tile_size);
+    region.sample_counts.assign(tiles, static_cast<double>(conditions_.sample_count));
+    const auto append = [&](std::vector<float> &to, const std::vector<float> &from, std::size_t row) {
+        const auto first = from.begin() + static_cast<std::ptrdiff_t>(3 * (row * conditions_.width + left));
+        to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(3 * width));
+    };
+    for (std::size_t y = 0; y < height; ++y) {
+        append(region.estimates.radiance, radiance_, y);
+        append(region.estimates.standard_error, standard_error_, y);
+        append(region.estimates.lesser, lesser_, y);
     }
-    RegionErrors region;
-    for (std::size_t top = 0; top < height; top += tile_size)
-        for (std::size_t first = 0; first < width; first += tile_size) {
-            const std::size_t bottom = std::min(top + tile_size, height);
-            const std::size_t last = std::min(first + tile_size, width);
-            const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
-            double square = 0.0;
-            double relative_square = 0.0;
-            double own_square = 0.0;
-            for (std::size_t y = top; y < bottom; ++y)
-                for (std::size_t x = first; x < last; ++x) {
-                    const ValueError &pixel = pixels[y * width + x];
-                    square += pixel.square;
-                    relative_square += pixel.relative_square;
-                    region.square.of_pixels += squared(pixel.square);
-                    region.relative_square.of_pixels += squared(pixel.relative_square);
-                    region.unseen += pixel.unseen;
-                    own_square += pixel.own_square;
-                }
-            if (!tile_squares_.empty())
-                tile_squares_[tile_at(left + first, top)] = own_square;
-            region.value_count += value_count;
-            region.squares_of_tile_sizes += squared(value_count);
-            add_tile(region.square, square, value_count);
-            add_tile(region.relative_square, relative_square, value_count);
-        }
-    add(region);
+    return region;
 }
 
 void ErrorEstimator::add(const RegionErrors &region) {

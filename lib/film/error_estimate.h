@@ -2,17 +2,13 @@
 // film.
 #pragma once
 
-#include "lib/film/error_region.h"
-#include "lib/film/tile_samples.h"
+#include "lib/film/region_errors.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace pt {
-
-struct PixelEstimates;
 
 // An estimate and its bounds of 95% confidence.
 struct Interval {
@@ -49,38 +45,14 @@ double exaggeration(std::uint32_t sampler);
 // What an image's samples were.
 struct SampleConditions {
     std::uint32_t width; // pixels
-    std::uint64_t sample_count; // of a pixel
+    std::uint64_t sample_count;
     std::uint32_t sampler;
     bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
-    const TileSamples *uneven = nullptr; // instead of sample_count where tiles differ; must outlive what is given it
-};
-
-// The squares that are expected of errors, summed over pixels and channels, and how they lie.
-struct ErrorSquares {
-    double sum = 0.0;              // infinite if it is unknown
-    double of_pixels = 0.0;        // sum over pixels of the squares of their sums over channels
-    double of_tiles = 0.0;         // sum over tiles of the squares of their sums
-    double times_tile_sizes = 0.0; // sum over tiles of their sums, each times the number of its values
-};
-
-// What a region says.
-struct RegionErrors {
-    double value_count = 0.0;           // pixels times channels
-    double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
-    ErrorSquares square;                // of (x - r)^2
-    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01)
-    double unseen = 0.0;                // the same of light that no sample met
-    std::uint64_t rejected = 0;         // samples left out
 };
 
 class ErrorEstimator {
 public:
-    // tile_squares: by tiles of the film, what is expected of the sum over pixels and
-    // channels of (x - r)^2 / (r^2 + 0.01), as far as the samples of that tile alone tell: infinite where that is unknown;
-    // empty if it is not wanted. Those of regions that are taken as such are their caller's to write.
-    explicit ErrorEstimator(const SampleConditions &conditions, std::span<double> tile_squares = {}) :
-        conditions_(conditions),
-        tile_squares_(tile_squares) {}
+    explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
 
     // Takes consecutive pixels with their standard errors, the first being the first of the image.
     void add(const PixelEstimates &pixels);
@@ -99,15 +71,9 @@ private:
     Interval root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const;
 
     void finish_band();
-    void add_region(std::size_t left, std::size_t width, std::size_t height);
-    RegionChannel channel_of(std::size_t channel, std::size_t left, std::size_t width, std::size_t height) const;
-
-    std::size_t tile_at(std::size_t x, std::size_t y) const;
-    std::vector<double> sample_counts(std::size_t left, std::size_t width, std::size_t height) const;
+    RegionPixels region_of_band(std::size_t left, std::size_t width, std::size_t height) const;
 
     SampleConditions conditions_;
-    std::span<double> tile_squares_;
-    std::uint32_t band_row_ = 0; // first row of the band
     std::vector<float> radiance_; // of a band of regions that is not complete
     std::vector<float> standard_error_;
     std::vector<float> lesser_;

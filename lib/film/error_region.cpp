@@ -93,6 +93,19 @@ Neighbourhood neighbourhood(const RegionChannel &channel, std::size_t x, std::si
     return neighbourhood_of_rows(row(y - 1), row(y), row(y + 1));
 }
 
+// Of the pixels of its tile that touch a pixel, and itself.
+double largest_in_tile(const RegionChannel &channel, std::size_t x, std::size_t y) {
+    const auto first = [](std::size_t place) { return place % tile_size == 0 ? place : place - 1; };
+    const auto last = [](std::size_t place, std::size_t size) {
+        return place % tile_size == tile_size - 1 ? place : std::min(place + 1, size - 1);
+    };
+    double largest = 0.0;
+    for (std::size_t row = first(y); row <= last(y, channel.height); ++row)
+        for (std::size_t column = first(x); column <= last(x, channel.width); ++column)
+            largest = std::max(largest, channel.mean[row * channel.width + column]);
+    return largest;
+}
+
 // The square of the pixel's limit that divides the square of its error must not come from a bright sample that made
 // that error, so it is no more than the squares of what is known without it: the darker part's mean, what most
 // neighbours show, and the mean about it; but no more than that of the pixel's own mean either.
@@ -155,9 +168,12 @@ std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<con
             const auto relative_about = [&](double level) {
                 return relative_square(channel.standard_error[i], mean, channel.lesser[i], level);
             };
-            errors.push_back({square, relative_about(around),
-                              unseen_square(mean, largest, sample_counts[tile_of(x, y)]),
-                              with_own_squares ? relative_about(tile.mean_besides_and_without_largest(mean)) : 0.0});
+            const double sample_count = sample_counts[tile_of(x, y)];
+            ValueError error{square, relative_about(around), unseen_square(mean, largest, sample_count), 0.0};
+            if (with_own_squares)
+                error.own_square = relative_about(tile.mean_besides_and_without_largest(mean)) +
+                                   unseen_square(mean, largest_in_tile(channel, x, y), sample_count);
+            errors.push_back(error);
         }
     return errors;
 }

@@ -97,10 +97,10 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
     regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image"),
     tile_counts_(device, vulkan::BufferUse::HostWritten, (uneven ? film.grid().count() : 1) * sizeof(gpu::uvec2),
                  "samples of tiles"),
-    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? film.grid().count() : 1) * sizeof(float),
+    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? film.grid().count() : 1) * sizeof(glm::vec2),
                   "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {
-        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,        &strip.words,
+        const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,       &strip.words,
                                                          &regions_, &tile_counts_, &tile_squares_};
         sets_.push_back(estimate.bind(buffers));
     }
@@ -122,9 +122,10 @@ void ErrorReader::list_counts(const TileSamples &samples) {
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
-    const auto *const squares = reinterpret_cast<const float *>(tile_squares_.host_bytes().data());
+    const auto *const squares = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_bytes().data());
     for (std::size_t tile = 0; tile < query.tile_squares.size(); ++tile)
-        query.tile_squares[tile] = static_cast<double>(squares[tile]) * factor;
+        query.tile_squares[tile] =
+            static_cast<double>(squares[tile].x) * factor + static_cast<double>(squares[tile].y) / units.factor;
 }
 
 void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {
@@ -158,8 +159,8 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
     constants.film_width = width;
     constants.strip_pixel_count = pixel_count;
     constants.row_count = pixel_count / width;
-    constants.first_tile = static_cast<std::uint32_t>(
-        film_.grid().tile_at(0, film_.strips()[strip].first_pixel / width));
+    constants.first_tile =
+        static_cast<std::uint32_t>(film_.grid().tile_at(0, film_.strips()[strip].first_pixel / width));
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
     estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},

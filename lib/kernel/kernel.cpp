@@ -258,9 +258,8 @@ vulkan::Device::Ticket Kernel::start_fold(const SampleRange &hull) {
     bind_film(pipelines_.fold());
     PartUse parts = film_.parts();
     parts.extend(hull);
-    const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
-        dispatch(commands, pipelines_.fold(), all_pixels, {}, 0, 1);
-    });
+    const vulkan::Device::Ticket ticket = device_.start(
+        [&](const vk::raii::CommandBuffer &commands) { dispatch(commands, pipelines_.fold(), all_pixels, {}, 0, 1); });
     film_.set_parts(parts);
     return ticket;
 }

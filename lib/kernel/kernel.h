@@ -62,9 +62,9 @@ public:
 
     // Samples of some tiles of a film that has whole rows of regions.
     struct TileWork {
-        std::span<const std::uint32_t> tiles; // ascending
-        SampleRange samples;                  // all of one part of the film; none, if there is only to fold
-        std::uint32_t film_part;              // that they are added to, in memory
+        std::span<const std::uint32_t> tiles;   // ascending
+        SampleRange samples;                    // all of one part of the film; none, if there is only to fold
+        std::uint32_t film_part;                // that they are added to, in memory
         std::optional<std::uint32_t> fold_into; // the part in memory that takes in the other one first
     };
 

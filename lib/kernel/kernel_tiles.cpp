@@ -56,9 +56,8 @@ void Kernel::dispatch_tiles(const vk::raii::CommandBuffer &commands, const vulka
     for (std::size_t i = 0; i < tile_sets_.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
         const std::uint64_t strip_end = std::uint64_t{strip.first_pixel} + strip.pixel_count;
-        const auto end = std::ranges::partition_point(tiles, [&](std::uint32_t tile) {
-            return std::uint64_t{grid.pixels(tile).y} * grid.width < strip_end;
-        });
+        const auto end = std::ranges::partition_point(
+            tiles, [&](std::uint32_t tile) { return std::uint64_t{grid.pixels(tile).y} * grid.width < strip_end; });
         const auto count = static_cast<std::uint32_t>(end - tiles.begin());
         if (count == 0)
             continue;

@@ -108,24 +108,47 @@ void FilmView::read_on_host(const Image &image, const ImageQuery &query, const T
     });
 }
 
+// A device's kernel looks at whole regions.
+bool FilmView::reads_on_device() const {
+    return home().device().policy().resolve_on_device && home().film().has_whole_regions();
+}
+
 // Regions come in one order, whoever sums them up: an image has the same estimate on one device and on several.
-void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples,
-                        std::span<double> tile_squares, bool is_recorded) {
-    ErrorQuery query{unit, part_counts(samples.of(0)), nullptr, tile_squares};
-    if (!tile_squares.empty())
-        query.uneven = &samples;
+void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded) {
+    const ErrorQuery query{unit, part_counts(samples.of(0)), nullptr, {}};
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
-    if (!home().device().policy().resolve_on_device || !home().film().has_whole_regions()) {
+    if (!reads_on_device())
         read_films(films(devices_), samples, piece_pixels,
                    [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
-        return;
-    }
-    if (!is_one_film(samples))
+    else if (!is_one_film(samples))
         estimate_bands(query, samples, add);
     else if (is_recorded)
         home().error_reader().collect(query, add);
     else
-        (query.uneven ? home().uneven_error_reader() : home().error_reader()).read(query, add);
+        home().error_reader().read(query, add);
+}
+
+void FilmView::estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
+                              std::vector<double> &tile_squares) {
+    tile_squares.resize(samples.grid().count());
+    const ErrorQuery query{unit, {}, &samples, tile_squares};
+    const auto add = [&](const RegionErrors &region) { estimator.add(region); };
+    if (reads_on_device()) {
+        if (is_one_film(samples))
+            home().uneven_error_reader().read(query, add);
+        else
+            estimate_bands(query, samples, add);
+        return;
+    }
+    const std::uint32_t width = samples.grid().width;
+    uneven_errors_.update(samples, unit, [&](std::uint32_t first_row, std::uint32_t row_count) {
+        PixelSums rows;
+        read_films(films(devices_), samples, {first_row * width, row_count * width}, row_count * width,
+                   [&](const PixelSums &sums) { rows = sums; });
+        return rows;
+    });
+    std::ranges::for_each(uneven_errors_.regions(), add);
+    std::ranges::copy(uneven_errors_.tile_squares(), tile_squares.begin());
 }
 
 // Each band is a film of its own, with tiles of its own.
@@ -146,8 +169,8 @@ void FilmView::estimate_bands(const ErrorQuery &query, const TileSamples &sample
         if (query.uneven) {
             band_samples = samples.rows(band.first_row, band.row_count);
             of_band.uneven = &band_samples;
-            of_band.tile_squares = query.tile_squares.subspan(samples.grid().tile_at(0, band.first_row),
-                                                              band_samples.grid().count());
+            of_band.tile_squares =
+                query.tile_squares.subspan(samples.grid().tile_at(0, band.first_row), band_samples.grid().count());
         }
         reader->read(of_band, receive);
     }

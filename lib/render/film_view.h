@@ -5,6 +5,7 @@
 #include "lib/api/image.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"
+#include "lib/film/uneven_errors.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/image_reader.h"
@@ -31,10 +32,16 @@ public:
     // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Gives the estimator all that is known of the error. tile_squares: those of the estimator, if it has any. is_recorded:
-    // it is there already, of a submission that took the samples on the only device. Throws likewise.
-    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, std::span<double> tile_squares,
-                  bool is_recorded);
+    // Gives the estimator all that is known of the error of films with the same samples in all tiles. is_recorded: it is
+    // there already, of a submission that took the samples on the only device. Throws likewise.
+    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded);
+
+    // Of films with any samples, and what is expected of each of their tiles (region_errors.h).
+    void estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
+                        std::vector<double> &tile_squares);
+
+    // What was known of the films' samples is void.
+    void forget_samples() noexcept { uneven_errors_.forget(); }
 
     // Builds what it needs of kernels beside those of each device.
     void prepare();
@@ -63,6 +70,7 @@ private:
     };
 
     RenderDevice &home() const { return *devices_.front(); }
+    bool reads_on_device() const;
     bool is_one_film(const TileSamples &samples) const;
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
@@ -70,7 +78,8 @@ private:
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const Devices &devices_;
-    std::list<Sum> sums_; // of the sizes that bands have: two at the most
+    UnevenErrors uneven_errors_; // as far as the host finds them
+    std::list<Sum> sums_;        // of the sizes that bands have: two at the most
 };
 
 } // namespace pt

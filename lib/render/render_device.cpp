@@ -293,8 +293,8 @@ RenderDevice::Started RenderDevice::start_samples(const SampleRange &samples, co
 std::uint64_t RenderDevice::affordable_samples(std::size_t tile_count, std::uint64_t most) const {
     const double paths = static_cast<double>(tile_count) * gpu::WORKGROUP_SIZE;
     const double affordable = std::max(schedule_->budget() / paths, 1.0);
-    return std::min({static_cast<std::uint64_t>(std::min(affordable, 0x1p32)), most,
-                     std::uint64_t{kernel_->max_samples()}});
+    return std::min(
+        {static_cast<std::uint64_t>(std::min(affordable, 0x1p32)), most, std::uint64_t{kernel_->max_samples()}});
 }
 
 std::size_t RenderDevice::affordable_tiles(std::uint64_t sample_count) const {

@@ -173,9 +173,9 @@ private:
     double target_seconds_;
     double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
-    std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
+    std::optional<vulkan::ComputePipeline> estimate_;        // likewise, once an error was asked for
     std::optional<vulkan::ComputePipeline> uneven_estimate_; // likewise
-    std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
+    std::optional<vulkan::ComputePipeline> add_;             // once films of several devices met on this one
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;

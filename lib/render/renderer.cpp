@@ -2,10 +2,10 @@
 #include "lib/render/renderer.h"
 
 #include "lib/base/error.h"
-#include "lib/kernel/accuracy.h"
-#include "lib/kernel/gpu_scene.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/film.h"
+#include "lib/kernel/accuracy.h"
+#include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
 #include "lib/render/kernels_kept.h"
 #include "lib/render/missed_lamps.h"
@@ -91,6 +91,7 @@ void Renderer::discard_samples() noexcept {
         device->discard_samples();
     round_ = {};
     samples_.clear();
+    view_.forget_samples();
     forget_error();
 }
 
@@ -176,14 +177,12 @@ const ErrorEstimate &Renderer::error() {
     if (!error_) {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.total();
-        const bool by_tiles = !samples_.even() || (job_ && job_->uneven);
-        tile_squares_.resize(by_tiles ? samples_.grid().count() : 0);
         ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples),
-                                  by_tiles ? &samples_ : nullptr},
-                                 tile_squares_);
-        view_.estimate(estimator, scene_->film_unit, samples_, tile_squares_,
-                       job_ && job_->even && job_->even->has_estimate());
+                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
+        if (!samples_.even() || (job_ && job_->uneven))
+            view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
+        else
+            view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->even && job_->even->has_estimate());
         rejected_samples_ = estimator.rejected();
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
@@ -253,9 +252,11 @@ void Renderer::begin_tiles(const SamplesWanted &wanted, const Progress &progress
     }
     forget_error(); // of an even film, without those of tiles
     const std::uint64_t pixels = std::uint64_t{samples_.grid().width} * samples_.grid().height;
-    Job job{samples_.most() + wanted.count, wanted.target_error, nullptr,
-            std::make_unique<TileAccumulation>(devices_, samples_, settings_->first_sample, wanted.count * pixels, progress,
-                                               work_),
+    Job job{samples_.most() + wanted.count,
+            wanted.target_error,
+            nullptr,
+            std::make_unique<TileAccumulation>(devices_, samples_, settings_->first_sample, wanted.count * pixels,
+                                               progress, work_),
             {}};
     if (!is_adaptive(wanted))
         for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
@@ -375,7 +376,8 @@ std::optional<pt_result> Renderer::next_adaptive_tiles() {
     if (tiles.empty()) {
         if (high <= job_->target_error)
             return PT_TARGET_REACHED;
-        round_ = round_after(round_, samples_, tile_squares_, squared(high / job_->target_error));
+        round_ = round_after(round_, samples_, tile_squares_, squared(high / job_->target_error),
+                             (error().uncertain & PT_UNCERTAIN_UNSEEN) != 0);
         tiles = wanting_tiles(samples_, tile_squares_, round_);
     }
     return set_tiles(tiles) ? std::nullopt : std::optional<pt_result>(PT_OK);
@@ -488,8 +490,9 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
 void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
     for (const auto &device : devices_)
         if (!device->has_whole_regions())
-            throw Error(PT_ERROR_UNSUPPORTED, "film: this device holds films in parts that cut tiles, so that all pixels "
-                                              "must have the same samples");
+            throw Error(PT_ERROR_UNSUPPORTED,
+                        "film: this device holds films in parts that cut tiles, so that all pixels "
+                        "must have the same samples");
     Film sum(bytes);
     if (!samples_.empty()) {
         const FilmHeader header = film_header();
@@ -518,7 +521,8 @@ pt_stats Renderer::stats(bool with_error) {
     stats.sample_count = static_cast<std::uint32_t>(samples_.least());
     stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
     if (settings_)
-        stats.mean_sample_count = static_cast<double>(samples_.total()) / (1.0 * settings_->width * settings_->row_count);
+        stats.mean_sample_count =
+            static_cast<double>(samples_.total()) / (1.0 * settings_->width * settings_->row_count);
     stats.submit_count = work_.submit_count;
     stats.device_seconds = work_.seconds;
     for (const auto &device : devices_) {

@@ -35,8 +35,7 @@ bool TileAccumulation::set_goal(std::span<const std::uint32_t> tiles,
     tasks_.clear();
     for (auto &[key, task] : tasks)
         tasks_.push_back(std::move(task));
-    std::ranges::stable_sort(tasks_, std::ranges::greater(),
-                             [](const Task &task) { return task.samples.count(); });
+    std::ranges::stable_sort(tasks_, std::ranges::greater(), [](const Task &task) { return task.samples.count(); });
     return !tasks_.empty();
 }
 

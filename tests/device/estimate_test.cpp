@@ -1,6 +1,8 @@
 // The estimate of an image's error from the device, against that of the host in double.
+#include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
+#include "lib/film/uneven_errors.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/shader_source.h"
 #include "tests/device/vulkan_fixture.h"
@@ -84,16 +86,17 @@ protected:
     };
 
     Found on_device(const pt::PixelSums &sums, const Size &size, double unit, std::uint32_t max_strip_pixels) {
-        const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
+        const pt::vulkan::ComputePipeline pipeline =
+            pt::estimate_pipeline(device(), pt::embedded_code().estimate, false);
         pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
         EXPECT_TRUE(film.has_whole_regions());
         pt::PartUse parts;
         parts.extend({0, 2 * part_samples});
         film.write(sums, parts);
         pt::ErrorEstimator estimator(conditions(size.width));
-        pt::ErrorReader(device(), pipeline, film).read({unit, {part_samples, part_samples}}, [&](const auto &tile) {
-            estimator.add(tile);
-        });
+        pt::ErrorReader(device(), pipeline, false, film)
+            .read({unit, {part_samples, part_samples}, nullptr, {}},
+                  [&](const auto &region) { estimator.add(region); });
         return {estimator.result(), estimator.rejected()};
     }
 
@@ -150,6 +153,61 @@ TEST_F(Estimate, LostSamplesAreAnError) {
     const pt::Error error = error_of([&] { on_device(sums, {40, 40}, 1.0, 1U << 20); });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
+}
+
+// Where tiles may have different samples: what is said of regions, with counts that a list has, and of each tile by itself.
+TEST_F(Estimate, OfTilesIsThatOfTheHost) {
+    Films films;
+    double largest = 0.0;
+    for (const Size &size : {Size{75, 70}, Size{32, 64}, Size{5, 3}}) {
+        const pt::PixelSums sums = films.film(size.width, size.height);
+        const pt::TileSamples samples({size.width, size.height}, pt::SampleSet({0, 2 * part_samples}));
+        for (const double unit : {1.0, 0x1p-40, 0x1p60}) {
+            const pt::vulkan::ComputePipeline pipeline =
+                pt::estimate_pipeline(device(), pt::embedded_code().estimate, true);
+            pt::DeviceFilm film(device(), size.width, size.height, size.width * pt::gpu::REGION_SIZE);
+            pt::PartUse parts;
+            parts.extend({0, 2 * part_samples});
+            film.write(sums, parts);
+            std::vector<double> squares(samples.grid().count());
+            pt::ErrorEstimator estimator(conditions(size.width));
+            pt::ErrorReader(device(), pipeline, true, film)
+                .read({unit, {}, &samples, squares}, [&](const auto &region) { estimator.add(region); });
+            const double expected_error = on_host(sums, size.width, unit).relative_rmse.estimate;
+            EXPECT_NEAR(estimator.result().relative_rmse.estimate, expected_error, 1e-5 * expected_error);
+
+            pt::UnevenErrors host;
+            host.update(samples, unit, [&](std::uint32_t first_row, std::uint32_t row_count) {
+                pt::PixelSums rows;
+                rows.resize(std::size_t{size.width} * row_count);
+                rows.copy(sums, std::size_t{first_row} * size.width, rows.pixel_count(), 0);
+                return rows;
+            });
+            for (std::size_t tile = 0; tile < squares.size(); ++tile) {
+                EXPECT_NEAR(squares[tile], host.tile_squares()[tile], 1e-5 * host.tile_squares()[tile]) << tile;
+                largest = std::max(largest, squares[tile]);
+            }
+        }
+    }
+    EXPECT_GT(largest, 0.0);
+}
+
+// A tile that lost a sample is found by its own count.
+TEST_F(Estimate, SamplesThatATileLostAreAnError) {
+    Films films;
+    const pt::PixelSums sums = films.film(40, 40);
+    pt::TileSamples samples({40, 40}, pt::SampleSet({0, 2 * part_samples}));
+    samples.set(7, pt::SampleSet({0, 2 * part_samples + 1}));
+    const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate, true);
+    pt::DeviceFilm film(device(), 40, 40, 1600);
+    pt::PartUse parts;
+    parts.extend({0, 2 * part_samples});
+    film.write(sums, parts);
+    std::vector<double> squares(samples.grid().count());
+    pt::ErrorReader reader(device(), pipeline, true, film);
+    EXPECT_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}), pt::Error);
+    samples.set(7, pt::SampleSet({0, 2 * part_samples}));
+    EXPECT_NO_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}));
 }
 
 } // namespace

@@ -228,11 +228,16 @@ TEST(Film, StandardErrorIsUnknownWithAnEmptyPartAndWithFewSamples) {
 }
 
 TEST(Film, LostSamplesAreAnError) {
-    const pt::Error error = error_of([] { one_pixel({9, 4, 0}, {9, 3, 0}).require_samples({4, 4}); });
+    const pt::Error error = error_of([] {
+        pt::require_samples(one_pixel({9, 4, 0}, {9, 3, 0}).samples_of(0), {4, 4});
+    });
     EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);
     EXPECT_STREQ(error.what(), "the driver did 3 of 4 samples of a pixel in one part of the film");
     // Not even if the other part has one too many.
-    EXPECT_EQ(error_of([] { one_pixel({9, 5, 0}, {9, 3, 0}).require_samples({4, 4}); }).code(), PT_ERROR_INTERNAL);
+    EXPECT_EQ(error_of([] {
+                  pt::require_samples(one_pixel({9, 5, 0}, {9, 3, 0}).samples_of(0), {4, 4});
+              }).code(),
+              PT_ERROR_INTERNAL);
 }
 
 // Carries go through all words of a sum, and parts stay apart until they are folded.
@@ -252,9 +257,9 @@ TEST(Film, SumsAddAndFold) {
     EXPECT_TRUE(sums == expected);
     sums.fold_into(pt::newer_part);
     EXPECT_EQ(sums.plane(pt::newer_part, 3)[0], 1U);
-    sums.require_samples({0, 10});
+    pt::require_samples(sums.samples_of(0), {0, 10});
     sums.swap_parts();
-    sums.require_samples({10, 0});
+    pt::require_samples(sums.samples_of(0), {10, 0});
 }
 
 TEST(Film, SumsThatNoSamplesHaveAreSeen) {

@@ -41,7 +41,7 @@ protected:
                 return 0;
             }
         } once{action};
-        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0};
+        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0, 0, 0};
         EXPECT_EQ(pt_accumulate(context(), &info), expected) << message();
         EXPECT_TRUE(once.done);
     }
@@ -145,7 +145,8 @@ TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
     });
     ASSERT_NO_FATAL_FAILURE(api::set_all(other.get()));
     log.context = other.get();
-    const pt_accumulate_info info{sizeof info, 1,
+    const pt_accumulate_info info{sizeof info,
+                                  1,
                                   [](void *user, double) -> std::int32_t {
                                       auto *context = static_cast<pt_context *>(user);
                                       pt_destroy(context);
@@ -153,7 +154,10 @@ TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
                                       std::thread([&] { pt_destroy(context); }).join();
                                       return 1;
                                   },
-                                  other.get(), 0};
+                                  other.get(),
+                                  0,
+                                  0,
+                                  0};
     EXPECT_GE(pt_accumulate(other.get(), &info), PT_OK) << pt_last_error(other.get());
     log.context = nullptr;
     EXPECT_EQ(log.lines, (Lines{"pt_destroy: " + from_callback + ", which stays",

@@ -89,7 +89,8 @@ public:
     // What the film shows. Throws if samples are lost.
     std::vector<float> radiance(const FilmWords &film) const {
         const pt::PixelSums sums = sums_of(film, width * height);
-        sums.require_samples({frame_.sample_count, 0});
+        for (std::size_t pixel = 0; pixel < sums.pixel_count(); ++pixel)
+            pt::require_samples(sums.samples_of(pixel), {frame_.sample_count, 0});
         return sums.estimates(scene_.film_unit, false).radiance;
     }
 

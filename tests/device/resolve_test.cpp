@@ -30,6 +30,8 @@ using pt::WideSum;
 
 constexpr int fraction_bits = static_cast<int>(pt::gpu::FILM_FRACTION_BITS);
 
+constexpr pt::PartCounts parts_of_100{100, 100};
+
 class Resolve : public VulkanFixture {
 protected:
     static constexpr std::uint32_t width = 500;
@@ -62,7 +64,8 @@ protected:
 
     Values resolved(pt::DeviceFilm &film, const pt::PixelSums &sums, double unit, bool standard_error) {
         Values values;
-        values.device = floats(read(film, {{0, 0, width, height}, standard_error, unit, {100, 100}}));
+        const std::uint32_t quantity = standard_error ? PT_QUANTITY_STANDARD_ERROR : PT_QUANTITY_RADIANCE;
+        values.device = floats(read(film, {{0, 0, width, height}, quantity, unit, parts_of_100}));
         const pt::PixelEstimates estimates = sums.estimates(unit, standard_error);
         values.host = standard_error ? estimates.standard_error : estimates.radiance;
         return values;
@@ -142,7 +145,7 @@ TEST_F(Resolve, RectanglesArePartsOfTheImage) {
     const std::vector<ResolvedPixel> pixels = random_pixels(random, wide * high);
     put(film, film_of(pixels));
     const auto read_part = [&](const pt::Rectangle &rectangle) {
-        return floats(read(film, {rectangle, false, 1.0, {100, 100}}));
+        return floats(read(film, {rectangle, PT_QUANTITY_RADIANCE, 1.0, parts_of_100}));
     };
     const std::vector<float> all = read_part({0, 0, wide, high});
     ASSERT_EQ(all.size(), 3 * pixels.size());
@@ -177,18 +180,19 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
     const pt::PixelSums sums = film_of(pixels);
     pt::DeviceFilm film(device(), width, height, 30'000);
     put(film, sums);
-    pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, std::ldexp(1.0, exponent + fraction_bits), {100, 100}};
+    pt::ImageQuery query{
+        {0, 0, width, height}, PT_QUANTITY_RADIANCE, std::ldexp(1.0, exponent + fraction_bits), parts_of_100};
     ASSERT_EQ(floats(read(film, query)), numbers);
     for (const std::uint32_t format : {PT_FORMAT_RGBA32F, PT_FORMAT_RGBA16F})
-        for (query.standard_error = false;; query.standard_error = true) {
+        for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
+            query.quantity = quantity;
             query.format = format;
-            const std::vector<float> values =
-                query.standard_error ? std::vector(numbers.size(), std::numeric_limits<float>::infinity()) : numbers;
+            const std::vector<float> values = quantity == PT_QUANTITY_STANDARD_ERROR
+                                                  ? std::vector(numbers.size(), std::numeric_limits<float>::infinity())
+                                                  : numbers;
             std::vector<std::byte> expected(pixels.size() * pt::pixel_bytes(format));
             pt::write_pixels(values, format, expected.data());
             ASSERT_TRUE(read(film, query) == expected) << "format " << format;
-            if (query.standard_error)
-                break;
         }
 }
 
@@ -214,7 +218,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
                                                     {{0, 0, wide, high}, 4U, 12U},
                                                     {{100, 59, 1, 1}, 199'984U, 400U},
                                                     {{17, 3, 61, 41}, 100'300U, 68U}}) {
-                const pt::ImageQuery query{part, PT_QUANTITY_RADIANCE, 1.0, {100, 100}, format};
+                const pt::ImageQuery query{part, PT_QUANTITY_RADIANCE, 1.0, parts_of_100, format};
                 const std::uint64_t row = std::uint64_t{part.width} * pt::pixel_bytes(format);
                 const std::vector<std::byte> image = read(film, query);
                 std::vector<std::byte> expected = guards;
@@ -241,8 +245,8 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     put(film, sums);
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, pixels.size() * 12, "test");
     const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
-    const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, {100, 100}};
-    const pt::ImageQuery of_one{{0, 0, 1, 1}, PT_QUANTITY_RADIANCE, 1.0, {100, 100}};
+    const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
+    const pt::ImageQuery of_one{{0, 0, 1, 1}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
     pt::BufferWriter writer(device(), pipelines(), film, pt::BufferWriter::piece_limits(device().limits()));
     const char *const lost = "the driver lost samples of 1 pixels";
     EXPECT_STREQ(error_of([&] { writer.write(query, {buffer.handle(), 0, width * 12, {}}); }).what(), lost);
@@ -263,7 +267,7 @@ TEST_F(Resolve, LostSamplesAreAnError) {
     pt::PixelSums sums = film_of(pixels);
     const auto read_sums = [&] {
         put(film, sums);
-        read(film, {{0, 0, width, high}, false, 1.0, {100, 100}});
+        read(film, {{0, 0, width, high}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100});
     };
     read_sums();
     const pt::PixelSums whole = sums;

@@ -1,0 +1,44 @@
+// What a region says about the error of an image: what is expected of the squares of its pixels' errors, summed up, and how
+// they lie. The same on the host as estimate.comp says it on devices.
+#pragma once
+
+#include "lib/film/error_region.h"
+#include "lib/film/pixel_sums.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+// The squares that are expected of errors, summed over pixels and channels, and how they lie.
+struct ErrorSquares {
+    double sum = 0.0;              // infinite if it is unknown
+    double of_pixels = 0.0;        // sum over pixels of the squares of their sums over channels
+    double of_tiles = 0.0;         // sum over tiles of the squares of their sums
+    double times_tile_sizes = 0.0; // sum over tiles of their sums, each times the number of its values
+};
+
+// What a region says.
+struct RegionErrors {
+    double value_count = 0.0;           // pixels times channels
+    double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
+    ErrorSquares square;                // of (x - r)^2
+    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01)
+    double unseen = 0.0;                // the same of light that no sample met
+    std::uint64_t rejected = 0;         // samples left out
+};
+
+// Of the pixels of a region, row by row.
+struct RegionPixels {
+    std::size_t width;
+    std::size_t height;
+    PixelEstimates estimates;          // with standard errors
+    std::vector<double> sample_counts; // of a pixel, for each tile of the region, row by row
+};
+
+// own_squares: if it is not NULL, receives for each tile what is expected of the sum of its values' relative errors
+// squared, unseen light among them, as far as the samples of that tile alone tell; infinite where that is unknown.
+RegionErrors region_errors(const RegionPixels &region, std::vector<double> *own_squares);
+
+} // namespace pt

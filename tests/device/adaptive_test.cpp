@@ -1,0 +1,255 @@
+// Films whose tiles have different samples: each tile has the bits of an even film with as many, and neither splits of the
+// work, nor films that are saved and added, nor the number of devices change which tile has how many.
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/async.h>
+#include <pt/film.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr uint32_t uneven_width = 75; // neither is a multiple of a tile's
+constexpr uint32_t uneven_height = 44;
+constexpr double uneven_target = 0.03;
+constexpr uint32_t no_limit = 1U << 20;
+
+using Values = std::vector<float>;
+using Bytes = std::vector<std::byte>;
+
+class AdaptiveTest : public ContextFixture {
+protected:
+    Context context_on(uint32_t device_count, uint32_t submit_milliseconds = 50, bool like_gpus = false) {
+        return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
+                              [&](const pt_create_info *info, pt_context **context) {
+                                  return create_shared(device_count, *info, context, like_gpus);
+                              });
+    }
+
+    static void begin(pt_context *on) {
+        CourseworkScene coursework;
+        const pt_scene scene = coursework.scene();
+        const pt_camera camera = CourseworkScene::camera();
+        const pt_render render = render_of(uneven_width, uneven_height, 2);
+        ASSERT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
+        ASSERT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+    }
+
+    static pt_result take(pt_context *on, uint32_t samples, double target_error,
+                          uint32_t sampling = PT_SAMPLING_BEST) {
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = samples;
+        info.target_error = target_error;
+        info.sampling = sampling;
+        return pt_accumulate(on, &info);
+    }
+
+    static Values values(pt_context *on, uint32_t quantity = PT_QUANTITY_RADIANCE) {
+        Values image(std::size_t{uneven_width} * uneven_height * 3);
+        const pt_image target = image_target(image, quantity);
+        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        return image;
+    }
+
+    static Bytes film(pt_context *on) {
+        uint64_t size = 0;
+        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
+        Bytes bytes(size);
+        EXPECT_EQ(pt_save_film(on, bytes.data(), &size), PT_OK) << pt_last_error(on);
+        return bytes;
+    }
+
+    static pt_stats stats_of(pt_context *on) {
+        pt_stats stats{};
+        stats.struct_size = sizeof stats;
+        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
+        return stats;
+    }
+
+    static Bytes film_on_target(pt_context *on) {
+        begin(on);
+        EXPECT_EQ(take(on, no_limit, uneven_target), PT_TARGET_REACHED) << pt_last_error(on);
+        return film(on);
+    }
+};
+
+// The film of the host, and that which kernels read, on one device and on several.
+TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
+    for (const auto &[device_count, like_gpus] : {std::pair{1U, false}, {1U, true}, {3U, false}, {3U, true}}) {
+        const Context uneven = context_on(device_count, 50, like_gpus);
+        begin(uneven.get());
+        ASSERT_EQ(take(uneven.get(), no_limit, uneven_target), PT_TARGET_REACHED);
+        const Values counts = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
+        const Values radiance = values(uneven.get());
+        const Values error = values(uneven.get(), PT_QUANTITY_STANDARD_ERROR);
+        std::map<uint32_t, std::size_t> pixels; // by number of samples
+        for (std::size_t i = 0; i < counts.size(); i += 3)
+            ++pixels[static_cast<uint32_t>(counts[i])];
+        EXPECT_GE(pixels.size(), 3U);
+        double total = 0.0;
+        const Context even = context_on(1);
+        for (const auto &[count, pixel_count] : pixels) {
+            begin(even.get());
+            ASSERT_EQ(take(even.get(), count, 0.0), PT_OK);
+            const Values expected = values(even.get());
+            const Values expected_error = values(even.get(), PT_QUANTITY_STANDARD_ERROR);
+            for (std::size_t i = 0; i < counts.size(); ++i)
+                if (counts[i] == static_cast<float>(count)) {
+                    ASSERT_EQ(radiance[i], expected[i]) << count << " samples, value " << i;
+                    ASSERT_EQ(error[i], expected_error[i]) << count << " samples, value " << i;
+                }
+            total += static_cast<double>(count) * static_cast<double>(pixel_count);
+        }
+        const pt_stats stats = stats_of(uneven.get());
+        EXPECT_EQ(stats.sample_count, pixels.begin()->first);
+        EXPECT_EQ(stats.max_sample_count, pixels.rbegin()->first);
+        EXPECT_DOUBLE_EQ(stats.mean_sample_count, total / (uneven_width * uneven_height));
+        EXPECT_LE(stats.relative_rmse_high, uneven_target);
+    }
+}
+
+TEST_F(AdaptiveTest, TilesLieInWholeSquares) {
+    begin(context());
+    ASSERT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
+    const Values counts = values(context(), PT_QUANTITY_SAMPLE_COUNT);
+    for (uint32_t y = 0; y < uneven_height; ++y)
+        for (uint32_t x = 0; x < uneven_width; ++x)
+            EXPECT_EQ(counts[3 * (y * uneven_width + x)], counts[3 * (y / 8 * 8 * uneven_width + x / 8 * 8)]);
+}
+
+// It takes fewer samples than an even film with the same target.
+TEST_F(AdaptiveTest, TakesFewerSamples) {
+    begin(context());
+    ASSERT_EQ(take(context(), no_limit, uneven_target, PT_SAMPLING_ADAPTIVE), PT_TARGET_REACHED);
+    const double adaptive = stats_of(context()).mean_sample_count;
+    begin(context());
+    ASSERT_EQ(take(context(), no_limit, uneven_target, PT_SAMPLING_UNIFORM), PT_TARGET_REACHED);
+    const pt_stats uniform = stats_of(context());
+    EXPECT_EQ(uniform.sample_count, uniform.max_sample_count);
+    EXPECT_LT(adaptive, 0.9 * uniform.mean_sample_count);
+}
+
+// In calls of random lengths, some of them stopped by their progress, and films that go on in another context.
+// PT_TEST_SPLITS=200 makes as many.
+TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
+    const char *const wanted = std::getenv("PT_TEST_SPLITS");
+    const int splits = wanted ? std::atoi(wanted) : 6;
+    std::mt19937 generator(1818);
+    struct Stopper {
+        std::mt19937 &generator;
+        static int32_t progress(void *user, double) { return static_cast<Stopper *>(user)->generator() % 4 == 0; }
+    } stopper{generator};
+    for (const bool like_gpus : {false, true}) {
+        const Context first = context_on(1, 2, like_gpus);
+        const Context second = context_on(2, 1, like_gpus);
+        const Bytes expected = film_on_target(first.get());
+        for (int split = 0; split < splits; ++split) {
+            pt_context *on = first.get();
+            pt_context *other = second.get();
+            begin(on);
+            for (pt_result result = PT_OK; result != PT_TARGET_REACHED;) {
+                pt_accumulate_info info{};
+                info.struct_size = sizeof info;
+                info.sample_count = static_cast<uint32_t>(1 + generator() % 60);
+                info.target_error = uneven_target;
+                info.progress = generator() % 2 == 0 ? &Stopper::progress : nullptr;
+                info.progress_user = &stopper;
+                result = pt_accumulate(on, &info);
+                ASSERT_GE(result, PT_OK) << pt_last_error(on);
+                if (generator() % 3 == 0 && stats_of(on).mean_sample_count > 0.0) {
+                    const Bytes so_far = film(on);
+                    begin(other);
+                    ASSERT_EQ(pt_add_film(other, so_far.data(), so_far.size()), PT_OK) << pt_last_error(other);
+                    ASSERT_EQ(film(other), so_far);
+                    std::swap(on, other);
+                }
+            }
+            ASSERT_EQ(film(on), expected) << "split " << split;
+        }
+    }
+}
+
+TEST_F(AdaptiveTest, SeveralDevicesGiveTheBytesOfOne) {
+    for (const bool like_gpus : {false, true}) {
+        const Context alone = context_on(1, 50, like_gpus);
+        const Bytes expected = film_on_target(alone.get());
+        for (const uint32_t submit_milliseconds : {1U, 50U}) {
+            const Context shared = context_on(3, submit_milliseconds, like_gpus);
+            EXPECT_EQ(film_on_target(shared.get()), expected);
+            EXPECT_EQ(stats_of(shared.get()).relative_rmse_high, stats_of(alone.get()).relative_rmse_high);
+        }
+    }
+}
+
+// Even samples beside uneven ones, before and after them, and a merge with tiles that another film has.
+TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
+    const Context uneven = context_on(2, 1);
+    begin(uneven.get());
+    ASSERT_EQ(take(uneven.get(), no_limit, uneven_target), PT_TARGET_REACHED);
+    const Values before = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
+    ASSERT_EQ(take(uneven.get(), 9, 0.0), PT_OK);
+    const Values after = values(uneven.get(), PT_QUANTITY_SAMPLE_COUNT);
+    for (std::size_t i = 0; i < before.size(); ++i)
+        ASSERT_EQ(after[i], before[i] + 9.0F);
+    const Bytes saved = film(uneven.get());
+
+    // The other samples of an even film with as many as the fewest, taken for themselves.
+    const auto least = stats_of(uneven.get()).sample_count;
+    begin(context());
+    ASSERT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_OK) << pt_last_error(context());
+    EXPECT_EQ(film(context()), saved);
+    EXPECT_EQ(values(context()), values(uneven.get()));
+    EXPECT_EQ(pt_add_film(context(), saved.data(), saved.size()), PT_ERROR_INCOMPATIBLE);
+    EXPECT_NE(std::string(pt_last_error(context())).find("samples"), std::string::npos) << pt_last_error(context());
+    EXPECT_EQ(film(context()), saved) << "as it was";
+    EXPECT_EQ(stats_of(context()).sample_count, least);
+}
+
+// No pixel gets more than was asked for, and what is missing is taken later.
+TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
+    const Bytes expected = film_on_target(context());
+    begin(context());
+    EXPECT_EQ(take(context(), 50, uneven_target), PT_OK);
+    EXPECT_EQ(stats_of(context()).max_sample_count, 50U);
+    EXPECT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
+    EXPECT_EQ(film(context()), expected);
+    EXPECT_EQ(take(context(), 1, uneven_target), PT_TARGET_REACHED) << "at once";
+    EXPECT_EQ(film(context()), expected);
+}
+
+TEST_F(AdaptiveTest, PollingGivesTheSameFilm) {
+    const Bytes expected = film_on_target(context());
+    begin(context());
+    pt_accumulate_info info{};
+    info.struct_size = sizeof info;
+    info.sample_count = no_limit;
+    info.target_error = uneven_target;
+    pt_result result = pt_start(context(), &info);
+    for (double fraction = 0.0, last = 0.0; result == PT_PENDING; last = fraction) {
+        result = pt_poll(context(), 1'000'000, &fraction);
+        EXPECT_GE(fraction, last);
+    }
+    ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(context());
+    EXPECT_EQ(film(context()), expected);
+}
+
+TEST_F(AdaptiveTest, NeedsATarget) {
+    begin(context());
+    EXPECT_EQ(take(context(), 1, 0.0, PT_SAMPLING_ADAPTIVE), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(pt_last_error(context())).find("sampling"), std::string::npos) << pt_last_error(context());
+    EXPECT_EQ(take(context(), 1, 0.1, PT_SAMPLING_ADAPTIVE + 1), PT_ERROR_INVALID_ARGUMENT);
+}
+
+} // namespace
