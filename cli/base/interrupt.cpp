@@ -7,10 +7,16 @@ namespace cli {
 namespace {
 
 std::atomic<int> noted_signal = 0;
+std::atomic<bool> noted_picture_request = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free, "only lock-free atomics are safe in a signal handler");
 
 extern "C" void note_signal(int signal) {
     noted_signal = signal;
+}
+
+extern "C" void note_picture_request(int) {
+    noted_picture_request = true;
 }
 
 } // namespace
@@ -28,6 +34,22 @@ void catch_interrupts() {
         sigemptyset(&action.sa_mask);
         sigaction(signal, &action, nullptr);
     }
+}
+
+void catch_picture_requests() {
+    struct sigaction action {};
+    action.sa_handler = &note_picture_request;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool has_picture_request() {
+    return noted_picture_request;
+}
+
+void forget_picture_request() {
+    noted_picture_request = false;
 }
 
 int interrupt_signal() {

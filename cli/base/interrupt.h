@@ -1,4 +1,5 @@
-// SIGINT, SIGTERM and SIGHUP (which a closing terminal sends) set a flag that the rendering looks at.
+// Signals set flags that the rendering looks at: SIGINT, SIGTERM and SIGHUP (which a closing terminal sends) end it,
+// SIGUSR1 asks for the picture so far.
 #pragma once
 
 #include <string>
@@ -13,5 +14,12 @@ int interrupt_signal();
 
 // "SIGINT"
 std::string interrupt_name();
+
+// From now on SIGUSR1 is noted, any number of times; before, it ends the program.
+void catch_picture_requests();
+
+// Whether one has come that forget_picture_request() has not taken away.
+bool has_picture_request();
+void forget_picture_request();
 
 } // namespace cli

@@ -25,13 +25,16 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
     command
         .add_option("-o,--output", options.outputs,
                     "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
-        ->required()
         ->expected(1)
         ->take_all()
         ->type_name("FILE");
     command
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
+        ->type_name("FILE");
+    command
+        .add_option("--film", options.film,
+                    "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then")
         ->type_name("FILE");
     command
         .add_option("--stats", options.stats,
@@ -65,8 +68,8 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
     const std::string group = "Sampling";
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
-                                    "Samples per pixel; with --error the most (default: the scene's, else 64, with "
-                                    "--error 65536)")
+                                    "Samples per pixel; with --error or --time the most (default: the scene's, else "
+                                    "64, with either 65536)")
         ->group(group);
     add_target_error(command, options.target_error)->group(group);
     add_seed(command, options.seed)->group(group);
@@ -81,6 +84,34 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     const auto find_estimator = [](std::string_view name) { return estimators.find(name); };
     add_name(command, "--estimator", options.estimator, find_estimator, "estimator", estimators.names(),
              estimators.list() + "; they differ in noise alone (default: the scene's, else best)")
+        ->group(group);
+}
+
+constexpr double least_seconds = 0.01;
+constexpr double most_seconds = 1e9; // thirty years
+
+void add_lasting_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Long renderings";
+    add_real_number(command, "--time", options.time_limit, least_seconds, most_seconds,
+                    "Stop after S seconds of taking samples, one sample at the least (default: take all samples)")
+        ->type_name("S")
+        ->group(group);
+    command
+        .add_option("--checkpoint", options.checkpoint,
+                    "Keep the samples so far in FILE, a film (.ptfilm), from which --resume goes on")
+        ->type_name("FILE")
+        ->group(group);
+    add_real_number(command, "--checkpoint-every", options.checkpoint_seconds, least_seconds, most_seconds,
+                    "Write the checkpoint every S seconds, and at the end (default: 30)")
+        ->type_name("S")
+        ->group(group);
+    command
+        .add_flag("--resume", options.resume,
+                  "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet")
+        ->group(group);
+    add_real_number(command, "--preview-every", options.preview_seconds, least_seconds, most_seconds,
+                    "Write the picture so far every S seconds (default: only on SIGUSR1)")
+        ->type_name("S")
         ->group(group);
 }
 
@@ -141,6 +172,7 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     add_output_options(command, options);
     add_picture_options(command, options);
     add_sampling_options(command, options);
+    add_lasting_options(command, options);
     add_device_options(command, options);
     add_editing_options(command, options);
     add_reporting(command, options.progress, options.quiet);

@@ -21,11 +21,17 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::string standard_error; // path of the image of standard errors; empty: none
     std::string stats;
+    std::string film;       // path of the film; empty: none
+    std::string checkpoint; // likewise
+    bool resume = false;
+    std::optional<double> checkpoint_seconds;
+    std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;
     std::optional<std::uint32_t> sample_count;
     std::optional<double> target_error; // relative; nothing: take all samples
+    std::optional<double> time_limit;   // seconds
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sampler;
@@ -48,6 +54,8 @@ struct RenderOptions {
     std::string progress = "auto";
     bool quiet = false;
 };
+
+inline constexpr double default_checkpoint_seconds = 30.0;
 
 extern const char *const render_help;
 

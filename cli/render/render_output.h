@@ -1,6 +1,7 @@
 // The outputs of a rendering: checks before it, images after it.
 #pragma once
 
+#include "cli/base/context.h"
 #include "cli/image/image_file.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -23,6 +24,9 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
 // be empty if no file of it is wanted. Returns the paths of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
                                       std::span<const float> radiance, std::span<const float> standard_error);
+
+// Writes the film of the samples so far. False if that is not possible, which is said on stderr.
+bool write_film(const Context &context, const std::string &path);
 
 // Whether any output is in a format that the image module encodes.
 bool needs_module(const RenderOptions &options);

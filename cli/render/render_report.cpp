@@ -135,6 +135,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
             {"uncertain", names_of(report.stats.uncertain, uncertainty_names)},
             {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
             {"target_reached", report.target_reached()},
+            {"ended_by", report.ended_by},
             {"seconds",
              {{"create", report.create_seconds},
               {"accumulate", report.accumulate_seconds},

@@ -31,6 +31,8 @@ struct RenderReport {
     double total_seconds;
     std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
     bool automatic_exposure;
+    std::string checkpoint; // path of the valid one; empty: there is none
+    std::string ended_by;   // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
