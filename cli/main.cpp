@@ -5,6 +5,8 @@
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
+#include "cli/film/merge_command.h"
+#include "cli/film/merge_options.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -41,6 +43,11 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_bench_options(*bench, bench_options);
     bench->footer(std::string(cli::bench_help) + "\n" + cli::exit_code_help);
 
+    cli::MergeOptions merge_options;
+    CLI::App *merge = program.add_subcommand("merge", "Add films of one picture that were rendered apart");
+    cli::add_merge_options(*merge, merge_options);
+    merge->footer(std::string(cli::merge_help) + "\n" + cli::exit_code_help);
+
     cli::SelftestOptions selftest_options;
     CLI::App *selftest = program.add_subcommand("selftest", "Check a device against exact answers, in a second or so");
     cli::add_selftest_options(*selftest, selftest_options);
@@ -68,13 +75,17 @@ int parse_and_run(int argument_count, char **arguments) {
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
+    if (merge->parsed()) {
+        return cli::run_merge(merge_options);
+    }
     if (selftest->parsed()) {
         return cli::run_selftest(selftest_options);
     }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench, selftest or devices (see pt --help)");
+    return fail(cli::ExitCode::usage,
+                "a subcommand is missing: render, merge, bench, selftest or devices (see pt --help)");
 }
 
 } // namespace

@@ -6,7 +6,8 @@
 
 namespace cli {
 
-// From now on the first such signal is only noted; a second one ends the program at once, should a driver hang.
+// From now on the first such signal is only noted; one that comes a second or more after it ends the program at once,
+// should a driver hang.
 void catch_interrupts();
 
 // Number of the signal that came; 0 if none did.

@@ -13,6 +13,12 @@ void save_film(const Context &context, std::vector<std::byte> &bytes) {
     context.require(pt_save_film(context.get(), bytes.data(), &size));
 }
 
+std::vector<std::byte> saved_film(const Context &context) {
+    std::vector<std::byte> bytes;
+    save_film(context, bytes);
+    return bytes;
+}
+
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes) {
     const pt_result result = pt_add_film(context.get(), bytes.data(), bytes.size());
     if (result < 0) {

@@ -44,25 +44,7 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
-    const auto read_exposure = [&options](const std::string &text) {
-        options.exposure = parse_exposure(text);
-        if (!options.exposure) {
-            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
-        }
-    };
-    command
-        .add_option_function<std::string>("--exposure", read_exposure,
-                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: the "
-                                          "scene's, else auto)")
-        ->type_name("EV")
-        ->group("Picture");
-    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: the scene's, else none)")
-        ->group("Picture");
-    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
-                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only (default: the scene's)")
-        ->type_name("G")
-        ->group("Picture");
+    add_tone_map(command, {options.exposure, options.tone_curve, options.gamma, "the scene's, else "});
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
@@ -146,6 +128,30 @@ void add_editing_options(CLI::App &command, RenderOptions &options) {
 }
 
 } // namespace
+
+void add_tone_map(CLI::App &command, const ToneMapOptions &options) {
+    const auto read_exposure = [&exposure = options.exposure](const std::string &text) {
+        exposure = parse_exposure(text);
+        if (!exposure) {
+            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--exposure", read_exposure,
+                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: " +
+                                              options.default_before + "auto)")
+        ->type_name("EV")
+        ->group("Picture");
+    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
+             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: " + options.default_before +
+                 "none)")
+        ->group("Picture");
+    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
+                    "Encode with the power 1/G; .png and .jpg only (default: " + options.default_before +
+                        "the sRGB curve)")
+        ->type_name("G")
+        ->group("Picture");
+}
 
 const char *const render_help =
     "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"

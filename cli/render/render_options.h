@@ -59,6 +59,16 @@ inline constexpr double default_checkpoint_seconds = 30.0;
 
 extern const char *const render_help;
 
+// Where what the options of a tone map give goes.
+struct ToneMapOptions {
+    std::optional<Exposure> &exposure;
+    std::optional<ToneCurve> &tone_curve;
+    std::optional<double> &gamma;
+    std::string default_before; // what is asked before the default, for the help
+};
+
+void add_tone_map(CLI::App &command, const ToneMapOptions &options);
+
 // The options write into `options` when the command line is parsed, so it has to live as long as the command.
 void add_render_options(CLI::App &command, RenderOptions &options);
 

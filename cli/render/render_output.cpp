@@ -7,7 +7,6 @@
 #include "cli/base/host_memory.h"
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
-#include "cli/film/context_film.h"
 #include "cli/film/film_file.h"
 #include "cli/scene/source_files.h"
 
@@ -67,6 +66,19 @@ void check_extensions(const RenderOptions &options) {
     }
 }
 
+// Whether all files can be written, as far as that can be known before.
+void check_files(const RenderOptions &options) {
+    for (const std::string &path : options.outputs) {
+        AtomicFile::check_writable(path);
+    }
+    for (const std::string *path : {&options.standard_error, &options.film}) {
+        if (!path->empty()) {
+            AtomicFile::check_writable(*path);
+        }
+    }
+    check_report_file(options.stats);
+}
+
 // A checkpoint of hours is not replaced by one of seconds unless that goes on from it. One that cannot be written costs
 // itself and not the rendering, which says so when it tries.
 void check_checkpoint(const RenderOptions &options) {
@@ -82,11 +94,7 @@ void check_checkpoint(const RenderOptions &options) {
     remove_abandoned(AtomicFile::target_of(options.checkpoint).parent_path());
 }
 
-void check_sources_are_kept(const RenderOptions &options) {
-    std::vector<NamedFile> sources{{"the scene", options.scene}};
-    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
-        sources.push_back({"the shader", path});
-    }
+std::vector<NamedFile> outputs_of(const RenderOptions &options) {
     std::vector<NamedFile> outputs;
     for (const std::string &path : options.outputs) {
         outputs.push_back({"-o", path});
@@ -95,6 +103,15 @@ void check_sources_are_kept(const RenderOptions &options) {
     outputs.push_back({"--film", options.film});
     outputs.push_back({"--checkpoint", options.checkpoint});
     outputs.push_back({"--stats", options.stats});
+    return outputs;
+}
+
+void check_sources_are_kept(const RenderOptions &options) {
+    std::vector<NamedFile> sources{{"the scene", options.scene}};
+    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
+        sources.push_back({"the shader", path});
+    }
+    const std::vector<NamedFile> outputs = outputs_of(options);
     require_distinct_files(sources, outputs);
     if (!options.shader_dir.empty()) {
         require_outside({"--shader-dir", options.shader_dir}, outputs);
@@ -118,23 +135,20 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
             throw Failure(ExitCode::usage, "-o " + path + ": this format holds at most " + std::to_string(longest) +
                                                " pixels a side, not " + std::to_string(side));
         }
-        AtomicFile::check_writable(path);
     }
-    if (!options.standard_error.empty()) {
-        AtomicFile::check_writable(options.standard_error);
-    }
-    if (!options.film.empty()) {
-        AtomicFile::check_writable(options.film);
-    }
-    check_report_file(options.stats);
+    check_files(options);
     check_checkpoint(options);
 }
 
-bool write_film(const Context &context, const std::string &path) {
+void check_merged_outputs(const RenderOptions &options, const std::vector<NamedFile> &sources) {
+    check_extensions(options);
+    require_distinct_files(sources, outputs_of(options));
+    check_files(options);
+}
+
+bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path) {
     try {
-        std::vector<std::byte> film;
-        save_film(context, film);
-        write_film_file(path, film);
+        write_film_file(path, film());
         return true;
     } catch (const Failure &failure) {
         if (failure.code() != ExitCode::file) {

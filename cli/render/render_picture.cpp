@@ -8,6 +8,7 @@
 #include "cli/base/progress.h"
 #include "cli/base/report_file.h"
 #include "cli/base/source_date.h"
+#include "cli/film/context_film.h"
 #include "cli/image/image_file.h"
 #include "cli/render/picture_observers.h"
 #include "cli/render/piecewise_render.h"
@@ -227,7 +228,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.tone_map = tone_map_of(options, settings, image.radiance);
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
-    const bool has_film = options.film.empty() || write_film(context, options.film);
+    const bool has_film = options.film.empty() || write_film([&] { return saved_film(context); }, options.film);
     const bool all_written =
         write_outputs(writer, options, report, image.radiance, image.standard_error, times.start) && has_film;
     if (interrupted && all_written) {

@@ -43,6 +43,10 @@ std::string version_text();
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
+// Its parts that are about the error and the tone map.
+nlohmann::ordered_json error_json(const pt_stats &stats);
+nlohmann::ordered_json tone_map_json(const RenderReport &report);
+
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
 
