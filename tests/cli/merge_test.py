@@ -42,11 +42,12 @@ class Merge(CommandLineTest):
         self.assertIn("8 films of 24x13 pixels: 72 spp, samples [0, 72)\n", self.output)
         self.assertEqual(self.errors, "")
         found, rendered = json.loads(self.read("m.json")), json.loads(self.read("a.json"))
-        for key in "width", "height", "spp", "seed", "max_path_length", "sampler", "estimator", "rejected_samples":
+        for key in "width", "height", "spp", "seed", "max_path_length", "rejected_samples":
             self.assertEqual(found[key], rendered[key], key)
         for key in "rmse", "rmse_low", "rmse_high", "relative_rmse", "relative_rmse_low", "relative_rmse_high":
             self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # sums of floats on GPUs
         self.assertEqual(found["uncertain"], rendered["uncertain"])
+        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # what "best" stands for
 
     def test_sums_of_sums(self):
         for i in 0, 1:
