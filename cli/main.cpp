@@ -2,6 +2,7 @@
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/message.h"
+#include "cli/base/standard_streams.h"
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
@@ -91,6 +92,7 @@ int parse_and_run(int argument_count, char **arguments) {
 } // namespace
 
 int main(int argument_count, char **arguments) {
+    cli::occupy_closed_streams();
     int code = 0;
     try {
         code = parse_and_run(argument_count, arguments);

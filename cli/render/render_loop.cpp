@@ -41,7 +41,8 @@ struct Step {
         for (RenderObserver *observer : step->observers) {
             observer->submitted(step->before + fraction * step->length, Clock::now());
         }
-        return any_stops(step->observers) || any_pauses(step->observers) ? 1 : 0;
+        const bool has_sample = fraction * step->length >= 1.0; // else there is nothing new to be seen
+        return any_stops(step->observers) || (has_sample && any_pauses(step->observers)) ? 1 : 0;
     }
 };
 

@@ -31,7 +31,7 @@ public:
         return std::numeric_limits<std::uint32_t>::max();
     }
 
-    // Whether the step is to end as soon as whole samples are there, so that stepped() sees them. Asked like stops().
+    // Whether the step is to end as soon as it has a whole sample, so that stepped() sees it.
     virtual bool pauses() const { return false; }
 
     // Whether the stated error is wanted after the step, which takes a read-out of the image.
