@@ -12,26 +12,23 @@
 
 namespace {
 
-bool exists(const TemporaryFolder &folder, const std::string &name) {
-    return std::filesystem::exists(folder.file(name));
-}
-
 TEST(AbandonedFiles, GoWhereNobodyWritesThem) {
     const TemporaryFolder folder;
-    folder.write(".pt-123-0.tmp", "half a picture");
+    const std::filesystem::path of_folder = folder.file("");
+    std::ofstream(of_folder / ".pt-123-0.tmp") << "half a picture";
     const char *const others[] = {".pt-123-0.tmp2", ".pt-123.tmp", ".pt-1a-0.tmp",
                                   ".pt-.tmp",       "pt-1-1.tmp",  ".pt--.tmp"};
     for (const char *name : others) {
-        folder.write(name, "not ours");
+        std::ofstream(of_folder / name) << "not ours";
     }
     cli::AtomicFile in_use(folder.file("a"));
     cli::AtomicFile::check_writable(folder.file("b"));
-    EXPECT_FALSE(exists(folder, ".pt-123-0.tmp"));
+    EXPECT_FALSE(std::filesystem::exists(of_folder / ".pt-123-0.tmp"));
     for (const char *name : others) {
-        EXPECT_TRUE(exists(folder, name)) << name;
+        EXPECT_TRUE(std::filesystem::exists(of_folder / name)) << name;
     }
     in_use.commit();
-    EXPECT_TRUE(exists(folder, "a"));
+    EXPECT_TRUE(std::filesystem::exists(of_folder / "a"));
     EXPECT_EQ(folder.count(), 1 + static_cast<std::ptrdiff_t>(std::size(others)));
 }
 

@@ -74,7 +74,8 @@ TEST(FilmFile, CutShortItIsRefused) {
 TEST(FilmFile, AnAbsurdSizeIsRefused) {
     const TemporaryFolder folder;
     std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: eight bytes of content size follow
-    frame += std::string("\x00\x00\x00\x00\x00\x01\x00\x00", 8) + std::string(20, 'x');
+    frame.append("\x00\x00\x00\x00\x00\x01\x00\x00", 8);
+    frame.append(20, 'x');
     folder.write("a", frame);
     EXPECT_EQ(refusal_of(folder.file("a"), {}), cli::ExitCode::usage);
 }
