@@ -5,9 +5,9 @@
 #include "cli/base/context.h"
 #include "cli/render/piecewise_render.h"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
-#include <limits>
 
 namespace cli {
 

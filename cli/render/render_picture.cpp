@@ -122,21 +122,24 @@ void print_summary(const RenderOptions &options, const RenderReport &report, con
                      options.stats == standard_stream);
 }
 
-// Whether all images could be written.
-bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
-                   std::span<const float> radiance, std::span<const float> standard_error, Clock::time_point start) {
-    const std::vector<std::string> warnings = image_warnings(report, radiance);
+// Whether all images, and the film, could be written.
+bool write_outputs(ImageWriter &writer, const Context &context, const RenderOptions &options, RenderReport &report,
+                   const PiecewiseImage &image, Clock::time_point start) {
+    const std::vector<std::string> warnings = image_warnings(report, image.radiance);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     if (!options.quiet) {
         print_warnings(warnings);
     }
-    const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
+    std::vector<std::string> written = write_images(writer, options, report, image.radiance, image.standard_error);
+    if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film)) {
+        written.push_back(options.film);
+    }
     report.total_seconds = seconds_since(start);
     write_report_file(options.stats, json_text(stats_json(report)));
     if (!options.quiet && !written.empty()) {
         print_summary(options, report, written);
     }
-    return written.size() == output_count(options);
+    return written.size() == output_count(options) + (options.film.empty() ? 0 : 1);
 }
 
 // Nothing if no output is tone-mapped.
@@ -228,9 +231,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.tone_map = tone_map_of(options, settings, image.radiance);
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
-    const bool has_film = options.film.empty() || write_film([&] { return saved_film(context); }, options.film);
-    const bool all_written =
-        write_outputs(writer, options, report, image.radiance, image.standard_error, times.start) && has_film;
+    const bool all_written = write_outputs(writer, context, options, report, image, times.start);
     if (interrupted && all_written) {
         return Outcome::interrupted;
     }
