@@ -65,9 +65,10 @@ class Merge(CommandLineTest):
                    "-o", "a.png", "--film", "a.ptfilm", "--stats", "a.json")
         lines = self.errors.splitlines()
         self.assertEqual(len(lines), 5, self.errors)
-        for line, start in zip(lines, (f"pt: {self.parts[1]}: samples = [9, 18)", "pt: cut.ptfilm: damaged or cut short",
-                                       "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are no film",
-                                       "pt: nothing was written")):
+        starts = (f"pt: {self.parts[1]}: samples = [9, 18)", "pt: cut.ptfilm: damaged or cut short",
+                  "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are no film",
+                  "pt: nothing was written")
+        for line, start in zip(lines, starts):
             self.assertTrue(line.startswith(start), line)
         self.assertFalse({"a.png", "a.ptfilm", "a.json"} & set(self.files()))
         self.merge(6, self.parts[0], "none.ptfilm", "-o", "a.png", error="cannot read none.ptfilm")
