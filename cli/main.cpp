@@ -2,9 +2,12 @@
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/message.h"
+#include "cli/base/standard_streams.h"
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
+#include "cli/film/merge_command.h"
+#include "cli/film/merge_options.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -41,6 +44,11 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_bench_options(*bench, bench_options);
     bench->footer(std::string(cli::bench_help) + "\n" + cli::exit_code_help);
 
+    cli::MergeOptions merge_options;
+    CLI::App *merge = program.add_subcommand("merge", "Add films of one picture that were rendered apart");
+    cli::add_merge_options(*merge, merge_options);
+    merge->footer(std::string(cli::merge_help) + "\n" + cli::exit_code_help);
+
     cli::SelftestOptions selftest_options;
     CLI::App *selftest = program.add_subcommand("selftest", "Check a device against exact answers, in a second or so");
     cli::add_selftest_options(*selftest, selftest_options);
@@ -68,18 +76,23 @@ int parse_and_run(int argument_count, char **arguments) {
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
+    if (merge->parsed()) {
+        return cli::run_merge(merge_options);
+    }
     if (selftest->parsed()) {
         return cli::run_selftest(selftest_options);
     }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench, selftest or devices (see pt --help)");
+    return fail(cli::ExitCode::usage,
+                "a subcommand is missing: render, merge, bench, selftest or devices (see pt --help)");
 }
 
 } // namespace
 
 int main(int argument_count, char **arguments) {
+    cli::occupy_closed_streams();
     int code = 0;
     try {
         code = parse_and_run(argument_count, arguments);

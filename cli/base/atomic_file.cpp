@@ -1,5 +1,6 @@
 #include "cli/base/atomic_file.h"
 
+#include "cli/base/abandoned_files.h"
 #include "cli/base/exit_code.h"
 
 #include <cerrno>
@@ -27,6 +28,11 @@ std::filesystem::path AtomicFile::target_of(const std::string &path) {
         target = target.parent_path() / std::filesystem::read_symlink(target, error);
     }
     return target;
+}
+
+void AtomicFile::check_writable(const std::string &path) {
+    remove_abandoned(target_of(path).parent_path());
+    const AtomicFile probe(path);
 }
 
 void AtomicFile::fail(int error) const {
@@ -57,14 +63,14 @@ FileDescriptor AtomicFile::create_temporary() {
     constexpr mode_t permissions = 0666; // less those that the user's umask takes away
     refuse_unsuitable_target();
     for (int attempt = 0;; ++attempt) {
-        // Short on purpose: the target's own name may already be as long as the file system allows.
-        const std::string name = ".pt-" + std::to_string(getpid()) + "-" + std::to_string(attempt) + ".tmp";
-        temporary_ = target_.parent_path() / name;
+        temporary_ = target_.parent_path() / temporary_name(attempt);
         const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-        if (descriptor >= 0) {
+        if (descriptor >= 0 && lock_temporary(descriptor)) {
             return FileDescriptor(descriptor);
         }
-        if (errno != EEXIST) {
+        if (descriptor >= 0) {
+            ::close(descriptor);
+        } else if (errno != EEXIST) {
             fail(errno);
         }
     }

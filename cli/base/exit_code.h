@@ -17,7 +17,8 @@ enum class ExitCode {
     device_lost = 5,
     file = 6,
     target_missed = 7,
-    signal = 128 // plus the signal's number
+    resumable = 75, // EX_TEMPFAIL of sysexits.h, after which schedulers try again
+    signal = 128    // plus the signal's number
 };
 
 inline constexpr const char *exit_code_help =
@@ -29,8 +30,10 @@ inline constexpr const char *exit_code_help =
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
-    "  7    the target error was not reached; all files were written\n"
-    "  129  SIGHUP: the samples done so far were written, if there were any\n"
+    "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files were "
+    "written\n"
+    "  75   --time came first; all files were written, and --resume goes on from the checkpoint\n"
+    "  129  SIGHUP: the samples done so far were written, if there were any, and the checkpoint\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"
     "A --watch that such a signal ends while it waits for changes has done its work: 0.\n";

@@ -2,15 +2,43 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 namespace cli {
 namespace {
 
 std::atomic<int> noted_signal = 0;
+std::atomic<bool> noted_picture_request = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free, "only lock-free atomics are safe in a signal handler");
 
+std::atomic<std::int64_t> noted_at = 0; // nanoseconds
+static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+
+std::int64_t nanoseconds_now() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+// timeout(1) sends its signal to the program and to its process group, so that it comes twice at once.
 extern "C" void note_signal(int signal) {
-    noted_signal = signal;
+    constexpr std::int64_t same_cause = 1'000'000'000;
+    const std::int64_t now = nanoseconds_now();
+    if (noted_signal != 0 && now - noted_at > same_cause) {
+        std::signal(signal, SIG_DFL);
+        raise(signal); // comes when this handler returns
+        return;
+    }
+    if (noted_signal == 0) {
+        noted_at = now;
+        noted_signal = signal;
+    }
+}
+
+extern "C" void note_picture_request(int) {
+    noted_picture_request = true;
 }
 
 } // namespace
@@ -24,10 +52,26 @@ void catch_interrupts() {
         }
         struct sigaction action {};
         action.sa_handler = &note_signal;
-        action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
+        action.sa_flags = SA_RESTART;
         sigemptyset(&action.sa_mask);
         sigaction(signal, &action, nullptr);
     }
+}
+
+void catch_picture_requests() {
+    struct sigaction action {};
+    action.sa_handler = &note_picture_request;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGUSR1, &action, nullptr);
+}
+
+bool has_picture_request() {
+    return noted_picture_request;
+}
+
+void forget_picture_request() {
+    noted_picture_request = false;
 }
 
 int interrupt_signal() {

@@ -1,11 +1,13 @@
-// SIGINT, SIGTERM and SIGHUP (which a closing terminal sends) set a flag that the rendering looks at.
+// Signals set flags that the rendering looks at: SIGINT, SIGTERM and SIGHUP (which a closing terminal sends) end it,
+// SIGUSR1 asks for the picture so far.
 #pragma once
 
 #include <string>
 
 namespace cli {
 
-// From now on the first such signal is only noted; a second one ends the program at once, should a driver hang.
+// From now on the first such signal is only noted; one that comes a second or more after it ends the program at once,
+// should a driver hang.
 void catch_interrupts();
 
 // Number of the signal that came; 0 if none did.
@@ -13,5 +15,12 @@ int interrupt_signal();
 
 // "SIGINT"
 std::string interrupt_name();
+
+// From now on SIGUSR1 is noted, any number of times; before, it ends the program.
+void catch_picture_requests();
+
+// Whether one has come that forget_picture_request() has not taken away.
+bool has_picture_request();
+void forget_picture_request();
 
 } // namespace cli

@@ -1,5 +1,7 @@
 #include "cli/base/progress.h"
 
+#include "cli/base/message.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -27,11 +29,6 @@ std::string duration_text(double seconds) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
     return text.data();
-}
-
-// What is left, if it goes on as it went so far.
-double remaining_seconds(double samples, std::uint64_t sample_count, double seconds) {
-    return seconds * (static_cast<double>(sample_count) - samples) / samples;
 }
 
 } // namespace
@@ -76,13 +73,13 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     const double share = samples_of_part / static_cast<double>(sample_count_);
     const double whole_share = part_begin_ + (part_end_ - part_begin_) * share;
     const double sample_count = whole_share * static_cast<double>(sample_count_);
-    fraction_ = std::max(fraction_, whole_share);
-    if (style_ == ProgressStyle::none || sample_count <= 0.0 || (now < next_update_ && fraction_ < 1.0)) {
+    // The clock may not have advanced yet.
+    const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
+    fraction_ = std::max({fraction_, whole_share, std::min(seconds / limit_seconds_, 1.0)});
+    if (style_ == ProgressStyle::none || sample_count <= begun_ || (now < next_update_ && whole_share < 1.0)) {
         return;
     }
     next_update_ = now + update_interval;
-    // The clock may not have advanced yet.
-    const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
     if (style_ == ProgressStyle::json) {
         print_json(sample_count, seconds);
     } else {
@@ -90,14 +87,32 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     }
 }
 
+// What is left, if it goes on as it went so far.
+double Progress::remaining_seconds(double samples, double seconds) const {
+    const double left = seconds * (static_cast<double>(sample_count_) - samples) / (samples - begun_);
+    return std::min(left, std::max(limit_seconds_ - seconds, 0.0));
+}
+
+std::string Progress::error_text() const {
+    return std::isfinite(relative_error_) ? formatted("  error %.3g%%", 100.0 * relative_error_) : "";
+}
+
+void Progress::say(const std::string &message) {
+    if (style_ == ProgressStyle::line) {
+        output_ << erase_line << std::flush;
+    }
+    print_message(message);
+}
+
 // What matters most comes first, and what a narrow terminal has no room for is left out, from the end: a line that
 // wraps could not be written over.
 void Progress::print_line(double samples, double seconds) {
-    const std::array<std::string, 4> parts{
+    const std::array<std::string, 5> parts{
         formatted("%5.1f %%", 100.0 * fraction_),
-        "  ETA " + duration_text(remaining_seconds(samples, sample_count_, seconds)),
+        "  ETA " + duration_text(remaining_seconds(samples, seconds)),
         formatted("  %.0f/", std::floor(samples)) + formatted("%.0f spp", static_cast<double>(sample_count_)),
-        formatted("  %.1f Msamples/s", samples * pixel_count_ / seconds * 1e-6),
+        error_text(),
+        formatted("  %.1f Msamples/s", (samples - begun_) * pixel_count_ / seconds * 1e-6),
     };
     const std::size_t columns = column_count_();
     std::string line;
@@ -114,9 +129,9 @@ void Progress::print_json(double samples, double seconds) {
     const nlohmann::ordered_json line{{"fraction", fraction_},
                                       {"samples_per_pixel", static_cast<std::uint64_t>(samples)},
                                       {"samples_per_pixel_total", sample_count_},
-                                      {"samples_per_second", samples * pixel_count_ / seconds},
+                                      {"samples_per_second", (samples - begun_) * pixel_count_ / seconds},
                                       {"seconds", seconds},
-                                      {"eta_seconds", remaining_seconds(samples, sample_count_, seconds)}};
+                                      {"eta_seconds", remaining_seconds(samples, seconds)}};
     output_ << line.dump() << std::endl;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <ostream>
 #include <string>
 
@@ -42,7 +43,24 @@ public:
     // From now on this many samples a pixel are to be taken in all.
     void expect(std::uint64_t sample_count) { sample_count_ = sample_count; }
 
+    // Of the samples a pixel, this many were there at the start.
+    void begin_at(std::uint64_t sample_count) { begun_ = static_cast<double>(sample_count); }
+
+    // The work ends after this time since the start, if it has not ended by itself.
+    void limit_time(double seconds) { limit_seconds_ = seconds; }
+
+    // The relative error to be shown from now on; infinite: it is not known.
+    void show_error(double relative_error) { relative_error_ = relative_error; }
+
+    // Whether show_error() is of any use.
+    bool shows_error() const { return style_ == ProgressStyle::line; }
+
+    // A message between the lines of progress.
+    void say(const std::string &message);
+
 private:
+    double remaining_seconds(double samples, double seconds) const;
+    std::string error_text() const;
     void print_line(double samples, double seconds);
     void print_json(double samples, double seconds);
 
@@ -54,6 +72,9 @@ private:
     double part_begin_ = 0.0;
     double part_end_ = 1.0;
     double fraction_ = 0.0; // of the whole, the largest told
+    double begun_ = 0.0;    // samples a pixel that were there at the start
+    double limit_seconds_ = std::numeric_limits<double>::infinity();
+    double relative_error_ = std::numeric_limits<double>::infinity();
     Clock::time_point start_;
     Clock::time_point next_update_;
 };

@@ -5,7 +5,6 @@
 #include "cli/scene/scene_setup.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace cli {
@@ -44,11 +43,28 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
 }
 
 void render_piece(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
-                  Progress &progress) {
-    ProgressObserver progress_observer(progress, settings.target_error, settings.sample_count);
+                  Progress &progress, std::span<PieceObserver *const> others) {
+    ProgressObserver progress_observer(progress, settings.target_error, context.sample_count(), settings.sample_count);
     StopObserver stop_observer(stop);
-    const std::array<RenderObserver *, 2> observers{&progress_observer, &stop_observer};
+    std::vector<RenderObserver *> observers{&progress_observer, &stop_observer};
+    observers.insert(observers.end(), others.begin(), others.end());
     run_render_loop(context, file, settings, observers);
+}
+
+// Adds the samples that the context has of a piece; false if there are none.
+bool add_piece(const Context &context, const pt_render &piece, PiecewiseImage &image) {
+    const std::size_t row_values = std::size_t{3} * piece.width;
+    const pt_stats stats = context.read_stats();
+    if (stats.sample_count == 0) {
+        return false;
+    }
+    join(image.stats, stats, piece.first_row, piece.row_count);
+    context.read_image(piece, PT_QUANTITY_RADIANCE, &image.radiance[row_values * piece.first_row]);
+    if (!image.standard_error.empty()) {
+        context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * piece.first_row]);
+    }
+    image.rows_done += piece.row_count;
+    return true;
 }
 
 } // namespace
@@ -68,12 +84,18 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
     }
 }
 
+PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, const pt_render &piece) {
+    PiecewiseImage image = before;
+    add_piece(context, piece, image);
+    return image;
+}
+
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress) {
+                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
+                             std::span<PieceObserver *const> others) {
     const pt_render &render = settings.render;
-    const std::size_t row_values = std::size_t{3} * render.width;
     PiecewiseImage image{};
-    image.radiance.resize(row_values * render.height);
+    image.radiance.resize(std::size_t{3} * render.width * render.height);
     image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
     while (image.rows_done < render.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
@@ -83,18 +105,13 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
         }
         const double height = render.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        render_piece(context, file, settings, stop, progress);
-
-        const pt_stats stats = context.read_stats();
-        if (stats.sample_count == 0) {
+        for (PieceObserver *other : others) {
+            other->enter(image, piece);
+        }
+        render_piece(context, file, settings, stop, progress, others);
+        if (!add_piece(context, piece, image)) {
             break;
         }
-        join(image.stats, stats, first_row, piece.row_count);
-        context.read_image(piece, PT_QUANTITY_RADIANCE, &image.radiance[row_values * first_row]);
-        if (with_standard_error) {
-            context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
-        }
-        image.rows_done += piece.row_count;
     }
     if (image.rows_done == 0) {
         image.stats = context.read_stats();

@@ -9,6 +9,7 @@
 #include "cli/scene/scene_file.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace cli {
@@ -25,8 +26,20 @@ struct PiecewiseImage {
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows);
 
-// After fit_pieces. Ends early, between or within pieces, once it is to stop.
+// Looks at an image while it is rendered in pieces.
+class PieceObserver : public RenderObserver {
+public:
+    // From now on a piece is rendered. before: the pieces that are done; it stays where it is until all are.
+    virtual void enter(const PiecewiseImage &before, const pt_render &piece) = 0;
+};
+
+// The image so far, with what the context has of a piece.
+PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, const pt_render &piece);
+
+// After fit_pieces. Ends early, between or within pieces, once it is to stop. The samples that the context has are the
+// first ones of the first piece.
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress);
+                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
+                             std::span<PieceObserver *const> others);
 
 } // namespace cli

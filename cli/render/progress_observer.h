@@ -10,12 +10,13 @@ namespace cli {
 class ProgressObserver : public RenderObserver {
 public:
     // target_error: 0 for none. With one, the number of samples is a guess, which is mended at each check of the error.
-    ProgressObserver(Progress &progress, double target_error, std::uint32_t most) :
+    // sample_count: those that are there already.
+    ProgressObserver(Progress &progress, double target_error, std::uint32_t sample_count, std::uint32_t most) :
         progress_(progress),
         target_error_(target_error),
         most_(most) {
-        if (has_target()) {
-            progress_.expect(forecast_sample_count(0, target_error_, target_error_, most_)); // the first check
+        if (has_target()) { // the next check
+            progress_.expect(forecast_sample_count(sample_count, target_error_, target_error_, most_));
         }
     }
 
@@ -23,13 +24,22 @@ public:
         return has_target() ? pt_next_check(sample_count) : RenderObserver::next_end(sample_count);
     }
 
-    bool needs_error() const override { return has_target(); }
+    // Where it is only shown, for a hundredth of the time.
+    bool needs_error() const override {
+        return has_target() || (progress_.shows_error() && Progress::Clock::now() >= next_look_);
+    }
 
     void submitted(double sample_count, Progress::Clock::time_point time) override {
         progress_.update_samples(sample_count, time);
     }
 
     void stepped(const RenderState &state) override {
+        if (state.stats != nullptr) {
+            constexpr double share = 0.01;
+            const std::chrono::duration<double> wait(state.stats_seconds / share);
+            next_look_ = state.time + std::chrono::duration_cast<Progress::Clock::duration>(wait);
+            progress_.show_error(state.stats->relative_rmse);
+        }
         if (state.target_reached) {
             progress_.expect(state.sample_count);
             progress_.update_samples(state.sample_count, state.time);
@@ -45,6 +55,7 @@ private:
     Progress &progress_;
     double target_error_;
     std::uint32_t most_;
+    Progress::Clock::time_point next_look_;
 };
 
 } // namespace cli

@@ -23,18 +23,13 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     const RenderSettings settings = merge_settings(options, file);
     check_outputs(options, settings);
     catch_interrupts();
+    catch_picture_requests();
     choose_vector_width(file.surface_count());
 
     times.create_start = std::chrono::steady_clock::now();
     const Context context(render_create_info(options, log));
     const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
-    if (outcome == Outcome::not_all_written) {
-        return static_cast<int>(ExitCode::file);
-    }
-    if (outcome == Outcome::target_missed) {
-        return static_cast<int>(ExitCode::target_missed);
-    }
-    return interrupt_signal() == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(interrupt_signal());
+    return exit_code_of(outcome, interrupt_signal());
 }
 
 } // namespace

@@ -17,9 +17,17 @@ bool any_stops(Observers observers) {
     return std::any_of(observers.begin(), observers.end(), [](const RenderObserver *each) { return each->stops(); });
 }
 
+bool any_pauses(Observers observers) {
+    return std::any_of(observers.begin(), observers.end(), [](const RenderObserver *each) { return each->pauses(); });
+}
+
 bool any_needs_error(Observers observers) {
     return std::any_of(observers.begin(), observers.end(),
                        [](const RenderObserver *each) { return each->needs_error(); });
+}
+
+double seconds_between(Clock::time_point start, Clock::time_point end) {
+    return std::chrono::duration<double>(end - start).count();
 }
 
 // What the library's progress callback needs.
@@ -33,7 +41,8 @@ struct Step {
         for (RenderObserver *observer : step->observers) {
             observer->submitted(step->before + fraction * step->length, Clock::now());
         }
-        return any_stops(step->observers) ? 1 : 0;
+        const bool has_sample = fraction * step->length >= 1.0; // else there is nothing new to be seen
+        return any_stops(step->observers) || (has_sample && any_pauses(step->observers)) ? 1 : 0;
     }
 };
 
@@ -52,12 +61,14 @@ pt_result take(const Context &context, const SceneFile &file, const RenderSettin
 // Returns the samples that are done.
 std::uint32_t tell(const Context &context, Observers observers, bool target_reached) {
     std::optional<pt_stats> stats;
+    const Clock::time_point start = Clock::now();
     if (any_needs_error(observers)) {
         stats = context.read_stats();
     }
+    const Clock::time_point now = Clock::now();
     const std::uint32_t sample_count = stats ? stats->sample_count : context.sample_count();
     for (RenderObserver *observer : observers) {
-        observer->stepped({sample_count, Clock::now(), target_reached, stats ? &*stats : nullptr});
+        observer->stepped({sample_count, now, target_reached, stats ? &*stats : nullptr, seconds_between(start, now)});
     }
     return sample_count;
 }
@@ -66,7 +77,7 @@ std::uint32_t tell(const Context &context, Observers observers, bool target_reac
 
 void run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
                      Observers observers) {
-    Step step{observers, 0, 0};
+    Step step{observers, context.sample_count(), 0};
     std::uint32_t wanted = first_step_length;
     while (step.before < settings.sample_count && !any_stops(observers)) {
         step.length = std::min(wanted, settings.sample_count - step.before);
@@ -75,8 +86,12 @@ void run_render_loop(const Context &context, const SceneFile &file, const Render
         }
         const Clock::time_point start = Clock::now();
         const pt_result result = take(context, file, settings, step);
-        wanted = next_step_length(step.length, std::chrono::duration<double>(Clock::now() - start).count());
+        const double seconds = seconds_between(start, Clock::now());
+        const std::uint32_t before = step.before;
         step.before = tell(context, observers, result == PT_TARGET_REACHED);
+        if (step.before > before) { // else it was ended within a sample, and says nothing
+            wanted = next_step_length(step.before - before, seconds);
+        }
         if (result == PT_TARGET_REACHED) {
             return;
         }

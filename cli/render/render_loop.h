@@ -11,8 +11,8 @@
 
 namespace cli {
 
-// From no samples on, until there are enough, the target error is reached or an observer stops it. The target error is
-// looked at by the library, at counts that do not depend on the steps. Throws Failure.
+// From the samples that the context has on, until there are enough, the target error is reached or an observer stops
+// it. The target error is looked at by the library, at counts that do not depend on the steps. Throws Failure.
 void run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
                      std::span<RenderObserver *const> observers);
 

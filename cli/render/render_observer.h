@@ -16,6 +16,7 @@ struct RenderState {
     std::chrono::steady_clock::time_point time;
     bool target_reached;
     const pt_stats *stats; // with the stated error; NULL if no observer needs it
+    double stats_seconds;  // what reading them took
 };
 
 class RenderObserver {
@@ -30,7 +31,10 @@ public:
         return std::numeric_limits<std::uint32_t>::max();
     }
 
-    // Whether the stated error is wanted after steps, which takes a read-out of the image.
+    // Whether the step is to end as soon as it has a whole sample, so that stepped() sees it.
+    virtual bool pauses() const { return false; }
+
+    // Whether the stated error is wanted after the step, which takes a read-out of the image.
     virtual bool needs_error() const { return false; }
 
     // Within a step, after each submission: samples that are done, in parts too.

@@ -25,13 +25,16 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
     command
         .add_option("-o,--output", options.outputs,
                     "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
-        ->required()
         ->expected(1)
         ->take_all()
         ->type_name("FILE");
     command
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
+        ->type_name("FILE");
+    command
+        .add_option("--film", options.film,
+                    "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then")
         ->type_name("FILE");
     command
         .add_option("--stats", options.stats,
@@ -41,32 +44,14 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
-    const auto read_exposure = [&options](const std::string &text) {
-        options.exposure = parse_exposure(text);
-        if (!options.exposure) {
-            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
-        }
-    };
-    command
-        .add_option_function<std::string>("--exposure", read_exposure,
-                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: the "
-                                          "scene's, else auto)")
-        ->type_name("EV")
-        ->group("Picture");
-    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: the scene's, else none)")
-        ->group("Picture");
-    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
-                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only (default: the scene's)")
-        ->type_name("G")
-        ->group("Picture");
+    add_tone_map(command, {options.exposure, options.tone_curve, options.gamma, "the scene's, else "});
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
     const std::string group = "Sampling";
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
-                                    "Samples per pixel; with --error the most (default: the scene's, else 64, with "
-                                    "--error 65536)")
+                                    "Samples per pixel; with --error or --time the most (default: the scene's, else "
+                                    "64, with either 65536)")
         ->group(group);
     add_target_error(command, options.target_error)->group(group);
     add_seed(command, options.seed)->group(group);
@@ -81,6 +66,34 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     const auto find_estimator = [](std::string_view name) { return estimators.find(name); };
     add_name(command, "--estimator", options.estimator, find_estimator, "estimator", estimators.names(),
              estimators.list() + "; they differ in noise alone (default: the scene's, else best)")
+        ->group(group);
+}
+
+constexpr double least_seconds = 0.01;
+constexpr double most_seconds = 1e9; // thirty years
+
+void add_lasting_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Long renderings";
+    add_real_number(command, "--time", options.time_limit, least_seconds, most_seconds,
+                    "Stop after S seconds of taking samples, one sample at the least (default: take all samples)")
+        ->type_name("S")
+        ->group(group);
+    command
+        .add_option("--checkpoint", options.checkpoint,
+                    "Keep the samples so far in FILE, a film (.ptfilm), from which --resume goes on")
+        ->type_name("FILE")
+        ->group(group);
+    add_real_number(command, "--checkpoint-every", options.checkpoint_seconds, least_seconds, most_seconds,
+                    "Write the checkpoint every S seconds, and at the end (default: 30)")
+        ->type_name("S")
+        ->group(group);
+    command
+        .add_flag("--resume", options.resume,
+                  "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet")
+        ->group(group);
+    add_real_number(command, "--preview-every", options.preview_seconds, least_seconds, most_seconds,
+                    "Write the picture so far every S seconds (default: only on SIGUSR1)")
+        ->type_name("S")
         ->group(group);
 }
 
@@ -116,6 +129,30 @@ void add_editing_options(CLI::App &command, RenderOptions &options) {
 
 } // namespace
 
+void add_tone_map(CLI::App &command, const ToneMapOptions &options) {
+    const auto read_exposure = [&exposure = options.exposure](const std::string &text) {
+        exposure = parse_exposure(text);
+        if (!exposure) {
+            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--exposure", read_exposure,
+                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: " +
+                                              options.default_before + "auto)")
+        ->type_name("EV")
+        ->group("Picture");
+    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
+             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: " + options.default_before +
+                 "none)")
+        ->group("Picture");
+    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
+                    "Encode with the power 1/G; .png and .jpg only (default: " + options.default_before +
+                        "the sRGB curve)")
+        ->type_name("G")
+        ->group("Picture");
+}
+
 const char *const render_help =
     "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
     "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
@@ -141,6 +178,7 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     add_output_options(command, options);
     add_picture_options(command, options);
     add_sampling_options(command, options);
+    add_lasting_options(command, options);
     add_device_options(command, options);
     add_editing_options(command, options);
     add_reporting(command, options.progress, options.quiet);

@@ -21,11 +21,17 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::string standard_error; // path of the image of standard errors; empty: none
     std::string stats;
+    std::string film;       // path of the film; empty: none
+    std::string checkpoint; // likewise
+    bool resume = false;
+    std::optional<double> checkpoint_seconds;
+    std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;
     std::optional<std::uint32_t> sample_count;
     std::optional<double> target_error; // relative; nothing: take all samples
+    std::optional<double> time_limit;   // seconds
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sampler;
@@ -49,7 +55,19 @@ struct RenderOptions {
     bool quiet = false;
 };
 
+inline constexpr double default_checkpoint_seconds = 30.0;
+
 extern const char *const render_help;
+
+// Where what the options of a tone map give goes.
+struct ToneMapOptions {
+    std::optional<Exposure> &exposure;
+    std::optional<ToneCurve> &tone_curve;
+    std::optional<double> &gamma;
+    std::string default_before; // what is asked before the default, for the help
+};
+
+void add_tone_map(CLI::App &command, const ToneMapOptions &options);
 
 // The options write into `options` when the command line is parsed, so it has to live as long as the command.
 void add_render_options(CLI::App &command, RenderOptions &options);

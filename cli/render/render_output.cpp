@@ -1,14 +1,17 @@
 #include "cli/render/render_output.h"
 
+#include "cli/base/abandoned_files.h"
 #include "cli/base/atomic_file.h"
 #include "cli/base/distinct_files.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/host_memory.h"
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
+#include "cli/film/film_file.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace cli {
 namespace {
@@ -32,9 +35,26 @@ void refuse_standard_output(const std::string &option, std::span<const std::stri
     }
 }
 
+// What only makes sense with something else, or without it.
+void check_combinations(const RenderOptions &options) {
+    const auto refuse_if = [](bool is_refused, const std::string &message) {
+        if (is_refused) {
+            throw Failure(ExitCode::usage, message);
+        }
+    };
+    const bool has_checkpoint = !options.checkpoint.empty();
+    refuse_if(options.outputs.empty() && options.film.empty(), "-o or --film is missing: there is nothing to write");
+    refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint, the file to go on from");
+    refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");
+    refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
+    refuse_if(options.watch && !options.film.empty(), "--film: a picture under --watch has none");
+}
+
 void check_extensions(const RenderOptions &options) {
     refuse_standard_output("-o", options.outputs);
     refuse_standard_output("--standard-error", {&options.standard_error, 1});
+    refuse_standard_output("--film", {&options.film, 1});
+    refuse_standard_output("--checkpoint", {&options.checkpoint, 1});
     for (const std::string &path : options.outputs) {
         if (!image_format(path)) {
             throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
@@ -46,17 +66,52 @@ void check_extensions(const RenderOptions &options) {
     }
 }
 
-void check_sources_are_kept(const RenderOptions &options) {
-    std::vector<NamedFile> sources{{"the scene", options.scene}};
-    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
-        sources.push_back({"the shader", path});
+// Whether all files can be written, as far as that can be known before.
+void check_files(const RenderOptions &options) {
+    for (const std::string &path : options.outputs) {
+        AtomicFile::check_writable(path);
     }
+    for (const std::string *path : {&options.standard_error, &options.film}) {
+        if (!path->empty()) {
+            AtomicFile::check_writable(*path);
+        }
+    }
+    check_report_file(options.stats);
+}
+
+// A checkpoint of hours is not replaced by one of seconds unless that goes on from it. One that cannot be written costs
+// itself and not the rendering, which says so when it tries.
+void check_checkpoint(const RenderOptions &options) {
+    if (options.checkpoint.empty()) {
+        return;
+    }
+    std::error_code ignored;
+    const bool is_there = std::filesystem::exists(options.checkpoint, ignored);
+    if (is_there && !options.resume) {
+        throw Failure(ExitCode::usage, "--checkpoint " + options.checkpoint +
+                                           ": is there already; go on from it by --resume, or remove it");
+    }
+    remove_abandoned(AtomicFile::target_of(options.checkpoint).parent_path());
+}
+
+std::vector<NamedFile> outputs_of(const RenderOptions &options) {
     std::vector<NamedFile> outputs;
     for (const std::string &path : options.outputs) {
         outputs.push_back({"-o", path});
     }
     outputs.push_back({"--standard-error", options.standard_error});
+    outputs.push_back({"--film", options.film});
+    outputs.push_back({"--checkpoint", options.checkpoint});
     outputs.push_back({"--stats", options.stats});
+    return outputs;
+}
+
+void check_sources_are_kept(const RenderOptions &options) {
+    std::vector<NamedFile> sources{{"the scene", options.scene}};
+    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
+        sources.push_back({"the shader", path});
+    }
+    const std::vector<NamedFile> outputs = outputs_of(options);
     require_distinct_files(sources, outputs);
     if (!options.shader_dir.empty()) {
         require_outside({"--shader-dir", options.shader_dir}, outputs);
@@ -66,6 +121,7 @@ void check_sources_are_kept(const RenderOptions &options) {
 } // namespace
 
 void check_names(const RenderOptions &options) {
+    check_combinations(options);
     check_extensions(options);
     check_sources_are_kept(options);
 }
@@ -79,12 +135,28 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
             throw Failure(ExitCode::usage, "-o " + path + ": this format holds at most " + std::to_string(longest) +
                                                " pixels a side, not " + std::to_string(side));
         }
-        AtomicFile::check_writable(path);
     }
-    if (!options.standard_error.empty()) {
-        AtomicFile::check_writable(options.standard_error);
+    check_files(options);
+    check_checkpoint(options);
+}
+
+void check_merged_outputs(const RenderOptions &options, const std::vector<NamedFile> &sources) {
+    check_extensions(options);
+    require_distinct_files(sources, outputs_of(options));
+    check_files(options);
+}
+
+bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path) {
+    try {
+        write_film_file(path, film());
+        return true;
+    } catch (const Failure &failure) {
+        if (failure.code() != ExitCode::file) {
+            throw;
+        }
+        print_message(failure.what());
+        return false;
     }
-    check_report_file(options.stats);
 }
 
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,

@@ -1,12 +1,14 @@
 // The outputs of a rendering: checks before it, images after it.
 #pragma once
 
+#include "cli/base/distinct_files.h"
 #include "cli/image/image_file.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
 #include "cli/scene/render_settings.h"
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +25,12 @@ void check_outputs(const RenderOptions &options, const RenderSettings &settings)
 // be empty if no file of it is wanted. Returns the paths of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
                                       std::span<const float> radiance, std::span<const float> standard_error);
+
+// The same for images that are not rendered but come from other files, which are to be kept.
+void check_merged_outputs(const RenderOptions &options, const std::vector<NamedFile> &sources);
+
+// Writes a film. False if that is not possible, which is said on stderr.
+bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path);
 
 // Whether any output is in a format that the image module encodes.
 bool needs_module(const RenderOptions &options);

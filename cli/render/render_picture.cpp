@@ -8,10 +8,13 @@
 #include "cli/base/progress.h"
 #include "cli/base/report_file.h"
 #include "cli/base/source_date.h"
+#include "cli/film/context_film.h"
 #include "cli/image/image_file.h"
+#include "cli/render/picture_observers.h"
 #include "cli/render/piecewise_render.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_report.h"
+#include "cli/render/resume.h"
 #include "cli/scene/scene_setup.h"
 #include "cli/scene/warnings.h"
 
@@ -44,11 +47,61 @@ bool take_scene(const Context &context, const RenderOptions &options, const Scen
     });
 }
 
-PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
-                                    const RenderSettings &settings, std::uint32_t rows, const Stop &stop) {
+struct Rendered {
+    PiecewiseImage image;
+    bool timed_out;
+    bool has_checkpoint;
+};
+
+Rendered render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
+                              const RenderSettings &settings, std::uint32_t rows, const Stop &stop,
+                              const std::function<bool(const PiecewiseImage &)> &write_preview) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
     Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
-    return render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress);
+    progress.begin_at(context.sample_count());
+    PictureObservers observers(context, options, settings, progress, write_preview);
+    Rendered rendered{};
+    rendered.image =
+        render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress, observers.list());
+    observers.finish(rendered.image.stats.sample_count);
+    rendered.timed_out = observers.is_timed_out();
+    rendered.has_checkpoint = observers.has_checkpoint();
+    return rendered;
+}
+
+// Of one piece of the image a film could not go on with the others.
+void require_one_piece(const RenderOptions &options, const RenderSettings &settings, std::uint32_t rows) {
+    const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
+    const bool is_asked = !options.checkpoint.empty() || !options.film.empty();
+    if (is_asked && rows < settings.render.height) {
+        throw Failure(ExitCode::usage,
+                      option + ": needs the whole image on the device, which " +
+                          (options.piece_rows > 0 ? "--piece-rows " + std::to_string(rows) + " forbids"
+                                                  : "has room for " + std::to_string(rows) + " rows at a time"));
+    }
+}
+
+// Takes over what the checkpoint has.
+void resume_if_asked(const Context &context, const RenderOptions &options, const RenderSettings &settings) {
+    if (!options.resume) {
+        return;
+    }
+    const std::uint32_t sample_count = resume(context, options.checkpoint, settings);
+    if (!options.quiet) {
+        print_message(sample_count == 0 ? options.checkpoint + ": there is no checkpoint yet, so all samples are taken"
+                                        : options.checkpoint + ": goes on after " + std::to_string(sample_count) +
+                                              " of " + std::to_string(settings.sample_count) + " samples per pixel");
+    }
+}
+
+const char *ending_of(const RenderReport &report, bool interrupted) {
+    if (interrupted) {
+        return "signal";
+    }
+    if (report.target_reached()) {
+        return "error";
+    }
+    return report.stats.sample_count < report.requested_sample_count ? "time" : "samples";
 }
 
 // What an image in pieces takes of memory, before it is rendered.
@@ -69,21 +122,24 @@ void print_summary(const RenderOptions &options, const RenderReport &report, con
                      options.stats == standard_stream);
 }
 
-// Whether all images could be written.
-bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderReport &report,
-                   std::span<const float> radiance, std::span<const float> standard_error, Clock::time_point start) {
-    const std::vector<std::string> warnings = image_warnings(report, radiance);
+// Whether all images, and the film, could be written.
+bool write_outputs(ImageWriter &writer, const Context &context, const RenderOptions &options, RenderReport &report,
+                   const PiecewiseImage &image, Clock::time_point start) {
+    const std::vector<std::string> warnings = image_warnings(report, image.radiance);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     if (!options.quiet) {
         print_warnings(warnings);
     }
-    const std::vector<std::string> written = write_images(writer, options, report, radiance, standard_error);
+    std::vector<std::string> written = write_images(writer, options, report, image.radiance, image.standard_error);
+    if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film)) {
+        written.push_back(options.film);
+    }
     report.total_seconds = seconds_since(start);
     write_report_file(options.stats, json_text(stats_json(report)));
     if (!options.quiet && !written.empty()) {
         print_summary(options, report, written);
     }
-    return written.size() == output_count(options);
+    return written.size() == output_count(options) + (options.film.empty() ? 0 : 1);
 }
 
 // Nothing if no output is tone-mapped.
@@ -97,14 +153,16 @@ std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSet
     return ToneMap{stops ? *stops : automatic_exposure(radiance), settings.tone_curve, settings.gamma};
 }
 
-void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
+void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done,
+                        const std::string &checkpoint) {
     const bool whole = rows_done == settings.render.height;
     const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
     print_message("stopped by " + interrupt_name() + " after " + std::to_string(done) + " of " +
                   std::to_string(settings.sample_count) + " samples per pixel" +
                   (done == 0 ? "; nothing was written"
                    : whole   ? ""
-                             : " in " + rows + "; the others are black"));
+                             : " in " + rows + "; the others are black") +
+                  (checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
 }
 
 } // namespace
@@ -123,7 +181,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         if (interrupt_signal() == 0) {
             return Outcome::superseded;
         }
-        print_interruption(settings, 0, 0);
+        print_interruption(settings, 0, 0, "");
         return Outcome::interrupted;
     }
     report.warnings = input_warnings(file, settings);
@@ -131,6 +189,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         print_warnings(report.warnings);
     }
     const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
+    require_one_piece(options, settings, rows);
     if (rows < settings.render.height && !options.quiet) {
         print_pieces(context, options, settings.render, rows);
     }
@@ -141,16 +200,28 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     if (needs_module(options)) {
         writer.load_module();
     }
+    resume_if_asked(context, options, settings);
+    const auto write_preview = [&](const PiecewiseImage &image) {
+        RenderReport so_far = report;
+        so_far.stats = image.stats;
+        so_far.tone_map = tone_map_of(options, settings, image.radiance);
+        writer.wait();
+        return write_images(writer, options, so_far, image.radiance, image.standard_error).size() ==
+               output_count(options);
+    };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const PiecewiseImage image = render_with_progress(context, options, file, settings, rows, stop);
+    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview);
+    const PiecewiseImage &image = rendered.image;
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
     const bool interrupted = interrupt_signal() != 0;
+    report.ended_by = ending_of(report, interrupted);
+    report.checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
-        print_interruption(settings, report.stats.sample_count, image.rows_done);
+        print_interruption(settings, report.stats.sample_count, image.rows_done, report.checkpoint);
         if (report.stats.sample_count == 0) {
             return Outcome::interrupted;
         }
@@ -160,14 +231,12 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.tone_map = tone_map_of(options, settings, image.radiance);
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
-    if (!write_outputs(writer, options, report, image.radiance, image.standard_error, times.start)) {
-        return Outcome::not_all_written;
-    }
-    if (interrupted) {
+    const bool all_written = write_outputs(writer, context, options, report, image, times.start);
+    if (interrupted && all_written) {
         return Outcome::interrupted;
     }
-    const bool missed = report.target_error > 0.0 && !report.target_reached();
-    return missed ? Outcome::target_missed : Outcome::written;
+    return outcome_of({report.target_error > 0.0, report.target_reached(),
+                       rendered.timed_out && report.ended_by == "time", rendered.has_checkpoint, all_written});
 }
 
 } // namespace cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cli/base/context.h"
+#include "cli/render/outcome.h"
 #include "cli/render/render_options.h"
 #include "cli/render/stop_observer.h"
 #include "cli/scene/render_settings.h"
@@ -10,14 +11,6 @@
 #include <chrono>
 
 namespace cli {
-
-enum class Outcome {
-    written,
-    target_missed,   // all was written, but the target error was not reached
-    not_all_written, // what could not is told on stderr
-    interrupted,     // by a signal; the samples done so far were written, if there were any
-    superseded       // nothing was written
-};
 
 // For the report: when all began, and when the context began to be made ready.
 struct RenderTimes {

@@ -46,17 +46,6 @@ std::uint64_t peak_host_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-nlohmann::ordered_json tone_map_json(const RenderReport &report) {
-    if (!report.tone_map) {
-        return nullptr;
-    }
-    const ToneMap &map = *report.tone_map;
-    return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
-            {"exposure", map.exposure},
-            {"automatic_exposure", report.automatic_exposure},
-            {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
-}
-
 double samples_per_second(const RenderReport &report) {
     const double pixels = static_cast<double>(report.render.width) * report.render.height;
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
@@ -111,43 +100,62 @@ std::string version_text() {
            std::to_string(version % 1'000);
 }
 
+nlohmann::ordered_json tone_map_json(const RenderReport &report) {
+    if (!report.tone_map) {
+        return nullptr;
+    }
+    const ToneMap &map = *report.tone_map;
+    return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
+            {"exposure", map.exposure},
+            {"automatic_exposure", report.automatic_exposure},
+            {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
+}
+
+nlohmann::ordered_json error_json(const pt_stats &stats) {
+    return {{"rmse", number_or_null(stats.rmse)},
+            {"rmse_low", number_or_null(stats.rmse_low)},
+            {"rmse_high", number_or_null(stats.rmse_high)},
+            {"relative_rmse", number_or_null(stats.relative_rmse)},
+            {"relative_rmse_low", number_or_null(stats.relative_rmse_low)},
+            {"relative_rmse_high", number_or_null(stats.relative_rmse_high)},
+            {"uncertain", names_of(stats.uncertain, uncertainty_names)}};
+}
+
 nlohmann::ordered_json stats_json(const RenderReport &report) {
     const pt_render &render = report.render;
-    return {{"version", version_text()},
-            {"scene", report.scene},
-            {"width", render.width},
-            {"height", render.height},
-            {"spp", report.stats.sample_count},
-            {"spp_requested", report.requested_sample_count},
-            {"first_sample", render.first_sample},
-            {"seed", render.seed},
-            {"max_path_length", render.max_path_length},
-            {"sampler", samplers.name(render.sampler)},
-            {"estimator", estimators.name(render.estimator)},
-            {"device",
-             {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}},
-            {"rmse", number_or_null(report.stats.rmse)},
-            {"rmse_low", number_or_null(report.stats.rmse_low)},
-            {"rmse_high", number_or_null(report.stats.rmse_high)},
-            {"relative_rmse", number_or_null(report.stats.relative_rmse)},
-            {"relative_rmse_low", number_or_null(report.stats.relative_rmse_low)},
-            {"relative_rmse_high", number_or_null(report.stats.relative_rmse_high)},
-            {"uncertain", names_of(report.stats.uncertain, uncertainty_names)},
-            {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
-            {"target_reached", report.target_reached()},
-            {"seconds",
-             {{"create", report.create_seconds},
-              {"accumulate", report.accumulate_seconds},
-              {"device", report.stats.device_seconds},
-              {"total", report.total_seconds}}},
-            {"submissions", report.stats.submit_count},
-            {"rejected_samples", report.stats.rejected_samples},
-            {"device_bytes", report.stats.device_bytes},
-            {"peak_host_bytes", peak_host_bytes()},
-            {"features", names_of(report.stats.features, feature_names)},
-            {"samples_per_second", samples_per_second(report)},
-            {"tone_map", tone_map_json(report)},
-            {"warnings", report.warnings}};
+    nlohmann::ordered_json stats{
+        {"version", version_text()},
+        {"scene", report.scene},
+        {"width", render.width},
+        {"height", render.height},
+        {"spp", report.stats.sample_count},
+        {"spp_requested", report.requested_sample_count},
+        {"first_sample", render.first_sample},
+        {"seed", render.seed},
+        {"max_path_length", render.max_path_length},
+        {"sampler", samplers.name(render.sampler)},
+        {"estimator", estimators.name(render.estimator)},
+        {"device",
+         {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}}};
+    stats.update(error_json(report.stats));
+    stats.update(nlohmann::ordered_json{
+        {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
+        {"target_reached", report.target_reached()},
+        {"ended_by", report.ended_by},
+        {"seconds",
+         {{"create", report.create_seconds},
+          {"accumulate", report.accumulate_seconds},
+          {"device", report.stats.device_seconds},
+          {"total", report.total_seconds}}},
+        {"submissions", report.stats.submit_count},
+        {"rejected_samples", report.stats.rejected_samples},
+        {"device_bytes", report.stats.device_bytes},
+        {"peak_host_bytes", peak_host_bytes()},
+        {"features", names_of(report.stats.features, feature_names)},
+        {"samples_per_second", samples_per_second(report)},
+        {"tone_map", tone_map_json(report)},
+        {"warnings", report.warnings}});
+    return stats;
 }
 
 std::string summary_text(const RenderReport &report) {
@@ -181,7 +189,9 @@ ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity,
     if (tone_map != nullptr) {
         add_tone_map(*tone_map);
     }
-    add("pt.scene", std::filesystem::path(report.scene).filename());
+    if (!report.scene.empty()) {
+        add("pt.scene", std::filesystem::path(report.scene).filename());
+    }
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add_whole("pt.maxPathLength", report.render.max_path_length);
@@ -192,7 +202,9 @@ ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity,
         add_real("pt.relativeError", report.stats.relative_rmse);
     }
     add("pt.device", report.device.name);
-    add("pt.driver", report.device.driver);
+    if (report.device.driver[0] != '\0') {
+        add("pt.driver", report.device.driver);
+    }
 }
 
 void ImageMetadata::add_tone_map(const ToneMap &tone_map) {

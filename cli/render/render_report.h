@@ -31,6 +31,8 @@ struct RenderReport {
     double total_seconds;
     std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
     bool automatic_exposure;
+    std::string checkpoint; // path of the valid one; empty: there is none
+    std::string ended_by;   // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
@@ -40,6 +42,10 @@ struct RenderReport {
 std::string version_text();
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
+
+// Its parts that are about the error and the tone map.
+nlohmann::ordered_json error_json(const pt_stats &stats);
+nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);

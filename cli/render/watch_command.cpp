@@ -64,14 +64,8 @@ public:
 private:
     // A watch that is ended while it waits has done its work.
     int exit_code() const {
-        if (outcome_ == Outcome::not_all_written) {
-            return static_cast<int>(ExitCode::file);
-        }
-        if (outcome_ == Outcome::target_missed) {
-            return static_cast<int>(ExitCode::target_missed);
-        }
         const bool stopped = outcome_ == Outcome::interrupted || outcome_ == Outcome::superseded;
-        return stopped ? exit_code_of_signal(interrupt_signal()) : static_cast<int>(ExitCode::done);
+        return exit_code_of(outcome_.value_or(Outcome::written), stopped ? interrupt_signal() : 0);
     }
 
     // Where an edit can help, a failure is told and waited out.
@@ -166,6 +160,7 @@ private:
 int watch(const RenderOptions &options, ValidationLog &log) {
     require_files(options);
     catch_interrupts();
+    catch_picture_requests();
     return WatchedRender(options, log).run();
 }
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t default_side = 512;
 constexpr std::uint32_t default_sample_count = 64;
-constexpr std::uint32_t default_most_samples = 65536; // where a target error says when to stop
+constexpr std::uint32_t default_most_samples = 65536; // where a target error or a time says when to stop
 
 template <typename Value>
 Value first_given(const std::optional<Value> &option, const std::optional<Value> &scene, Value otherwise) {
@@ -17,17 +17,17 @@ Value first_given(const std::optional<Value> &option, const std::optional<Value>
 }
 
 // Indices of samples end at 2^32 - 1.
-void limit_samples(RenderSettings &settings) {
+void limit_samples(RenderSettings &settings, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - settings.render.first_sample;
     if (settings.sample_count <= left) {
         return;
     }
-    if (settings.target_error == 0.0) {
+    if (!is_upper_limit) {
         throw Failure(ExitCode::usage, "--first-sample " + std::to_string(settings.render.first_sample) + ": " +
                                            std::to_string(settings.sample_count) +
                                            " samples from there on would pass the last index, 4294967295");
     }
-    settings.sample_count = static_cast<std::uint32_t>(left); // with a target it is only an upper limit
+    settings.sample_count = static_cast<std::uint32_t>(left);
 }
 
 } // namespace
@@ -68,9 +68,10 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});
     render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
     settings.target_error = options.target_error.value_or(0.0);
+    const bool stops_otherwise = options.target_error || options.time_limit;
     settings.sample_count = first_given(options.sample_count, scene.sample_count,
-                                        options.target_error ? default_most_samples : default_sample_count);
-    limit_samples(settings);
+                                        stops_otherwise ? default_most_samples : default_sample_count);
+    limit_samples(settings, stops_otherwise);
     settings.exposure = first_given(options.exposure, scene.exposure, Exposure{});
     settings.tone_curve = first_given(options.tone_curve, scene.tone_curve, ToneCurve::none);
     settings.gamma = options.gamma ? options.gamma : scene.gamma;

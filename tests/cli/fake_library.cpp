@@ -9,6 +9,7 @@
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
+#include <pt/film.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
@@ -23,6 +24,11 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+// Its bytes are "fake film FIRST END".
+struct pt_film {
+    pt_sample_range samples{};
+};
 
 struct pt_context {
     pt_create_info info{};
@@ -266,6 +272,50 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->relative_rmse_low = stats->rmse_low;
     stats->uncertain = 0;
     return call(context, "stats");
+}
+
+pt_result pt_save_film(pt_context *context, void *data, std::uint64_t *size_bytes) {
+    const std::uint64_t first = context->render.first_sample;
+    const std::string film = "fake film " + std::to_string(first) + " " + std::to_string(first + context->sample_count);
+    if (data != nullptr) {
+        std::memcpy(data, film.data(), film.size());
+    }
+    *size_bytes = film.size();
+    return call(context, "save_film");
+}
+
+pt_result pt_open_film(const void *data, std::uint64_t size_bytes, pt_film **film) {
+    std::istringstream text(std::string(static_cast<const char *>(data), size_bytes));
+    std::string fake;
+    std::string name;
+    pt_film read;
+    *film = nullptr;
+    if (!(text >> fake >> name >> read.samples.first >> read.samples.end) || fake != "fake") {
+        creation_error = "film: these bytes are no film";
+        return PT_ERROR_INCOMPATIBLE;
+    }
+    *film = new pt_film(read);
+    return PT_OK;
+}
+
+void pt_close_film(pt_film *film) {
+    delete film;
+}
+
+pt_result pt_get_film_ranges(const pt_film *film, std::uint32_t, pt_sample_range *ranges, std::uint32_t *count) {
+    if (ranges != nullptr) {
+        *ranges = film->samples;
+    }
+    *count = 1;
+    return PT_OK;
+}
+
+pt_result pt_add_film(pt_context *context, const void *data, std::uint64_t size_bytes) {
+    pt_film *film = nullptr;
+    pt_open_film(data, size_bytes, &film);
+    context->sample_count += static_cast<std::uint32_t>(film->samples.end - film->samples.first);
+    pt_close_film(film);
+    return call(context, "add_film");
 }
 
 // One function, far better than its bound; worse than it with FAKE_PT_FAIL=accuracy_bound:1.

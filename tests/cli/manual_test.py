@@ -172,7 +172,7 @@ class RealDevice(CommandLineTest):
                 for end in 0, 1:
                     options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
                     self.expect(0, command, "scene.json", *needed, "--size", "4x2", *options)
-        self.assertEqual(found, 12)
+        self.assertEqual(found, 14)
 
     def test_reports_have_the_keys_that_are_told(self):
         self.expect(0, "render", "scene.json", *self.small, "--stats", "s.json", "--progress", "json")

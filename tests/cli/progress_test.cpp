@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <limits>
 #include <sstream>
 
 namespace {
@@ -126,6 +128,36 @@ TEST(SceneProgress, IsALineThatGoesAway) {
     EXPECT_EQ(output_after(ProgressStyle::line, 250), "\r\x1b[Kscene  10 %\r\x1b[Kscene  20 %\r\x1b[K");
     EXPECT_EQ(output_after(ProgressStyle::json, 1000), "");
     EXPECT_EQ(output_after(ProgressStyle::none, 1000), "");
+}
+
+// A line of so many samples after a second.
+std::string line_after(Progress::Clock::duration time, double samples, const std::function<void(Progress &)> &prepare) {
+    std::ostringstream output;
+    Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [] { return std::size_t{80}; });
+    prepare(progress);
+    progress.update_samples(samples, start + time);
+    return output.str().substr(std::string("\r\x1b[K").size());
+}
+
+TEST(Progress, TheErrorIsShownOnceItIsKnown) {
+    EXPECT_EQ(line_after(milliseconds(1000), 50.0, [](Progress &progress) { progress.show_error(0.012345); }),
+              " 50.0 %  ETA 0:00:01  50/100 spp  error 1.23%  50.0 Msamples/s");
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(line_after(milliseconds(1000), 50.0, [](Progress &progress) { progress.show_error(unknown); }),
+              " 50.0 %  ETA 0:00:01  50/100 spp  50.0 Msamples/s");
+}
+
+// Two fifths of the samples were there: what is left is a fifth in a second.
+TEST(Progress, SamplesOfAnotherRunTookNoTime) {
+    EXPECT_EQ(line_after(milliseconds(1000), 60.0, [](Progress &progress) { progress.begin_at(40); }),
+              " 60.0 %  ETA 0:00:02  60/100 spp  20.0 Msamples/s");
+}
+
+TEST(Progress, TimeCountsWhereItEndsSooner) {
+    EXPECT_EQ(line_after(milliseconds(3000), 10.0, [](Progress &progress) { progress.limit_time(4.0); }),
+              " 75.0 %  ETA 0:00:01  10/100 spp  3.3 Msamples/s");
+    EXPECT_EQ(line_after(milliseconds(3000), 90.0, [](Progress &progress) { progress.limit_time(4000.0); }),
+              " 90.0 %  ETA 0:00:01  90/100 spp  30.0 Msamples/s");
 }
 
 } // namespace

@@ -138,8 +138,8 @@ PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sampl
  * none. rejected_samples, rmse and relative_rmse with their bounds, and uncertain: as of a context, but for last bits
  * that depend on the order of additions. The error is unknown if sample_count is below 16; where counts differ, light
  * that no sample has met is told from the least. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET stands
- * wherever the estimator finds lamps by chance (uniform, cosine, bsdf) and max_path_length is above 1. All other fields are 0. One
- * thread at a time per film. */
+ * wherever the estimator finds lamps by chance (uniform, cosine, bsdf) and max_path_length is above 1. All other fields
+ * are 0. One thread at a time per film. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
 #ifdef __cplusplus

@@ -1,0 +1,48 @@
+#include "cli/film/merge_options.h"
+
+#include "cli/base/common_options.h"
+
+namespace cli {
+namespace {
+
+void add_file_options(CLI::App &command, MergeOptions &options) {
+    command.add_option("parts", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
+        ->required()
+        ->type_name("PART");
+    command
+        .add_option("-o,--output", options.output.outputs,
+                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
+        ->expected(1)
+        ->take_all()
+        ->type_name("FILE");
+    command
+        .add_option("--standard-error", options.output.standard_error,
+                    "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
+        ->type_name("FILE");
+    command.add_option("--film", options.output.film, "Write the sum of the films (.ptfilm)")->type_name("FILE");
+    command
+        .add_option("--stats", options.output.stats,
+                    "Write what the films have as JSON; - is standard output, the summary then goes to stderr")
+        ->type_name("FILE");
+}
+
+} // namespace
+
+const char *const merge_help =
+    "Samples are added exactly: the picture has the bits of one that was rendered whole, on the same model of device "
+    "with\n"
+    "the same driver, in whatever order the films are named. Needs no device. A film of another picture, one that is\n"
+    "damaged and one with samples that another has already are refused, with the difference, and nothing is written.\n";
+
+void add_merge_options(CLI::App &command, MergeOptions &options) {
+    add_file_options(command, options);
+    add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
+                                    "First of the samples that there should be (default: the first there is)");
+    add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
+                                    "How many there should be from there on; those missing are told, with exit code 7 "
+                                    "(default: up to the last there is)");
+    add_tone_map(command, {options.output.exposure, options.output.tone_curve, options.output.gamma, ""});
+    command.add_flag("-q,--quiet", options.output.quiet, "Print errors only")->group("Reporting");
+}
+
+} // namespace cli

@@ -1,0 +1,56 @@
+// Keeps a film of the samples so far in a file, from which another run can go on.
+#pragma once
+
+#include "cli/base/background_task.h"
+#include "cli/base/context.h"
+#include "cli/render/piecewise_render.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class CheckpointObserver : public PieceObserver {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    // seconds: from one checkpoint to the next. say: shows a message.
+    CheckpointObserver(const Context &context, std::string path, double seconds,
+                       std::function<void(const std::string &)> say);
+
+    void enter(const PiecewiseImage & /*before*/, const pt_render & /*piece*/) override {}
+    bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
+    void stepped(const RenderState &state) override;
+
+    // Writes what the file does not have yet of these samples. Afterwards nothing is under way.
+    void finish(std::uint32_t sample_count);
+
+    // Whether the file has all the samples that finish() was told of.
+    bool is_valid() const { return is_valid_; }
+
+private:
+    void save(std::uint32_t sample_count);
+    void write();
+    void take_in();
+    void tell_failure(const std::string &reason);
+
+    const Context &context_;
+    std::string path_;
+    std::chrono::duration<double> interval_;
+    std::function<void(const std::string &)> say_;
+    Clock::time_point due_;
+    Clock::time_point saved_at_;
+    std::chrono::duration<double> write_time_{0}; // of the last one
+    std::uint32_t saved_count_ = 0;               // samples of the film that was written last, or is being written
+    std::uint32_t written_count_ = 0;             // samples in the file, as far as this run has written it
+    bool is_valid_ = false;
+    bool has_told_failure_ = false;
+    std::vector<std::byte> film_;
+    BackgroundTask task_; // destroyed first: it uses the others
+};
+
+} // namespace cli

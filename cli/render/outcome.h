@@ -1,0 +1,38 @@
+// How a rendering ended, and the exit code that tells it.
+#pragma once
+
+namespace cli {
+
+enum class Outcome {
+    written,
+    target_missed,   // all was written, but the target error was not reached
+    timed_out,       // all was written, and the checkpoint has what another run can go on from
+    not_all_written, // what could not is told on stderr
+    interrupted,     // by a signal; the samples done so far were written, if there were any
+    superseded       // nothing was written
+};
+
+// What a rendering came to that no signal has ended.
+struct Ending {
+    bool has_target;
+    bool target_reached;
+    bool timed_out; // before all samples were taken or the target was reached
+    bool has_checkpoint;
+    bool all_written;
+};
+
+// A file that is missing weighs more than samples that are; a checkpoint says that they can still be had.
+constexpr Outcome outcome_of(const Ending &ending) {
+    if (!ending.all_written) {
+        return Outcome::not_all_written;
+    }
+    if (ending.timed_out && ending.has_checkpoint) {
+        return Outcome::timed_out;
+    }
+    return ending.has_target && !ending.target_reached ? Outcome::target_missed : Outcome::written;
+}
+
+// signal: what has ended it, or came after it; 0: none.
+int exit_code_of(Outcome outcome, int signal);
+
+} // namespace cli

@@ -1,0 +1,48 @@
+// Ends a rendering after some time, with one sample at the least: a picture without samples would be none.
+#pragma once
+
+#include "cli/render/piecewise_render.h"
+
+#include <chrono>
+
+namespace cli {
+
+class TimeLimitObserver : public PieceObserver {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    TimeLimitObserver(Clock::time_point start, double seconds, std::uint32_t height) :
+        start_(start),
+        seconds_(seconds),
+        height_(height) {}
+
+    // Each piece of the image has its share of the time, with what those before have left.
+    void enter(const PiecewiseImage & /*before*/, const pt_render &piece) override {
+        const double share = (static_cast<double>(piece.first_row) + piece.row_count) / height_;
+        const std::chrono::duration<double> time(seconds_ * share);
+        end_ = start_ + std::chrono::duration_cast<Clock::duration>(time);
+        is_over_ = false;
+    }
+
+    bool pauses() const override { return Clock::now() >= end_; }
+
+    void stepped(const RenderState &state) override {
+        is_over_ = state.sample_count > 0 && state.time >= end_;
+        has_ended_piece_ = has_ended_piece_ || is_over_;
+    }
+
+    bool stops() const override { return is_over_; }
+
+    // Whether some piece has fewer samples than without a limit.
+    bool has_come() const { return has_ended_piece_; }
+
+private:
+    Clock::time_point start_;
+    double seconds_;
+    double height_;
+    Clock::time_point end_;
+    bool is_over_ = false;
+    bool has_ended_piece_ = false;
+};
+
+} // namespace cli

@@ -1,0 +1,83 @@
+// Tests of cli/film/film_file: what was written is read again, and what is damaged is refused or whole.
+#include "cli/film/film_file.h"
+
+#include "cli/base/exit_code.h"
+#include "tests/cli/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+// As films are: many words that are alike, and some that are not.
+Bytes film_like(std::size_t size) {
+    std::mt19937 random(1);
+    Bytes bytes(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        bytes[i] = static_cast<std::byte>(i / 64 % 4 == 0 ? random() : 0);
+    }
+    return bytes;
+}
+
+std::string text_of(const Bytes &bytes) {
+    return {reinterpret_cast<const char *>(bytes.data()), bytes.size()};
+}
+
+// The exit code of the refusal, or nothing if the bytes are those.
+std::optional<cli::ExitCode> refusal_of(const std::string &path, const Bytes &expected) {
+    try {
+        EXPECT_TRUE(cli::read_film_file(path) == expected);
+        return std::nullopt;
+    } catch (const cli::Failure &failure) {
+        EXPECT_TRUE(std::string(failure.what()).find(path) != std::string::npos) << failure.what();
+        return failure.code();
+    }
+}
+
+TEST(FilmFile, IsReadAsItWasWritten) {
+    const TemporaryFolder folder;
+    for (const std::size_t size : {0, 1, 5, 1000, 3'000'000}) {
+        const Bytes film = film_like(size);
+        cli::write_film_file(folder.file("a"), film);
+        EXPECT_TRUE(cli::read_film_file(folder.file("a")) == film) << size;
+        EXPECT_EQ(folder.count(), 1);
+    }
+    EXPECT_LT(folder.read("a").size(), 1'500'000U); // a quarter is random
+}
+
+TEST(FilmFile, IsReadUnpacked) {
+    const TemporaryFolder folder;
+    const Bytes film = film_like(1000);
+    folder.write("a", text_of(film));
+    EXPECT_EQ(refusal_of(folder.file("a"), film), std::nullopt);
+}
+
+TEST(FilmFile, CutShortItIsRefused) {
+    const TemporaryFolder folder;
+    const Bytes film = film_like(300'000);
+    cli::write_film_file(folder.file("a"), film);
+    const std::string whole = folder.read("a");
+    std::mt19937 random(2);
+    for (int i = 0; i < 200; ++i) { // four bytes tell that it is packed
+        folder.write("b", whole.substr(0, 4 + random() % (whole.size() - 4)));
+        EXPECT_EQ(refusal_of(folder.file("b"), film), cli::ExitCode::usage);
+    }
+    folder.write("b", whole + "x");
+    EXPECT_EQ(refusal_of(folder.file("b"), film), cli::ExitCode::usage);
+    EXPECT_EQ(refusal_of(folder.file("none"), film), cli::ExitCode::file);
+}
+
+// A frame says its own size: no memory is taken for what it cannot hold.
+TEST(FilmFile, AnAbsurdSizeIsRefused) {
+    const TemporaryFolder folder;
+    std::string frame("\x28\xb5\x2f\xfd\xc0\x00", 6); // RFC 8878, 3.1.1.1: eight bytes of content size follow
+    frame.append("\x00\x00\x00\x00\x00\x01\x00\x00", 8);
+    frame.append(20, 'x');
+    folder.write("a", frame);
+    EXPECT_EQ(refusal_of(folder.file("a"), {}), cli::ExitCode::usage);
+}
+
+} // namespace

@@ -1,0 +1,104 @@
+"""Tests of `pt merge`: parts that were rendered apart have the bits of the whole, and what does not belong is told. Arguments:
+see command_line.py."""
+
+import json
+import os
+import random
+
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_blocks, read_png
+
+PARTS = 8
+
+
+class Merge(CommandLineTest):
+    program = PT
+    small = ("render", COURSEWORK, "--size", "24x13", "-q")
+
+    def setUp(self):
+        super().setUp()
+        self.parts = [f"part {i} ü.ptfilm" for i in range(PARTS)]
+        for i, part in enumerate(self.parts):
+            self.expect(0, *self.small, "--film", part, "--first-sample", str(9 * i), "--spp", "9")
+
+    def contents(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def merge(self, code, *arguments, error=None):
+        self.expect(code, "merge", *arguments, error=error)
+
+    def test_any_order_equals_the_whole(self):
+        whole = ["-o", "a.exr", "-o", "a.png", "--standard-error", "e.exr", "--film", "a.ptfilm", "--stats", "a.json"]
+        self.expect(0, *self.small, *whole, "--spp", str(9 * PARTS))
+        sums = [word.replace("a.", "m.").replace("e.", "n.") for word in whole]
+        order = random.Random(1)
+        for _ in range(5):
+            order.shuffle(self.parts)
+            self.merge(0, *self.parts, *sums)
+            self.assertEqual(self.contents("m.ptfilm"), self.contents("a.ptfilm"))
+            self.assertEqual(read_exr_blocks(self.path("m.exr")), read_exr_blocks(self.path("a.exr")))
+            self.assertEqual(read_exr_blocks(self.path("n.exr")), read_exr_blocks(self.path("e.exr")))
+            self.assertEqual(read_png(self.path("m.png")), read_png(self.path("a.png")))
+        self.assertIn("8 films of 24x13 pixels: 72 spp, samples [0, 72)\n", self.output)
+        self.assertEqual(self.errors, "")
+        found, rendered = json.loads(self.read("m.json")), json.loads(self.read("a.json"))
+        for key in "width", "height", "spp", "seed", "max_path_length", "rejected_samples":
+            self.assertEqual(found[key], rendered[key], key)
+        for key in "rmse", "rmse_low", "rmse_high", "relative_rmse", "relative_rmse_low", "relative_rmse_high":
+            self.assertAlmostEqual(found[key], rendered[key], delta=1e-5 * rendered[key])  # sums of floats on GPUs
+        self.assertEqual(found["uncertain"], rendered["uncertain"])
+        self.assertEqual((found["sampler"], found["estimator"]), ("sobol", "mis"))  # what "best" stands for
+
+    def test_sums_of_sums(self):
+        for i in 0, 1:
+            self.merge(0, *self.parts[i::2], "--film", f"sum {i}.ptfilm")
+        self.merge(0, "sum 1.ptfilm", "sum 0.ptfilm", "--film", "all.ptfilm")
+        self.merge(0, *self.parts, "--film", "direct.ptfilm")
+        self.assertEqual(self.contents("all.ptfilm"), self.contents("direct.ptfilm"))
+
+    def test_what_is_wrong_is_told_of_all_parts_and_nothing_is_written(self):
+        with open(self.path("cut.ptfilm"), "wb") as file:
+            file.write(self.contents(self.parts[3])[:-20])
+        self.expect(0, *self.small, "--film", "stranger.ptfilm", "--first-sample", "900", "--spp", "9", "--seed", "5")
+        self.write("picture.json", "{}")
+        self.merge(2, *self.parts[:3], self.parts[1], "cut.ptfilm", "stranger.ptfilm", "picture.json", *self.parts[4:],
+                   "-o", "a.png", "--film", "a.ptfilm", "--stats", "a.json")
+        lines = self.errors.splitlines()
+        self.assertEqual(len(lines), 5, self.errors)
+        starts = (f"pt: {self.parts[1]}: samples = [9, 18)", "pt: cut.ptfilm: damaged or cut short",
+                  "pt: stranger.ptfilm: seed = 5: must be 0", "pt: picture.json: these bytes are no film",
+                  "pt: nothing was written")
+        for line, start in zip(lines, starts):
+            self.assertTrue(line.startswith(start), line)
+        self.assertFalse({"a.png", "a.ptfilm", "a.json"} & set(self.files()))
+        self.merge(6, self.parts[0], "none.ptfilm", "-o", "a.png", error="cannot read none.ptfilm")
+
+    def test_what_is_missing_is_told(self):
+        some = [self.parts[i] for i in (6, 1, 2)]
+        self.merge(0, *some, "-o", "a.png", "--stats", "a.json")
+        self.assertEqual(self.errors, "pt: 27 samples per pixel are missing: [27, 54)\n")
+        self.assertIn("27 spp, samples [9, 27), [54, 63)\n", self.output)
+        stats = json.loads(self.read("a.json"))
+        self.assertEqual((stats["samples"], stats["missing"]), ([[9, 27], [54, 63]], [[27, 54]]))
+        self.assertEqual(self.run_pt("merge", *some, "-o", "b.png", "--first-sample", "0", "--spp", "72"), 7)
+        self.assertEqual(self.errors, "pt: 45 samples per pixel are missing: [0, 9), [27, 54), [63, 72)\n")
+        self.assertEqual(self.contents("a.png"), self.contents("b.png"))
+        self.merge(0, *self.parts, "-o", "c.png", "--first-sample", "0", "--spp", "72")
+        self.assertEqual(self.errors, "")
+
+    def test_a_part_is_kept(self):
+        before = self.contents(self.parts[0])
+        self.merge(2, *self.parts, "--film", "./" + self.parts[0], error="is the same file as the part")
+        self.merge(2, *self.parts, error="there is nothing to write")
+        self.merge(2, self.parts[0], "-o", "a.bmp", error="-o a.bmp: the name must end in")
+        self.merge(6, self.parts[0], "-o", "none/a.png", error="cannot write none/a.png")
+        self.assertEqual(self.contents(self.parts[0]), before)
+        self.assertEqual(self.files(), sorted(self.parts))
+
+    def test_it_needs_no_device(self):
+        self.expect(0, "merge", *self.parts, "-o", "a.png", VK_DRIVER_FILES=os.devnull, VK_ICD_FILENAMES=os.devnull)
+        self.expect(4, "render", COURSEWORK, "-o", "b.png", VK_DRIVER_FILES=os.devnull, VK_ICD_FILENAMES=os.devnull)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,230 @@
+// The C calls of films without a context: what they write, and what they refuse with which message.
+#include "tests/support/film_maker.h"
+
+#include <pt/errors.h>
+#include <pt/film.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+struct CloseFilm {
+    void operator()(pt_film *film) const { pt_close_film(film); }
+};
+using OpenedFilm = std::unique_ptr<pt_film, CloseFilm>;
+
+// Columns 1 to 5 and rows 2 to 4 of an image of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
+film_maker::Samples two_tiles() {
+    film_maker::Samples samples;
+    for (std::uint32_t y = 2; y < 5; ++y)
+        for (std::uint32_t x = 1; x < 6; ++x)
+            for (std::uint32_t i = 0; i < (x < 4 ? 3U : 20U); ++i)
+                samples[{y, x}].insert(i);
+    return samples;
+}
+
+film_maker::Bytes bytes_of(const film_maker::Samples &samples) {
+    return film_maker::film_of(film_maker::identity(9, 7), film_maker::tiles_of(samples), samples);
+}
+
+OpenedFilm opened(const film_maker::Bytes &bytes) {
+    pt_film *film = nullptr;
+    EXPECT_EQ(pt_open_film(bytes.data(), bytes.size(), &film), PT_OK) << pt_last_error(nullptr);
+    return OpenedFilm(film);
+}
+
+template <typename Struct>
+Struct sized_struct() {
+    Struct value{};
+    value.struct_size = sizeof value;
+    return value;
+}
+
+pt_image image_in(std::vector<float> &pixels, std::uint32_t quantity) {
+    auto image = sized_struct<pt_image>();
+    image.quantity = quantity;
+    image.data = pixels.data();
+    image.size_bytes = pixels.size() * sizeof(float);
+    return image;
+}
+
+// That the call failed so, and left this message.
+void expect_refusal(pt_result result, pt_result expected, const std::string &message) {
+    EXPECT_EQ(result, expected);
+    EXPECT_EQ(pt_last_error(nullptr), message);
+}
+
+TEST(FilmCalls, TellWhatAFilmIsOf) {
+    const OpenedFilm film = opened(bytes_of(two_tiles()));
+    auto info = sized_struct<pt_film_info>();
+    ASSERT_EQ(pt_get_film_info(film.get(), &info), PT_OK);
+    EXPECT_EQ(info.width, 9U);
+    EXPECT_EQ(info.height, 7U);
+    EXPECT_EQ(info.x, 1U);
+    EXPECT_EQ(info.y, 2U);
+    EXPECT_EQ(info.columns, 5U);
+    EXPECT_EQ(info.rows, 3U);
+    EXPECT_EQ(info.max_path_length, 6U);
+    EXPECT_EQ(info.seed, UINT64_MAX);
+    EXPECT_EQ(info.estimator, 5U);
+    EXPECT_EQ(info.sampler, 4U);
+    EXPECT_EQ(info.tile_count, 2U);
+    EXPECT_STREQ(info.device, "a device, its driver 1.2");
+    info.struct_size = offsetof(pt_film_info, width);
+    info.width = 77;
+    EXPECT_EQ(pt_get_film_info(film.get(), &info), PT_OK);
+    EXPECT_EQ(info.width, 77U) << "wrote beyond the caller's struct";
+}
+
+TEST(FilmCalls, TellWhichSamplesThereAre) {
+    film_maker::Samples samples = two_tiles();
+    for (auto &[pixel, indices] : samples)
+        if (pixel.second >= 4)
+            indices.erase(7);
+    const OpenedFilm film = opened(bytes_of(samples));
+    auto tile = sized_struct<pt_film_tile>();
+    ASSERT_EQ(pt_get_film_tile(film.get(), 1, &tile), PT_OK);
+    EXPECT_EQ(tile.x, 4U);
+    EXPECT_EQ(tile.y, 2U);
+    EXPECT_EQ(tile.width, 2U);
+    EXPECT_EQ(tile.height, 3U);
+    EXPECT_EQ(tile.range_count, 2U);
+    pt_sample_range ranges[3] = {{99, 99}, {99, 99}, {99, 99}};
+    std::uint32_t count = 0;
+    EXPECT_EQ(pt_get_film_ranges(film.get(), 1, nullptr, &count), PT_OK);
+    EXPECT_EQ(count, 2U);
+    count = 3;
+    EXPECT_EQ(pt_get_film_ranges(film.get(), 1, ranges, &count), PT_OK);
+    EXPECT_EQ(count, 2U);
+    EXPECT_EQ(ranges[0].first, 0U);
+    EXPECT_EQ(ranges[0].end, 7U);
+    EXPECT_EQ(ranges[1].first, 8U);
+    EXPECT_EQ(ranges[1].end, 20U);
+    EXPECT_EQ(ranges[2].first, 99U);
+    count = 1;
+    ranges[1].first = 98;
+    EXPECT_EQ(pt_get_film_ranges(film.get(), 1, ranges, &count), PT_OK);
+    EXPECT_EQ(count, 1U);
+    EXPECT_EQ(ranges[1].first, 98U);
+    expect_refusal(pt_get_film_tile(film.get(), 2, &tile), PT_ERROR_INVALID_ARGUMENT, "tile = 2: must be below 2");
+    expect_refusal(pt_get_film_ranges(film.get(), 7, ranges, &count), PT_ERROR_INVALID_ARGUMENT,
+                   "tile = 7: must be below 2");
+}
+
+// A corner that no film has is black, and what is read does not depend on the rectangle it is read in.
+TEST(FilmCalls, ReadImages) {
+    film_maker::Samples samples = two_tiles();
+    samples.erase({2, 1});
+    const OpenedFilm film = opened(bytes_of(samples));
+    for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
+        std::vector<float> all(3 * 5 * 3, -1.0F);
+        pt_image image = image_in(all, quantity);
+        ASSERT_EQ(pt_read_film(film.get(), &image), PT_OK) << pt_last_error(nullptr);
+        EXPECT_EQ(all[0], quantity == PT_QUANTITY_RADIANCE ? 0.0F : std::numeric_limits<float>::infinity());
+        for (std::size_t i = 3; i < all.size(); ++i)
+            EXPECT_GE(all[i], 0.0F);
+        EXPECT_GT(all[3 * 4], 0.0F);
+        EXPECT_TRUE(std::isfinite(all[3 * 4])) << "of 20 samples";
+        std::vector<float> part(3 * 2 * 2);
+        image = image_in(part, quantity);
+        image.x = 2;
+        image.y = 1;
+        image.width = 2;
+        image.height = 2;
+        ASSERT_EQ(pt_read_film(film.get(), &image), PT_OK) << pt_last_error(nullptr);
+        for (std::size_t y = 0; y < 2; ++y)
+            for (std::size_t i = 0; i < 6; ++i)
+                EXPECT_EQ(part[6 * y + i], all[15 * (y + 1) + 6 + i]);
+    }
+    std::vector<float> few(44);
+    const pt_image image = image_in(few, PT_QUANTITY_RADIANCE);
+    EXPECT_EQ(pt_read_film(film.get(), &image), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(pt_get_broken_rule(nullptr, 0, nullptr), 1U);
+}
+
+TEST(FilmCalls, TheErrorIsKnownOfEnoughSamplesAlone) {
+    film_maker::Samples samples = two_tiles();
+    auto stats = sized_struct<pt_stats>();
+    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
+    EXPECT_EQ(stats.sample_count, 3U);
+    EXPECT_TRUE(std::isinf(stats.rmse));
+    std::uint64_t rejected = 0;
+    for (auto &[pixel, indices] : samples) {
+        for (std::uint32_t i = 0; i < 18; ++i)
+            indices.insert(i);
+        for (const std::uint32_t index : indices)
+            rejected += film_maker::is_rejected(pixel, index) ? 1 : 0;
+    }
+    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
+    EXPECT_EQ(stats.sample_count, 18U);
+    EXPECT_EQ(stats.rejected_samples, rejected);
+    EXPECT_TRUE(std::isinf(stats.rmse)) << "so many were rejected";
+    samples.erase({2, 1});
+    ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
+    EXPECT_EQ(stats.sample_count, 0U);
+}
+
+TEST(FilmCalls, WriteWhatTheyRead) {
+    const film_maker::Bytes bytes = bytes_of(two_tiles());
+    const OpenedFilm film = opened(bytes);
+    std::uint64_t size = 0;
+    ASSERT_EQ(pt_write_film(film.get(), nullptr, &size), PT_OK);
+    ASSERT_EQ(size, bytes.size());
+    film_maker::Bytes written(size + 3, std::byte{7});
+    size = written.size();
+    ASSERT_EQ(pt_write_film(film.get(), written.data(), &size), PT_OK);
+    EXPECT_EQ(size, bytes.size());
+    EXPECT_EQ(written[size], std::byte{7}) << "wrote beyond its size";
+    written.resize(size);
+    EXPECT_TRUE(written == bytes);
+    --size;
+    expect_refusal(pt_write_film(film.get(), written.data(), &size), PT_ERROR_INVALID_ARGUMENT,
+                   "film.size_bytes = " + std::to_string(bytes.size() - 1) +
+                       ": must be >= " + std::to_string(bytes.size()));
+    EXPECT_EQ(size, bytes.size() - 1);
+}
+
+TEST(FilmCalls, RefuseWhatIsNotThere) {
+    const film_maker::Bytes bytes = bytes_of(two_tiles());
+    const OpenedFilm film = opened(bytes);
+    auto *opening = reinterpret_cast<pt_film *>(1);
+    expect_refusal(pt_open_film(nullptr, 5, &opening), PT_ERROR_INVALID_ARGUMENT, "data = NULL: must not be NULL");
+    EXPECT_EQ(opening, nullptr);
+    expect_refusal(pt_open_film(bytes.data(), bytes.size(), nullptr), PT_ERROR_INVALID_ARGUMENT,
+                   "film = NULL: must not be NULL");
+    opening = reinterpret_cast<pt_film *>(1);
+    expect_refusal(pt_open_film("no film", 7, &opening), PT_ERROR_INCOMPATIBLE, "film: these bytes are no film");
+    EXPECT_EQ(opening, nullptr);
+    expect_refusal(
+        pt_merge_film(film.get(), bytes.data(), bytes.size()), PT_ERROR_INCOMPATIBLE,
+        "film.samples = [0, 3) in the 3x3 pixels from (1, 2): [0, 3) are in the film already that it is added "
+        "to");
+    const std::string null_film = "film = NULL: must not be NULL";
+    std::uint64_t size = 0;
+    std::uint32_t count = 0;
+    auto info = sized_struct<pt_film_info>();
+    auto tile = sized_struct<pt_film_tile>();
+    auto stats = sized_struct<pt_stats>();
+    auto image = sized_struct<pt_image>();
+    const pt_result results[] = {pt_merge_film(nullptr, bytes.data(), bytes.size()),
+                                 pt_write_film(nullptr, nullptr, &size),
+                                 pt_read_film(nullptr, &image),
+                                 pt_get_film_info(nullptr, &info),
+                                 pt_get_film_tile(nullptr, 0, &tile),
+                                 pt_get_film_ranges(nullptr, 0, nullptr, &count),
+                                 pt_get_film_stats(nullptr, &stats)};
+    for (const pt_result result : results)
+        expect_refusal(result, PT_ERROR_INVALID_ARGUMENT, null_film);
+    expect_refusal(pt_get_film_info(film.get(), nullptr), PT_ERROR_INVALID_ARGUMENT, "info = NULL: must not be NULL");
+    pt_close_film(nullptr);
+}
+
+} // namespace

@@ -1,0 +1,228 @@
+// Films as values: sums of films of any tiles in any order have the bytes of a film that was put together sample by
+// sample, and what does not belong changes nothing.
+#include "lib/film/film.h"
+
+#include "tests/support/expected_error.h"
+#include "tests/support/film_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <random>
+#include <string>
+
+namespace {
+
+using film_maker::Bytes;
+using film_maker::Samples;
+
+constexpr std::uint32_t image_width = 21;
+constexpr std::uint32_t image_height = 13;
+
+Bytes bytes_of(const pt::Film &film) {
+    Bytes bytes(pt::FilmLayout(film.header()).size_bytes());
+    film.write(bytes);
+    return bytes;
+}
+
+// Rectangles of the image, cut at multiples of its arguments: 8x8 as for adaptive sampling, or one for all of it.
+std::vector<pt::Rectangle> grid(std::uint32_t width, std::uint32_t height) {
+    std::vector<pt::Rectangle> tiles;
+    for (std::uint32_t y = 0; y < image_height; y += height)
+        for (std::uint32_t x = 0; x < image_width; x += width)
+            tiles.push_back({x, y, std::min(width, image_width - x), std::min(height, image_height - y)});
+    return tiles;
+}
+
+void give(Samples &samples, const pt::Rectangle &tile, const std::set<std::uint32_t> &indices) {
+    for (std::uint32_t y = tile.y; y < tile.y + tile.height; ++y)
+        for (std::uint32_t x = tile.x; x < tile.x + tile.width; ++x)
+            samples[{y, x}].insert(indices.begin(), indices.end());
+}
+
+Bytes film_by_sample(const Samples &samples) {
+    return film_maker::film_of(film_maker::identity(image_width, image_height), film_maker::tiles_of(samples), samples);
+}
+
+// A part and what its pixels have, in tiles of some grid: one set of samples for all of them or one for each.
+struct Part {
+    Samples samples;
+    Bytes bytes;
+};
+
+// Indices from `first` on, of which each tile takes some.
+Part random_part(std::mt19937 &random, std::uint32_t first) {
+    const std::pair<std::uint32_t, std::uint32_t> grids[] = {
+        {image_width, image_height}, {8, 8}, {image_width, 4}, {5, 3}};
+    const auto [width, height] = grids[random() % std::size(grids)];
+    std::vector<pt::Rectangle> tiles = grid(width, height);
+    if (tiles.size() > 1 && random() % 3 == 0)
+        tiles.erase(tiles.begin() + static_cast<std::ptrdiff_t>(random() % tiles.size())); // pixels that are missing
+    const bool is_uniform = random() % 2 == 0;
+    Part part;
+    std::set<std::uint32_t> indices;
+    for (const pt::Rectangle &tile : tiles) {
+        if (indices.empty() || !is_uniform) {
+            indices.clear();
+            for (std::uint32_t i = 0; i < 10; ++i)
+                if (random() % 2 == 0 || i == 0)
+                    indices.insert(first + i);
+        }
+        give(part.samples, tile, indices);
+    }
+    part.bytes = film_maker::film_of(film_maker::identity(image_width, image_height), tiles, part.samples);
+    return part;
+}
+
+// Some rounds add parts of equal tiles, others cut each other's.
+TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 40; ++round) {
+        std::vector<Part> parts;
+        Samples all;
+        for (std::uint32_t i = 0; i < 2 + random() % 4; ++i) {
+            parts.push_back(random_part(random, 10 * i));
+            for (const auto &[pixel, indices] : parts.back().samples)
+                all[pixel].insert(indices.begin(), indices.end());
+        }
+        const Bytes expected = film_by_sample(all);
+        for (int order = 0; order < 3; ++order) {
+            std::ranges::shuffle(parts, random);
+            pt::Film sum(parts.front().bytes);
+            for (std::size_t i = 1; i < parts.size(); ++i)
+                sum.add(pt::Film(parts[i].bytes));
+            ASSERT_TRUE(bytes_of(sum) == expected) << "round " << round << ", order " << order;
+        }
+    }
+}
+
+// Halves of the samples that meet in every tile make one tile of all.
+TEST(Film, EqualSamplesOfAllPixelsAreOneTile) {
+    Samples even;
+    Samples odd;
+    Samples all;
+    bool turn = false;
+    for (const pt::Rectangle &tile : grid(8, 8)) {
+        turn = !turn;
+        give(even, tile, turn ? std::set<std::uint32_t>{0, 1, 2} : std::set<std::uint32_t>{3, 4});
+        give(odd, tile, turn ? std::set<std::uint32_t>{3, 4} : std::set<std::uint32_t>{0, 1, 2});
+        give(all, tile, {0, 1, 2, 3, 4});
+    }
+    const pt::FilmIdentity identity = film_maker::identity(image_width, image_height);
+    pt::Film sum(film_maker::film_of(identity, grid(8, 8), even));
+    EXPECT_EQ(sum.sample_count(), 2U);
+    sum.add(pt::Film(film_maker::film_of(identity, grid(8, 8), odd)));
+    EXPECT_EQ(sum.header().tiles.size(), 1U);
+    EXPECT_EQ(sum.sample_count(), 5U);
+    EXPECT_TRUE(bytes_of(sum) == film_maker::film_of(identity, grid(image_width, image_height), all));
+}
+
+// What pixels show does not depend on how tiles are cut, and they know it by themselves: of exact sums one float is
+// nearest.
+TEST(Film, ImagesAreThoseOfTheSums) {
+    std::mt19937 random(2);
+    pt::Film film(random_part(random, 0).bytes);
+    Samples samples = random_part(random, 10).samples;
+    film.add(pt::Film(film_by_sample(samples)));
+    std::size_t pixels = 0;
+    film.read({2, 1, 17, 11}, true, [&](const pt::Film::RowPart &row) {
+        for (std::size_t i = 0; i < row.estimates.radiance.size() / 3; ++i) {
+            const std::uint32_t x = row.x + static_cast<std::uint32_t>(i);
+            ASSERT_TRUE(x >= 2 && x < 19 && row.y >= 1 && row.y < 12);
+            ++pixels;
+        }
+    });
+    const pt::TileMap map(film.header().tiles);
+    std::size_t expected = 0;
+    for (std::uint32_t y = 1; y < 12; ++y)
+        for (std::uint32_t x = 2; x < 19; ++x)
+            expected += map.find(x, y) ? 1 : 0;
+    EXPECT_EQ(pixels, expected);
+}
+
+TEST(Film, MeansAndErrorsAreRoundedOnce) {
+    Samples samples;
+    give(samples, {0, 0, image_width, image_height}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    const pt::Film film(film_by_sample(samples));
+    film.read(film.bounds(), false, [&](const pt::Film::RowPart &row) {
+        for (std::uint32_t i = 0; i < image_width; ++i)
+            for (std::uint32_t channel = 0; channel < 3; ++channel) {
+                const film_maker::Pixel pixel{row.y, i};
+                long double sum = 0.0L; // of twelve numbers below 2^84: exact to 64 bits, the float has 24
+                int accepted = 0;
+                for (std::uint32_t index = 0; index < 12; ++index)
+                    if (!film_maker::is_rejected(pixel, index)) {
+                        sum += static_cast<long double>(film_maker::value_of(pixel, index, channel));
+                        ++accepted;
+                    }
+                const auto mean = static_cast<float>(sum / accepted * 0x1p-63L); // 2^-60, in units of 2^-3
+                ASSERT_EQ(row.estimates.radiance[3 * i + channel], mean) << row.y << ' ' << i;
+            }
+    });
+}
+
+void seal(Bytes &bytes) {
+    const std::size_t checked = bytes.size() - sizeof(std::uint64_t);
+    const std::uint64_t checksum = pt::checksum(std::span(bytes).first(checked));
+    std::memcpy(&bytes[checked], &checksum, sizeof checksum);
+}
+
+TEST(Film, WhatDoesNotBelongChangesNothing) {
+    Samples samples;
+    give(samples, {0, 0, image_width, image_height}, {0, 1, 2});
+    pt::Film film(film_by_sample(samples));
+    const Bytes before = bytes_of(film);
+    const auto refusal = [&](const pt::FilmIdentity &identity, const Samples &other) {
+        const pt::Error error =
+            error_of([&] { film.add(pt::Film(film_maker::film_of(identity, film_maker::tiles_of(other), other))); });
+        EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
+        EXPECT_TRUE(bytes_of(film) == before) << error.what();
+        return std::string(error.what());
+    };
+    const pt::FilmIdentity same = film_maker::identity(image_width, image_height);
+    pt::FilmIdentity seed = same;
+    seed[5].value = "7";
+    Samples others;
+    give(others, {0, 0, image_width, image_height}, {3, 4});
+    EXPECT_EQ(refusal(seed, others), "film.seed = 7: must be 18446744073709551615, as in the film that it is added to");
+    give(others, {8, 8, 4, 4}, {1}); // cuts the tiles, too
+    EXPECT_EQ(refusal(same, others),
+              "film.samples = [1, 2), [3, 5) in the 4x4 pixels from (8, 8): [1, 2) are in the film "
+              "already that it is added to");
+}
+
+TEST(Film, WhatNoPictureHasIsRefused) {
+    const pt::FilmIdentity good = film_maker::identity(image_width, image_height);
+    Samples samples;
+    give(samples, {0, 0, image_width, image_height}, {0});
+    const auto refusal = [&](const pt::FilmIdentity &identity, const std::vector<pt::Rectangle> &tiles) {
+        const pt::Error error = error_of([&] { const pt::Film film(film_maker::film_of(identity, tiles, samples)); });
+        EXPECT_EQ(error.code(), PT_ERROR_INCOMPATIBLE);
+        return std::string(error.what());
+    };
+    EXPECT_EQ(refusal(good, {{0, 0, 4, 4}, {3, 2, 4, 4}}), "film: its tiles overlap in row 2, column 3");
+    EXPECT_EQ(refusal(good, {}), "film: it has no tile");
+    pt::FilmIdentity small = good;
+    small[3].value = "12";
+    EXPECT_EQ(refusal(small, grid(image_width, image_height)), "film: its tiles reach beyond the image");
+    pt::FilmIdentity strange = good;
+    strange[2].value = "021";
+    strange[6].value = "9";
+    strange[8].value = "-301";
+    EXPECT_EQ(refusal(strange, grid(image_width, image_height)), "film.width = 021: must be from 1 to 4294967295\n"
+                                                                 "film.estimator = 9: must be from 1 to 5\n"
+                                                                 "film.unit_exponent = -301: must be from -300 to 300");
+    pt::FilmIdentity without = good;
+    without.erase(without.begin() + 5);
+    EXPECT_EQ(refusal(without, grid(image_width, image_height)),
+              "film.seed = nothing: must be from 0 to 18446744073709551615");
+    Bytes unharmed = film_maker::film_of(good, grid(8, 8), samples);
+    const pt::Film film(unharmed);
+    unharmed[unharmed.size() - 100] ^= std::byte{1}; // a pixel's count, with a checksum that fits
+    seal(unharmed);
+    EXPECT_EQ(error_of([&] { const pt::Film damaged(unharmed); }).what(),
+              std::string("film: sums that its samples cannot have"));
+}
+
+} // namespace

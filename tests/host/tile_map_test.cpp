@@ -1,0 +1,87 @@
+// Tile lists: found by pixel, cut along each other, and brought to one form, against a search pixel by pixel.
+#include "lib/film/tile_map.h"
+
+#include "tests/support/film_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace {
+
+// Rectangles that do not overlap, within 24 x 24 pixels, with one of a few sets of samples.
+std::vector<pt::FilmTile> random_tiles(std::mt19937 &random) {
+    std::vector<pt::FilmTile> tiles;
+    bool taken[24][24] = {};
+    for (int i = 0; i < 40; ++i) {
+        const auto x = static_cast<std::uint32_t>(random() % 20);
+        const auto y = static_cast<std::uint32_t>(random() % 20);
+        const pt::Rectangle pixels{x, y, 1 + static_cast<std::uint32_t>(random() % 4),
+                                   1 + static_cast<std::uint32_t>(random() % 4)};
+        bool is_free = true;
+        for (std::uint32_t row = y; row < y + pixels.height; ++row)
+            for (std::uint32_t column = x; column < x + pixels.width; ++column)
+                is_free = is_free && !taken[row][column];
+        if (!is_free)
+            continue;
+        for (std::uint32_t row = y; row < y + pixels.height; ++row)
+            for (std::uint32_t column = x; column < x + pixels.width; ++column)
+                taken[row][column] = true;
+        tiles.push_back({pixels, pt::SampleSet({random() % 2, 2})});
+    }
+    return tiles;
+}
+
+bool holds(const pt::Rectangle &tile, std::uint32_t x, std::uint32_t y) {
+    return x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
+}
+
+TEST(TileMap, FindsPixelsAndCuts) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 50; ++round) {
+        const std::vector<pt::FilmTile> a = random_tiles(random);
+        const std::vector<pt::FilmTile> b = random_tiles(random);
+        const pt::TileMap map(a);
+        const std::vector<pt::Rectangle> cuts = pt::common_cuts(map, pt::TileMap(b));
+        for (std::uint32_t y = 0; y < 24; ++y)
+            for (std::uint32_t x = 0; x < 24; ++x) {
+                const auto has = [&](const pt::FilmTile &tile) { return holds(tile.pixels, x, y); };
+                const auto tile = std::ranges::find_if(a, has);
+                const pt::TileMap::Span *span = map.find(x, y);
+                ASSERT_EQ(span != nullptr, tile != a.end());
+                if (span) {
+                    ASSERT_EQ(span->tile, static_cast<std::size_t>(tile - a.begin()));
+                }
+                const auto cut_count =
+                    std::ranges::count_if(cuts, [&](const pt::Rectangle &cut) { return holds(cut, x, y); });
+                ASSERT_EQ(cut_count, tile != a.end() || std::ranges::any_of(b, has) ? 1 : 0);
+            }
+        for (const pt::Rectangle &cut : cuts) // within one tile, or without one
+            for (const std::vector<pt::FilmTile> *tiles : {&a, &b})
+                for (const pt::FilmTile &tile : *tiles)
+                    ASSERT_EQ(holds(tile.pixels, cut.x, cut.y),
+                              holds(tile.pixels, cut.x + cut.width - 1, cut.y + cut.height - 1));
+    }
+}
+
+TEST(TileMap, CanonicalTilesAreThoseOfThePixels) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 50; ++round) {
+        std::vector<pt::FilmTile> tiles = random_tiles(random);
+        film_maker::Samples samples;
+        for (const pt::FilmTile &tile : tiles)
+            for (std::uint32_t y = tile.pixels.y; y < tile.pixels.y + tile.pixels.height; ++y)
+                for (std::uint32_t x = tile.pixels.x; x < tile.pixels.x + tile.pixels.width; ++x)
+                    samples[{y, x}] =
+                        tile.samples.count() == 2 ? std::set<std::uint32_t>{0, 1} : std::set<std::uint32_t>{1};
+        const std::vector<pt::Rectangle> expected = film_maker::tiles_of(samples);
+        const std::vector<pt::FilmTile> canonical = pt::canonical_tiles(tiles);
+        ASSERT_TRUE(std::ranges::equal(canonical, expected, {}, &pt::FilmTile::pixels)) << "round " << round;
+        std::ranges::shuffle(tiles, random);
+        EXPECT_TRUE(pt::canonical_tiles(tiles) == canonical);
+    }
+}
+
+} // namespace
