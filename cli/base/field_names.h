@@ -21,7 +21,7 @@ struct FieldName {
 };
 
 // Those that are called differently, and all that options give.
-inline constexpr std::array<FieldName, 10> field_names{{
+inline constexpr std::array<FieldName, 11> field_names{{
     {"camera", "target", "", "camera", "look_at"},
     {"camera", "shutter_open", "", "camera", "shutter", 0},
     {"camera", "shutter_close", "", "camera", "shutter", 1},
@@ -30,6 +30,7 @@ inline constexpr std::array<FieldName, 10> field_names{{
     {"render", "max_path_length", "--max-path-length", "render", "max_path_length"},
     {"accumulate", "sample_count", "--spp", "render", "spp"},
     {"accumulate", "target_error", "--error", "", ""},
+    {"accumulate", "sampling", "--sampling", "", ""},
     {"create", "device", "--device", "", ""},
     {"create", "submit_milliseconds", "--submit-ms", "", ""},
 }};

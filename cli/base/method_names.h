@@ -1,4 +1,4 @@
-// The names of pt.h's samplers and estimators. A new one is one more line here; options, scene files and reports
+// The names of pt.h's samplers, estimators and ways to spread samples. A new one is one more line here; options, scene files and reports
 // follow.
 #pragma once
 
@@ -62,6 +62,12 @@ inline constexpr MethodNames samplers({
     {"halton", PT_SAMPLER_HALTON},
     {"halton-cp", PT_SAMPLER_HALTON_CP},
     {"sobol", PT_SAMPLER_SOBOL},
+});
+
+inline constexpr MethodNames samplings({
+    {"best", PT_SAMPLING_BEST},
+    {"uniform", PT_SAMPLING_UNIFORM},
+    {"adaptive", PT_SAMPLING_ADAPTIVE},
 });
 
 inline constexpr MethodNames estimators({

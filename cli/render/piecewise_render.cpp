@@ -30,6 +30,9 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
         return;
     }
     whole.sample_count = std::min(whole.sample_count, piece.sample_count);
+    whole.max_sample_count = std::max(whole.max_sample_count, piece.max_sample_count);
+    whole.mean_sample_count =
+        (whole.mean_sample_count * first_row + piece.mean_sample_count * rows) / (first_row + rows);
     whole.rejected_samples += piece.rejected_samples;
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
     whole.submit_count = piece.submit_count; // of the context

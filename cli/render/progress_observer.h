@@ -5,6 +5,9 @@
 #include "cli/render/render_observer.h"
 #include "cli/render/sample_forecast.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace cli {
 
 class ProgressObserver : public RenderObserver {
@@ -21,7 +24,9 @@ public:
     }
 
     std::uint32_t next_end(std::uint32_t sample_count) const override {
-        return has_target() ? pt_next_check(sample_count) : RenderObserver::next_end(sample_count);
+        constexpr std::uint32_t first_end = 16; // where an error is known, and tiles take as many again from there on
+        return has_target() ? std::max(first_end, 2 * std::bit_floor(sample_count))
+                            : RenderObserver::next_end(sample_count);
     }
 
     // Where it is only shown, for a hundredth of the time.

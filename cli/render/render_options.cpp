@@ -54,6 +54,11 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
                                     "64, with either 65536)")
         ->group(group);
     add_target_error(command, options.target_error)->group(group);
+    const auto find_sampling = [](std::string_view name) { return samplings.find(name); };
+    add_name(command, "--sampling", options.sampling, find_sampling, "way to sample", samplings.names(),
+             samplings.list() + "; adaptive, which is best with --error, takes more samples where they lessen the error "
+                                "most (default: best)")
+        ->group(group);
     add_seed(command, options.seed)->group(group);
     add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
                                     "Index of the first sample, to continue a sequence (default: 0)")

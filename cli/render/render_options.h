@@ -31,6 +31,7 @@ struct RenderOptions {
     std::optional<ImageSize> size;
     std::optional<std::uint32_t> sample_count;
     std::optional<double> target_error; // relative; nothing: take all samples
+    std::optional<std::uint32_t> sampling;
     std::optional<double> time_limit;   // seconds
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;

@@ -48,7 +48,7 @@ std::uint64_t peak_host_bytes() {
 
 double samples_per_second(const RenderReport &report) {
     const double pixels = static_cast<double>(report.render.width) * report.render.height;
-    return report.accumulate_seconds > 0.0 ? pixels * report.stats.sample_count / report.accumulate_seconds : 0.0;
+    return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
 // Three significant digits, so that 0.0031% can be told from 0; without exponent for what is seen in pictures.
@@ -79,15 +79,26 @@ std::string estimate_text(const pt_stats &stats) {
            percent_text(stats.relative_rmse_high) + ")" + uncertainty_text(stats.uncertain);
 }
 
+// "64", or of pixels that have different numbers "37.3 (16 to 256)".
+std::string samples_text(const pt_stats &stats) {
+    if (stats.sample_count == stats.max_sample_count) {
+        return std::to_string(stats.sample_count);
+    }
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.1f (%u to %u)", stats.mean_sample_count, stats.sample_count,
+                  stats.max_sample_count);
+    return text.data();
+}
+
 std::string target_text(const RenderReport &report) {
-    const std::string samples = std::to_string(report.stats.sample_count) + " samples";
+    const std::string samples = samples_text(report.stats) + " samples";
     if (report.target_reached()) {
         return "target reached after " + samples;
     }
     const std::string high = std::isfinite(report.stats.relative_rmse_high)
                                  ? percent_text(report.stats.relative_rmse_high) + " is above "
                                  : "unknown error for ";
-    const bool interrupted = report.stats.sample_count < report.requested_sample_count;
+    const bool interrupted = report.stats.max_sample_count < report.requested_sample_count;
     return "target not reached: " + high + percent_text(report.target_error) + " after " + samples +
            (interrupted ? "" : ", raise --spp");
 }
@@ -129,6 +140,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"width", render.width},
         {"height", render.height},
         {"spp", report.stats.sample_count},
+        {"spp_mean", report.stats.mean_sample_count},
+        {"spp_max", report.stats.max_sample_count},
         {"spp_requested", report.requested_sample_count},
         {"first_sample", render.first_sample},
         {"seed", render.seed},
@@ -160,8 +173,8 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 
 std::string summary_text(const RenderReport &report) {
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%ux%u, %u spp in %.2f s on ", report.render.width, report.render.height,
-                  report.stats.sample_count, report.total_seconds);
+    std::snprintf(text.data(), text.size(), "%ux%u, %s spp in %.2f s on ", report.render.width, report.render.height,
+                  samples_text(report.stats).c_str(), report.total_seconds);
     return text.data() + std::string(report.device.name);
 }
 

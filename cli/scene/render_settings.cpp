@@ -68,6 +68,7 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     render.sampler = first_given(options.sampler, scene.sampler, std::uint32_t{PT_SAMPLER_BEST});
     render.estimator = first_given(options.estimator, scene.estimator, std::uint32_t{PT_ESTIMATOR_BEST});
     settings.target_error = options.target_error.value_or(0.0);
+    settings.sampling = options.sampling.value_or(PT_SAMPLING_BEST);
     const bool stops_otherwise = options.target_error || options.time_limit;
     settings.sample_count = first_given(options.sample_count, scene.sample_count,
                                         stops_otherwise ? default_most_samples : default_sample_count);

@@ -20,6 +20,7 @@ struct RenderSettings {
     pt_render render;
     std::uint32_t sample_count; // the most, if there is a target
     double target_error;        // relative; 0: none
+    std::uint32_t sampling;     // PT_SAMPLING_*
     Exposure exposure;
     ToneCurve tone_curve;
     std::optional<double> gamma;

@@ -51,10 +51,16 @@ bool may_miss_lamps(const FilmFacts &facts) {
 // Pixels without samples, to begin with.
 void write_nothing(const Image &image) {
     const auto &[pixels, quantity, format, row_bytes] = image.layout;
-    const float value = quantity == PT_QUANTITY_RADIANCE ? 0.0F : std::numeric_limits<float>::infinity();
+    const float value = quantity == PT_QUANTITY_STANDARD_ERROR ? std::numeric_limits<float>::infinity() : 0.0F;
     const std::vector<float> row(std::size_t{3} * pixels.width, value);
     for (std::uint32_t y = 0; y < pixels.height; ++y)
         write_pixels(row, format, image.data + y * row_bytes);
+}
+
+std::vector<float> values_of(const Film::RowPart &part, std::uint32_t quantity) {
+    if (quantity == PT_QUANTITY_SAMPLE_COUNT)
+        return std::vector<float>(part.estimates.radiance.size(), static_cast<float>(part.sample_count));
+    return quantity == PT_QUANTITY_STANDARD_ERROR ? part.estimates.standard_error : part.estimates.radiance;
 }
 
 void write_image(const Film &film, const Image &image) {
@@ -66,8 +72,7 @@ void write_image(const Film &film, const Image &image) {
     write_nothing(image);
     film.read(pixels, with_standard_error, [&](const Film::RowPart &part) {
         std::byte *const row = image.data + (part.y - pixels.y) * row_bytes;
-        write_pixels(with_standard_error ? part.estimates.standard_error : part.estimates.radiance, format,
-                     row + std::size_t{part.x - pixels.x} * pixel_bytes(format));
+        write_pixels(values_of(part, quantity), format, row + std::size_t{part.x - pixels.x} * pixel_bytes(format));
     });
 }
 
@@ -75,6 +80,9 @@ pt_stats stats_of(const Film &film, bool with_error) {
     const ErrorEstimate error = with_error ? film.error(may_miss_lamps(film.facts())) : unknown_error();
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(film.sample_count());
+    stats.max_sample_count = static_cast<std::uint32_t>(film.max_sample_count());
+    stats.mean_sample_count =
+        static_cast<double>(film.total_samples()) / static_cast<double>(film.bounds().pixel_count());
     stats.rejected_samples = film.rejected_samples();
     stats.rmse = error.rmse.estimate;
     stats.rmse_low = error.rmse.low;

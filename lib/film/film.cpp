@@ -2,6 +2,8 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
+#include "lib/film/film_tiles.h"
+#include "lib/film/uneven_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,6 +164,20 @@ std::uint64_t Film::sample_count() const {
     return pixel_count < bounds_.pixel_count() ? 0 : least;
 }
 
+std::uint64_t Film::max_sample_count() const {
+    std::uint64_t most = 0;
+    for (const Tile &tile : tiles_)
+        most = std::max(most, tile.samples.count());
+    return most;
+}
+
+std::uint64_t Film::total_samples() const {
+    std::uint64_t total = 0;
+    for (const Tile &tile : tiles_)
+        total += tile.samples.count() * tile.pixels.pixel_count();
+    return total;
+}
+
 void Film::read(const Rectangle &pixels, bool with_standard_error,
                 const std::function<void(const RowPart &)> &receive) const {
     const double unit = std::ldexp(1.0, facts_.unit_exponent);
@@ -174,17 +190,39 @@ void Film::read(const Rectangle &pixels, bool with_standard_error,
                     continue;
                 const Tile &tile = tiles_[span.tile];
                 const PixelSums sums = part_of(tile.sums, tile.pixels, {first, y, end - first, 1});
-                receive({first, y, sums.estimates(unit, with_standard_error)});
+                receive({first, y, tile.samples.count(), sums.estimates(unit, with_standard_error)});
             }
 }
 
+PixelSums Film::rows(std::uint32_t first_row, std::uint32_t row_count) const {
+    PixelSums sums;
+    sums.resize(std::size_t{row_count} * bounds_.width);
+    const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width, row_count};
+    for (const Tile &tile : tiles_)
+        for (std::uint32_t y = std::max(tile.pixels.y, rows.y);
+             y < std::min(tile.pixels.y + tile.pixels.height, rows.y + rows.height); ++y)
+            sums.copy(tile.sums, index_in(tile.pixels, tile.pixels.x, y), tile.pixels.width,
+                      index_in(rows, tile.pixels.x, y));
+    return sums;
+}
+
+// As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the fewest.
 ErrorEstimate Film::error(bool may_miss_lamps) const {
     const std::uint64_t samples = sample_count();
     if (samples < min_estimate_samples)
         return unknown_error();
+    const std::optional<TileSamples> tiles = tile_samples(header_.tiles, bounds_);
     ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps});
-    read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
-    return hides_error(estimator.rejected(), samples * bounds_.pixel_count()) ? unknown_error() : estimator.result();
+    if (tiles && !tiles->even()) {
+        UnevenErrors errors;
+        errors.update(*tiles, std::ldexp(1.0, facts_.unit_exponent),
+                      [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); });
+        for (const RegionErrors &region : errors.regions())
+            estimator.add(region);
+    } else {
+        read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
+    }
+    return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
 
 std::uint64_t Film::rejected_samples() const {

@@ -38,10 +38,13 @@ public:
 
     // The fewest samples of a pixel within the bounds: 0 if there is one without any.
     std::uint64_t sample_count() const;
+    std::uint64_t max_sample_count() const;
+    std::uint64_t total_samples() const; // of all pixels together
 
     // What is said of consecutive pixels of one row.
     struct RowPart {
         std::uint32_t x, y; // of the image
+        std::uint64_t sample_count;
         PixelEstimates estimates;
     };
 
@@ -62,6 +65,7 @@ private:
         PixelSums sums;
     };
 
+    PixelSums rows(std::uint32_t first_row, std::uint32_t row_count) const; // of the bounds
     std::vector<FilmTile> list() const;
     std::vector<Tile> cut_to(const std::vector<Rectangle> &cuts) const;
     static std::vector<FilmTile> sum_of(const std::vector<Tile> &tiles, const std::vector<Tile> &others);

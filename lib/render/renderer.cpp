@@ -4,6 +4,7 @@
 #include "lib/base/error.h"
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/film.h"
+#include "lib/film/film_tiles.h"
 #include "lib/kernel/accuracy.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/film_identity.h"
@@ -500,17 +501,21 @@ void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
         save_film(header, own);
         sum.add(Film(own));
     }
-    TileSamples samples = tile_samples(sum.header().tiles, pixels());
+    require_within(sum.bounds(), pixels());
+    std::optional<TileSamples> samples = tile_samples(sum.header().tiles, pixels());
+    if (!samples)
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles must be whole ones of this context, squares of 8 pixels from "
+                                           "the top left of what is rendered on");
     for (const auto &device : devices_)
         if (!device->pass().empty())
             device->discard_pass();
     const AdaptiveRound round = sum.header().round;
     RenderDevice &device = *devices_.front();
-    replace(sum, samples, pixels(), device.device(), device.film());
+    replace(sum, samples->hull(), pixels(), device.device(), device.film());
     for (const auto &other : std::span(devices_).subspan(1))
         other->discard_samples();
     round_ = round;
-    take_over(std::move(samples));
+    take_over(std::move(*samples));
 }
 
 pt_stats Renderer::stats(bool with_error) {

@@ -16,21 +16,6 @@ void refuse(const std::string &field, const std::string &value, const std::strin
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
 }
 
-std::string rows_and_columns(const Rectangle &pixels) {
-    return "rows [" + std::to_string(pixels.y) + ", " + std::to_string(std::uint64_t{pixels.y} + pixels.height) +
-           "), columns [" + std::to_string(pixels.x) + ", " + std::to_string(std::uint64_t{pixels.x} + pixels.width) +
-           ')';
-}
-
-Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
-    return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
-}
-
-bool lies_in(const Rectangle &inner, const Rectangle &outer) {
-    return inner.x >= outer.x && inner.y >= outer.y && inner.x + inner.width <= outer.x + outer.width &&
-           inner.y + inner.height <= outer.y + outer.height;
-}
-
 // Whole rows of a film at a time.
 std::uint32_t rows_of_piece(std::uint32_t width) {
     return std::max(piece_pixels / width, 1U);
@@ -57,48 +42,6 @@ void for_each_row(const Rectangle &tile, const RowsInTile &rows, std::uint32_t f
 }
 
 } // namespace
-
-std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels) {
-    if (samples.even())
-        return {{pixels, samples.of(0)}};
-    std::vector<FilmTile> tiles;
-    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (!samples.of(tile).empty())
-            tiles.push_back({shifted(samples.grid().pixels(tile), pixels), samples.of(tile)});
-    return canonical_tiles(tiles);
-}
-
-bool is_even(const FilmHeader &film, const Rectangle &pixels) {
-    return film.tiles.size() == 1 && film.tiles.front().pixels == pixels;
-}
-
-// The tiles of a film do not overlap: those of the context's that it covers as a whole are as large as what it has in them.
-TileSamples tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
-    TileSamples samples({pixels.width, pixels.height});
-    const TileMap map(tiles);
-    for (const FilmTile &tile : tiles)
-        if (!lies_in(tile.pixels, pixels))
-            refuse("tile", rows_and_columns(tile.pixels),
-                   "must lie in " + rows_and_columns(pixels) + ", as in this context");
-    const auto samples_at = [&](std::uint32_t x, std::uint32_t y) {
-        const TileMap::Span *const span = map.find(x, y);
-        return span ? &tiles[span->tile].samples : nullptr;
-    };
-    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
-        const Rectangle own = shifted(samples.grid().pixels(tile), pixels);
-        const SampleSet *const first = samples_at(own.x, own.y);
-        for (std::uint32_t y = own.y; y < own.y + own.height; ++y)
-            for (std::uint32_t x = own.x; x < own.x + own.width; ++x)
-                if (const SampleSet *const here = samples_at(x, y);
-                    (here == nullptr) != (first == nullptr) || (here && *here != *first))
-                    refuse("tile", rows_and_columns(own),
-                           "these pixels, a tile of this context, must all have the same samples");
-        if (first)
-            samples.set(tile, *first);
-    }
-    samples.tidy();
-    return samples;
-}
 
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           std::span<std::byte> bytes) {
@@ -155,7 +98,18 @@ void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device
     all.replace(parts);
 }
 
-void replace(const Film &by, const TileSamples &samples, const Rectangle &pixels, vulkan::Device &device,
+void require_within(const Rectangle &film, const Rectangle &pixels) {
+    const auto text = [](const Rectangle &of) {
+        return "rows [" + std::to_string(of.y) + ", " + std::to_string(std::uint64_t{of.y} + of.height) +
+               "), columns [" + std::to_string(of.x) + ", " + std::to_string(std::uint64_t{of.x} + of.width) + ')';
+    };
+    const bool within = film.x >= pixels.x && film.y >= pixels.y && film.x + film.width <= pixels.x + pixels.width &&
+                        film.y + film.height <= pixels.y + pixels.height;
+    if (!within)
+        refuse("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
+}
+
+void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, vulkan::Device &device,
              DeviceFilm &film) {
     std::vector<std::byte> bytes(FilmLayout(by.header()).size_bytes());
     by.write(bytes);
@@ -185,7 +139,7 @@ void replace(const Film &by, const TileSamples &samples, const Rectangle &pixels
         all.write(row * pixels.width, sums);
     }
     PartUse parts;
-    parts.cover(samples.hull());
+    parts.cover(hull);
     all.replace(parts);
 }
 

@@ -12,16 +12,6 @@
 
 namespace pt {
 
-// The tiles of a film of these pixels of an image, as few as may be.
-std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
-
-// Whether a film has just these pixels, all with the same samples.
-bool is_even(const FilmHeader &film, const Rectangle &pixels);
-
-// What the tiles of a film say of those of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if they have others,
-// or cut the context's tiles.
-TileSamples tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
-
 // Writes the sum of films of one size, which together hold these samples and those of the header, to memory of the size
 // that FilmLayout asks for.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
@@ -34,8 +24,11 @@ void require_addable(const FilmReader &film, const SampleSet &present);
 // samples cannot have; hull: of the samples of both, and of all films that are rendered together.
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
 
-// Makes a film in a device's memory, of these pixels, what a film on the host is, which has these samples.
-void replace(const Film &by, const TileSamples &samples, const Rectangle &pixels, vulkan::Device &device,
+// Throws PT_ERROR_INCOMPATIBLE if the pixels of a film do not lie in those of a context.
+void require_within(const Rectangle &film, const Rectangle &pixels);
+
+// Makes a film in a device's memory, of these pixels, what a film on the host is. hull: of its samples.
+void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, vulkan::Device &device,
              DeviceFilm &film);
 
 } // namespace pt

@@ -1,0 +1,56 @@
+#include "lib/film/film_tiles.h"
+
+#include "lib/film/tile_map.h"
+
+namespace pt {
+
+namespace {
+
+Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
+    return {pixels.x + origin.x, pixels.y + origin.y, pixels.width, pixels.height};
+}
+
+// The samples that all pixels of a rectangle have, none where no tile has them; nothing if they differ.
+std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
+    const auto samples_at = [&](std::uint32_t x, std::uint32_t y) {
+        const TileMap::Span *const span = map.find(x, y);
+        return span ? tiles[span->tile].samples : SampleSet();
+    };
+    const SampleSet first = samples_at(pixels.x, pixels.y);
+    for (std::uint32_t y = pixels.y; y < pixels.y + pixels.height; ++y)
+        for (std::uint32_t x = pixels.x; x < pixels.x + pixels.width; ++x)
+            if (samples_at(x, y) != first)
+                return std::nullopt;
+    return first;
+}
+
+} // namespace
+
+std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels) {
+    if (samples.even())
+        return {{pixels, samples.of(0)}};
+    std::vector<FilmTile> tiles;
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
+        if (!samples.of(tile).empty())
+            tiles.push_back({shifted(samples.grid().pixels(tile), pixels), samples.of(tile)});
+    return canonical_tiles(tiles);
+}
+
+bool is_even(const FilmHeader &film, const Rectangle &pixels) {
+    return film.tiles.size() == 1 && film.tiles.front().pixels == pixels;
+}
+
+std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
+    TileSamples samples({pixels.width, pixels.height});
+    const TileMap map(tiles);
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
+        const std::optional<SampleSet> set = samples_of(map, tiles, shifted(samples.grid().pixels(tile), pixels));
+        if (!set)
+            return std::nullopt;
+        samples.set(tile, *set);
+    }
+    samples.tidy();
+    return samples;
+}
+
+} // namespace pt

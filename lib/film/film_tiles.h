@@ -1,0 +1,21 @@
+// How the tiles of a film's bytes and those of a film in memory follow from each other.
+#pragma once
+
+#include "lib/film/film_header.h"
+#include "lib/film/tile_samples.h"
+
+#include <optional>
+#include <vector>
+
+namespace pt {
+
+// The tiles of a film of these pixels of an image, as few as may be.
+std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
+
+// Whether a film has just these pixels, all with the same samples.
+bool is_even(const FilmHeader &film, const Rectangle &pixels);
+
+// What tiles that lie in these pixels of an image say of a grid over them; nothing if they cut tiles of that grid.
+std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
+
+} // namespace pt
