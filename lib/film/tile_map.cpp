@@ -37,6 +37,7 @@ struct RangesBefore {
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
+    firsts.reserve(tiles.size());
     for (const FilmTile &tile : tiles)
         firsts.push_back(known.emplace(&tile.samples, firsts.size()).first->second);
     return firsts;

@@ -84,4 +84,10 @@ TEST(TileMap, CanonicalTilesAreThoseOfThePixels) {
     }
 }
 
+TEST(TileMap, RowsThatDoNotTouchStayApart) {
+    const pt::SampleSet samples({0, 2});
+    const std::vector<pt::FilmTile> tiles = {{{0, 0, 4, 2}, samples}, {{0, 3, 4, 2}, samples}};
+    EXPECT_TRUE(pt::canonical_tiles(tiles) == tiles);
+}
+
 } // namespace
