@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <vector>
 
 namespace pt {
 
@@ -15,30 +16,59 @@ constexpr std::uint64_t first_level = 16; // of fewer samples the difference of 
 // scenes where tiles differ 2 to 3 times in what they need this costs a fiftieth of what uneven films gain.
 constexpr std::uint64_t floor_share = 4;
 
+constexpr double root_of_half = 0.70710678118654752440;
+
 double bound_of(std::int32_t round) {
-    return std::exp2(-0.5 * round);
+    const std::int32_t halves = round >> 1; // rounded down
+    return std::ldexp((round & 1) != 0 ? root_of_half : 1.0, -halves);
 }
 
 // What as many samples again are expected to gain, half of the square, for each sample they cost; but for that half.
 // Nothing if the square is unknown.
-double gain_of(const TileSamples &samples, std::span<const double> squares, std::size_t tile) {
-    const auto pixels = static_cast<double>(samples.grid().pixels(tile).pixel_count());
-    const auto count = static_cast<double>(samples.of(tile).count());
-    return std::isfinite(squares[tile]) ? squares[tile] / (pixels * count) : 0.0;
-}
+class Gains {
+public:
+    Gains(const TileSamples &samples, std::span<const double> squares) : samples_(samples), squares_(squares) {
+        for (const SampleSet &set : samples.sets())
+            counts_.push_back(static_cast<double>(set.count()));
+    }
 
-// The last round whose bound a gain > 0 does not exceed.
+    double of(std::size_t tile) const {
+        const auto pixels = static_cast<double>(samples_.grid().pixels(tile).pixel_count());
+        const double square = squares_[tile];
+        return std::isfinite(square) ? square / (pixels * counts_[samples_.set_of(tile)]) : 0.0;
+    }
+
+private:
+    const TileSamples &samples_;
+    std::span<const double> squares_;
+    std::vector<double> counts_; // of the sets
+};
+
+// The last round whose bound a gain > 0 does not exceed: -2 log2(gain), rounded down.
 std::int32_t last_content_round(double gain) {
-    auto round = static_cast<std::int32_t>(std::floor(-2.0 * std::log2(gain)));
-    while (gain > bound_of(round))
-        --round;
-    while (gain <= bound_of(round + 1))
-        ++round;
-    return round;
+    int exponent = 0;
+    const double fraction = std::frexp(gain, &exponent); // in [1/2, 1)
+    return -2 * exponent + (fraction <= 0.5 ? 2 : fraction <= root_of_half ? 1 : 0);
 }
 
 // The squares of tiles by the last round that asks nothing of them.
 using SquaresByRound = std::map<std::int32_t, double>;
+
+SquaresByRound by_content_round(const TileSamples &samples, std::span<const double> squares) {
+    SquaresByRound sums;
+    auto last = sums.end();
+    const Gains gains(samples, squares);
+    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
+        const double gain = gains.of(tile);
+        if (!(gain > 0.0))
+            continue;
+        const std::int32_t round = last_content_round(gain);
+        if (last == sums.end() || last->first != round) // neighbours are alike
+            last = sums.try_emplace(round, 0.0).first;
+        last->second += squares[tile];
+    }
+    return sums;
+}
 
 // The sum that is expected in a round. Where the square falls as 1 / N, what a tile gains falls to a fourth as its samples
 // double: four rounds.
@@ -73,8 +103,9 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
     if (round.number == AdaptiveRound::none)
         return tiles;
     const double bound = bound_of(round.number);
+    const Gains gains(samples, squares);
     for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (samples.of(tile).count() < round.floor || gain_of(samples, squares, tile) > bound)
+        if (samples.of(tile).count() < round.floor || gains.of(tile) > bound)
             tiles.push_back(tile);
     return tiles;
 }
@@ -88,10 +119,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
     AdaptiveRound next{round.number, std::max(round.floor, std::bit_floor(share))};
     if (sees_too_little)
         next.floor = std::max(next.floor, next_level(samples.least()));
-    SquaresByRound by_round;
-    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (const double gain = gain_of(samples, squares, tile); gain > 0.0)
-            by_round[last_content_round(gain)] += squares[tile];
+    const SquaresByRound by_round = by_content_round(samples, squares);
     if (by_round.empty()) {
         next.floor = std::max(next.floor, next_level(samples.least()));
         next.number = std::max(next.number, 0);

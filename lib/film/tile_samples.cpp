@@ -1,10 +1,15 @@
 #include "lib/film/tile_samples.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace pt {
+
+namespace {
+
+constexpr std::uint32_t no_set = UINT32_MAX;
+
+} // namespace
 
 bool TileSamples::empty() const {
     return std::ranges::all_of(sets_, [](const SampleSet &set) { return set.empty(); });
@@ -61,16 +66,15 @@ void TileSamples::add(std::span<const std::uint32_t> tiles, const SampleRange &r
         return;
     }
     tell_apart();
-    std::map<std::uint32_t, std::uint32_t> extended;
+    std::vector<std::uint32_t> extended(sets_.size(), no_set);
     for (const std::uint32_t tile : tiles) {
-        const std::uint32_t before = set_of_[tile];
-        const auto [entry, is_new] = extended.try_emplace(before);
-        if (is_new) {
-            SampleSet samples = sets_[before];
+        std::uint32_t &set = set_of_[tile];
+        if (extended[set] == no_set) {
+            SampleSet samples = sets_[set];
             samples.add(range);
-            entry->second = index_of(std::move(samples));
+            extended[set] = index_of(std::move(samples));
         }
-        set_of_[tile] = entry->second;
+        set = extended[set];
     }
 }
 
@@ -99,12 +103,13 @@ void TileSamples::tidy() {
     if (even())
         return;
     std::vector<SampleSet> used;
-    std::map<std::uint32_t, std::uint32_t> places;
+    std::vector<std::uint32_t> places(sets_.size(), no_set);
     for (std::uint32_t &set : set_of_) {
-        const auto [entry, is_new] = places.try_emplace(set, static_cast<std::uint32_t>(used.size()));
-        if (is_new)
+        if (places[set] == no_set) {
+            places[set] = static_cast<std::uint32_t>(used.size());
             used.push_back(sets_[set]);
-        set = entry->second;
+        }
+        set = places[set];
     }
     sets_ = std::move(used);
     if (sets_.size() == 1)

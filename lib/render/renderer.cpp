@@ -232,19 +232,21 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
     require_room_for(wanted.count);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
-    if (is_adaptive(wanted) || !samples_.even()) {
-        begin_tiles(wanted, progress);
-        return;
-    }
-    const SampleSet &samples = samples_.of(0);
-    auto dealing =
-        std::make_unique<Accumulation>(devices_, samples, settings_->first_sample, wanted.count, progress, work_);
-    job_.emplace(Job{samples.count() + wanted.count, wanted.target_error, std::move(dealing), nullptr, {}});
+    const std::uint64_t most = samples_.most() + wanted.count;
+    const std::uint64_t apart_from = is_adaptive(wanted) ? devices_.front()->device().policy().adaptive_from : most;
+    Job job{wanted, progress, most, std::min(most, apart_from), nullptr, nullptr, {}};
+    const bool is_even = samples_.even() && samples_.of(0).count() < job.even_count;
+    if (is_even)
+        job.even = std::make_unique<Accumulation>(devices_, samples_.of(0), settings_->first_sample, wanted.count,
+                                                  progress, work_);
+    job_ = std::move(job);
+    if (!is_even)
+        tell_tiles_apart();
 }
 
 // What is left of an even film: a pass, of which it has nothing yet, and splits that have moved while a device took no
 // samples.
-void Renderer::begin_tiles(const SamplesWanted &wanted, const Progress &progress) {
+void Renderer::tell_tiles_apart() {
     for (const auto &device : devices_) {
         device->film();
         if (!device->pass().empty())
@@ -252,17 +254,15 @@ void Renderer::begin_tiles(const SamplesWanted &wanted, const Progress &progress
         device->fold_to(samples_.hull());
     }
     forget_error(); // of an even film, without those of tiles
-    const std::uint64_t pixels = std::uint64_t{samples_.grid().width} * samples_.grid().height;
-    Job job{samples_.most() + wanted.count,
-            wanted.target_error,
-            nullptr,
-            std::make_unique<TileAccumulation>(devices_, samples_, settings_->first_sample, wanted.count * pixels,
-                                               progress, work_),
-            {}};
-    if (!is_adaptive(wanted))
+    if (!is_adaptive(job_->wanted))
         for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
-            job.goals.push_back(samples_.of(tile).count() + wanted.count);
-    job_ = std::move(job);
+            job_->goals.push_back(samples_.of(tile).count() + job_->wanted.count);
+    const std::uint64_t pixels = std::uint64_t{samples_.grid().width} * samples_.grid().height;
+    job_->uneven = std::make_unique<TileAccumulation>(
+        devices_, samples_, settings_->first_sample,
+        SampleDealing::Amount{job_->wanted.count * pixels, job_->even ? job_->even->pixels_done() : 0}, job_->progress,
+        work_);
+    job_->even.reset();
 }
 
 Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
@@ -311,25 +311,34 @@ void Renderer::require_under_way() const {
 
 // With a target error in runs, from each number of samples at which the error is looked at to the next.
 Accumulation::Goal Renderer::next_goal() const {
-    const std::uint64_t check = job_->target_error > 0.0 ? next_check(samples_.of(0).count()) : job_->count;
-    if (check < job_->count)
+    const bool has_target = job_->wanted.target_error > 0.0;
+    const std::uint64_t check = has_target ? next_check(samples_.of(0).count()) : job_->even_count;
+    if (check < job_->even_count)
         return {check, scene_->film_unit};
-    return {job_->count, std::nullopt};
+    return {job_->even_count, std::nullopt};
 }
 
 pt_result Renderer::advance(SampleDealing::Clock::time_point until) {
-    if (job_->uneven)
-        return advance_tiles(until);
+    if (job_->even) {
+        const pt_result result = advance_evenly(until);
+        if (result != PT_OK || job_->even_count == job_->most)
+            return result;
+        tell_tiles_apart();
+    }
+    return advance_tiles(until);
+}
+
+pt_result Renderer::advance_evenly(SampleDealing::Clock::time_point until) {
     Accumulation &accumulation = *job_->even;
-    const double target_error = job_->target_error;
-    const std::uint64_t wanted = job_->count;
+    const std::uint64_t wanted = job_->even_count;
     while (samples_.of(0).count() < wanted) {
-        if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(target_error))
+        if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(job_->wanted.target_error))
             return PT_TARGET_REACHED;
         if (!accumulation.run(next_goal(), until))
             return PT_PENDING;
         take_over(samples_of_job());
-        if (accumulation.stopped() && samples_.of(0).count() < wanted)
+        const bool is_whole = samples_.of(0).count() == job_->most;
+        if (accumulation.stopped() && !is_whole)
             return PT_CANCELLED;
     }
     return PT_OK;
@@ -354,7 +363,7 @@ pt_result Renderer::advance_tiles(SampleDealing::Clock::time_point until) {
 // False if none is.
 bool Renderer::set_tiles(const std::vector<std::uint32_t> &tiles) {
     return job_->uneven->set_goal(tiles, [&](std::uint32_t tile) {
-        return job_->goals.empty() ? std::min(next_level(samples_.of(tile).count()), job_->count) : job_->goals[tile];
+        return job_->goals.empty() ? std::min(next_level(samples_.of(tile).count()), job_->most) : job_->goals[tile];
     });
 }
 
@@ -375,9 +384,10 @@ std::optional<pt_result> Renderer::next_adaptive_tiles() {
     const double high = error().relative_rmse.high;
     std::vector<std::uint32_t> tiles = wanting_tiles(samples_, tile_squares_, round_);
     if (tiles.empty()) {
-        if (high <= job_->target_error)
+        const double target_error = job_->wanted.target_error;
+        if (high <= target_error)
             return PT_TARGET_REACHED;
-        round_ = round_after(round_, samples_, tile_squares_, squared(high / job_->target_error),
+        round_ = round_after(round_, samples_, tile_squares_, squared(high / target_error),
                              (error().uncertain & PT_UNCERTAIN_UNSEEN) != 0);
         tiles = wanting_tiles(samples_, tile_squares_, round_);
     }
@@ -504,8 +514,9 @@ void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
     require_within(sum.bounds(), pixels());
     std::optional<TileSamples> samples = tile_samples(sum.header().tiles, pixels());
     if (!samples)
-        throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles must be whole ones of this context, squares of 8 pixels from "
-                                           "the top left of what is rendered on");
+        throw Error(PT_ERROR_INCOMPATIBLE,
+                    "film: its tiles must be whole ones of this context, squares of 8 pixels from "
+                    "the top left of what is rendered on");
     for (const auto &device : devices_)
         if (!device->pass().empty())
             device->discard_pass();

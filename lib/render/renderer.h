@@ -127,8 +127,10 @@ public:
 private:
     // Samples that are to be taken.
     struct Job {
-        std::uint64_t count; // of the film's pixels, with all of them, and the most of any of them
-        double target_error;
+        SamplesWanted wanted;
+        Progress progress;
+        std::uint64_t most;                 // that a pixel is to have
+        std::uint64_t even_count;           // until all have as many, tiles are not told apart
         std::unique_ptr<Accumulation> even; // one of the two
         std::unique_ptr<TileAccumulation> uneven;
         std::vector<std::uint64_t> goals; // of tiles that are to take equal numbers of samples, though they are uneven
@@ -154,11 +156,12 @@ private:
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
     void begin(const SamplesWanted &wanted, const Progress &progress);
-    void begin_tiles(const SamplesWanted &wanted, const Progress &progress);
+    void tell_tiles_apart();
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
     Accumulation::Goal next_goal() const;
     pt_result advance(SampleDealing::Clock::time_point until);
+    pt_result advance_evenly(SampleDealing::Clock::time_point until);
     pt_result advance_tiles(SampleDealing::Clock::time_point until);
     std::optional<pt_result> next_tiles();
     std::optional<pt_result> next_adaptive_tiles();

@@ -6,12 +6,11 @@
 
 namespace pt {
 
-SampleDealing::SampleDealing(const Devices &devices, std::uint64_t pixels_wanted, const Progress &progress,
-                             DeviceWork &work) :
+SampleDealing::SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress, DeviceWork &work) :
     devices_(devices),
     work_(work),
     progress_(progress),
-    pixels_wanted_(pixels_wanted) {}
+    amount_(amount) {}
 
 // Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
 // next call: so a call comes to an end however short the slices are, and one that finds nothing under way waits for
@@ -48,7 +47,7 @@ bool SampleDealing::complete() noexcept {
 }
 
 double SampleDealing::fraction() const {
-    return std::min(static_cast<double>(pixels_done_) / static_cast<double>(pixels_wanted_), 1.0);
+    return std::min(static_cast<double>(amount_.done) / static_cast<double>(amount_.wanted), 1.0);
 }
 
 // The device whose slice ends first, if one does by that time. Of several it is the first that is seen to be done, for
@@ -72,7 +71,7 @@ void SampleDealing::finish_slice(RenderDevice &device) {
     const auto [paths, seconds] = device.finish();
     ++work_.submit_count;
     work_.seconds += seconds;
-    pixels_done_ += paths;
+    amount_.done += paths;
     if (progress_.function && !stopped_)
         stopped_ = progress_.function(progress_.user, fraction()) != 0;
 }

@@ -31,6 +31,12 @@ public:
     using Devices = std::vector<std::unique_ptr<RenderDevice>>;
     using Clock = std::chrono::steady_clock;
 
+    // What the progress is about, in pixels times samples.
+    struct Amount {
+        std::uint64_t wanted;
+        std::uint64_t done = 0; // of them, before
+    };
+
     virtual ~SampleDealing() = default;
     SampleDealing(const SampleDealing &) = delete;
     SampleDealing &operator=(const SampleDealing &) = delete;
@@ -48,10 +54,11 @@ public:
 
     // Share of the wanted samples that are done, in [0, 1].
     double fraction() const;
+    std::uint64_t pixels_done() const { return amount_.done; }
 
 protected:
-    // Devices and work must outlive it. pixels_wanted: times samples, which the progress is about.
-    SampleDealing(const Devices &devices, std::uint64_t pixels_wanted, const Progress &progress, DeviceWork &work);
+    // Devices and work must outlive it.
+    SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress, DeviceWork &work);
 
     // Deals, and takes in what ends, until nothing is left. False if something is still under way at a time.
     bool go_on(Clock::time_point until);
@@ -68,9 +75,8 @@ private:
     const Devices &devices_;
     DeviceWork &work_;
     Progress progress_;
-    std::uint64_t pixels_wanted_;
-    std::uint64_t pixels_done_ = 0; // of them
-    bool stopped_ = false;          // by the caller, or by a failure
+    Amount amount_;
+    bool stopped_ = false; // by the caller, or by a failure
 };
 
 } // namespace pt

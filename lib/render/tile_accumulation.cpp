@@ -2,41 +2,44 @@
 #include "lib/render/tile_accumulation.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace pt {
 
 TileAccumulation::TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
-                                   std::uint64_t pixels_wanted, const Progress &progress, DeviceWork &work) :
-    SampleDealing(devices, pixels_wanted, progress, work),
+                                   const Amount &amount, const Progress &progress, DeviceWork &work) :
+    SampleDealing(devices, amount, progress, work),
     samples_(samples),
     first_sample_(first_sample) {}
 
 // Tiles with fewer samples come first, since they are the most: a device is busiest with them.
 bool TileAccumulation::set_goal(std::span<const std::uint32_t> tiles,
                                 const std::function<std::uint64_t(std::uint32_t)> &goal) {
-    std::map<std::pair<std::uint32_t, std::uint64_t>, Task> tasks; // by what tiles have and are to have
-    for (const std::uint32_t tile : tiles) {
-        const SampleSet &present = samples_.of(tile);
-        const std::uint64_t wanted = goal(tile);
-        if (wanted <= present.count())
-            continue;
-        const auto [entry, is_new] = tasks.try_emplace({samples_.set_of(tile), wanted});
-        Task &task = entry->second;
-        task.tiles.push_back(tile);
-        if (is_new) {
-            task.before = present.empty() ? SampleRange{} : present.hull();
-            task.samples = present.next_missing(first_sample_);
-            task.samples.end = std::min({task.samples.end, task.samples.first + (wanted - present.count()),
-                                         end_of_run(task.before, task.samples.first)});
-        }
-    }
     tasks_.clear();
-    for (auto &[key, task] : tasks)
-        tasks_.push_back(std::move(task));
+    for (const std::uint32_t tile : tiles) {
+        const std::uint64_t wanted = goal(tile);
+        if (wanted > samples_.of(tile).count())
+            task_of(samples_.set_of(tile), wanted).tiles.push_back(tile);
+    }
     std::ranges::stable_sort(tasks_, std::ranges::greater(), [](const Task &task) { return task.samples.count(); });
     return !tasks_.empty();
+}
+
+// There are a few dozen tasks at the most, and thousands of tiles.
+TileAccumulation::Task &TileAccumulation::task_of(std::uint32_t set, std::uint64_t wanted) {
+    const auto found =
+        std::ranges::find_if(tasks_, [&](const Task &task) { return task.set == set && task.wanted == wanted; });
+    if (found != tasks_.end())
+        return *found;
+    const SampleSet &present = samples_.sets()[set];
+    Task &task = tasks_.emplace_back();
+    task.set = set;
+    task.wanted = wanted;
+    task.before = present.empty() ? SampleRange{} : present.hull();
+    task.samples = present.next_missing(first_sample_);
+    task.samples.end = std::min({task.samples.end, task.samples.first + (wanted - present.count()),
+                                 end_of_run(task.before, task.samples.first)});
+    return task;
 }
 
 bool TileAccumulation::run(Clock::time_point until) {

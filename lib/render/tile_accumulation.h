@@ -14,10 +14,9 @@ namespace pt {
 
 class TileAccumulation : public SampleDealing {
 public:
-    // Devices and work must outlive it. samples: those that the films hold. pixels_wanted: times samples, which the
-    // progress is about.
+    // Devices and work must outlive it. samples: those that the films hold.
     TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
-                     std::uint64_t pixels_wanted, const Progress &progress, DeviceWork &work);
+                     const Amount &amount, const Progress &progress, DeviceWork &work);
 
     // Sets what is to be done next: those of the tiles that have fewer samples than they are to have take more, as far as
     // a part of the film stays the same: some may have fewer than that afterwards, and are to be set again. False if none
@@ -34,13 +33,16 @@ public:
 private:
     // Tiles with equal samples that take the same ones.
     struct Task {
+        std::uint32_t set = 0;            // that they have, by TileSamples
+        std::uint64_t wanted = 0;         // samples that they are to have
         std::vector<std::uint32_t> tiles; // ascending
-        SampleRange before;               // from the first to the last that they have
+        SampleRange before;               // from the first to the last sample that they have
         SampleRange samples;              // to be taken
-        SampleRange chunk{};              // of these, that which tiles take now
+        SampleRange chunk;                // of these, that which tiles take now
         std::size_t next_tile = 0;        // that takes it next
     };
 
+    Task &task_of(std::uint32_t set, std::uint64_t wanted);
     void deal() override;
     bool deal_to(RenderDevice &device);
     void fold_on_others(const RenderDevice &device, const TileSlice &slice) const;

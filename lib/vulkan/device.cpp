@@ -103,6 +103,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .polling = cpu ? std::chrono::nanoseconds{0} : gpu_polling,
             .tests_per_second = tests_per_second(info.kind),
             .tree_from = cpu ? DevicePolicy{}.tree_from : gpu_tree_from,
+            .adaptive_from = cpu ? 0 : DevicePolicy{}.adaptive_from,
             .walk_trips = cpu ? 0 : gpu_walk_trips,
             .resolve_on_device = !cpu};
 }
