@@ -23,27 +23,6 @@ double bound_of(std::int32_t round) {
     return std::ldexp((round & 1) != 0 ? root_of_half : 1.0, -halves);
 }
 
-// What as many samples again are expected to gain, half of the square, for each sample they cost; but for that half.
-// Nothing if the square is unknown.
-class Gains {
-public:
-    Gains(const TileSamples &samples, std::span<const double> squares) : samples_(samples), squares_(squares) {
-        for (const SampleSet &set : samples.sets())
-            counts_.push_back(static_cast<double>(set.count()));
-    }
-
-    double of(std::size_t tile) const {
-        const auto pixels = static_cast<double>(samples_.grid().pixels(tile).pixel_count());
-        const double square = squares_[tile];
-        return std::isfinite(square) ? square / (pixels * counts_[samples_.set_of(tile)]) : 0.0;
-    }
-
-private:
-    const TileSamples &samples_;
-    std::span<const double> squares_;
-    std::vector<double> counts_; // of the sets
-};
-
 // The last round whose bound a gain > 0 does not exceed: -2 log2(gain), rounded down.
 std::int32_t last_content_round(double gain) {
     int exponent = 0;
@@ -54,15 +33,13 @@ std::int32_t last_content_round(double gain) {
 // The squares of tiles by the last round that asks nothing of them.
 using SquaresByRound = std::map<std::int32_t, double>;
 
-SquaresByRound by_content_round(const TileSamples &samples, std::span<const double> squares) {
+SquaresByRound by_content_round(std::span<const double> gains, std::span<const double> squares) {
     SquaresByRound sums;
     auto last = sums.end();
-    const Gains gains(samples, squares);
-    for (std::size_t tile = 0; tile < samples.grid().count(); ++tile) {
-        const double gain = gains.of(tile);
-        if (!(gain > 0.0))
+    for (std::size_t tile = 0; tile < gains.size(); ++tile) {
+        if (!(gains[tile] > 0.0))
             continue;
-        const std::int32_t round = last_content_round(gain);
+        const std::int32_t round = last_content_round(gains[tile]);
         if (last == sums.end() || last->first != round) // neighbours are alike
             last = sums.try_emplace(round, 0.0).first;
         last->second += squares[tile];
@@ -97,15 +74,37 @@ std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) {
     return tiles;
 }
 
-std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> squares,
+// Half of the square for each sample, but for that half. Row by row, since a division for each tile takes longer than all
+// that is done with it.
+std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
+    std::vector<double> shares; // of the sets
+    for (const SampleSet &set : samples.sets())
+        shares.push_back(1.0 / static_cast<double>(std::max<std::uint64_t>(set.count(), 1)));
+    const TileGrid &grid = samples.grid();
+    std::vector<double> gains;
+    gains.reserve(squares.size());
+    for (std::uint32_t y = 0; y < grid.height; y += gpu::TILE_SIZE)
+        for (std::uint32_t x = 0; x < grid.width; x += gpu::TILE_SIZE) {
+            const std::size_t tile = gains.size();
+            const std::uint32_t pixels =
+                std::min(gpu::TILE_SIZE, grid.width - x) * std::min(gpu::TILE_SIZE, grid.height - y);
+            const double square = std::isfinite(squares[tile]) ? squares[tile] : 0.0;
+            gains.push_back(square * shares[samples.set_of(tile)] / pixels);
+        }
+    return gains;
+}
+
+std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          const AdaptiveRound &round) {
     std::vector<std::uint32_t> tiles;
     if (round.number == AdaptiveRound::none)
         return tiles;
+    std::vector<std::uint8_t> is_below_floor; // by set
+    for (const SampleSet &set : samples.sets())
+        is_below_floor.push_back(set.count() < round.floor ? 1 : 0);
     const double bound = bound_of(round.number);
-    const Gains gains(samples, squares);
-    for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
-        if (samples.of(tile).count() < round.floor || gains.of(tile) > bound)
+    for (std::uint32_t tile = 0; tile < gains.size(); ++tile)
+        if (gains[tile] > bound || is_below_floor[samples.set_of(tile)] != 0)
             tiles.push_back(tile);
     return tiles;
 }
@@ -113,13 +112,13 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
 // The further the target, the more rounds are left out: half of those that it is expected to take. With stratified samples
 // squares fall faster than expected, so that the target is hardly ever left behind by much.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
-                          double excess, bool sees_too_little) {
+                          std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
     const std::uint64_t share = samples.total() / pixels / floor_share;
     AdaptiveRound next{round.number, std::max(round.floor, std::bit_floor(share))};
     if (sees_too_little)
         next.floor = std::max(next.floor, next_level(samples.least()));
-    const SquaresByRound by_round = by_content_round(samples, squares);
+    const SquaresByRound by_round = by_content_round(gains, squares);
     if (by_round.empty()) {
         next.floor = std::max(next.floor, next_level(samples.least()));
         next.number = std::max(next.number, 0);

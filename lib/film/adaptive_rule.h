@@ -24,15 +24,18 @@ bool is_level(std::uint64_t sample_count);
 // The tiles that were interrupted on their way to a level, or have not begun.
 std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 
-// The tiles that are to take as many samples again in this round, all of them being at a level. squares: by tile, what is
-// expected of the sum of the squares of its values' relative errors.
-std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> squares,
+// By tile, what as many samples again are expected to lessen its square by, for each sample of a pixel that they cost; 0 if
+// that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
+std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
+
+// The tiles that are to take as many samples again in this round, all of them being at a level.
+std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          const AdaptiveRound &round);
 
 // The round that follows one in which no tile wants more. excess > 1: the square of the image's error over that of its
 // target; infinite if the error is unknown. sees_too_little: much of it is light that no sample has met
 // (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more. Some tile wants more in it.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
-                          double excess, bool sees_too_little);
+                          std::span<const double> gains, double excess, bool sees_too_little);
 
 } // namespace pt

@@ -382,14 +382,15 @@ std::optional<pt_result> Renderer::next_tiles() {
 // The error is looked at while all tiles are at a level: the round goes on, or ends, and with the last one the samples.
 std::optional<pt_result> Renderer::next_adaptive_tiles() {
     const double high = error().relative_rmse.high;
-    std::vector<std::uint32_t> tiles = wanting_tiles(samples_, tile_squares_, round_);
+    const std::vector<double> gains = tile_gains(samples_, tile_squares_);
+    std::vector<std::uint32_t> tiles = wanting_tiles(samples_, gains, round_);
     if (tiles.empty()) {
         const double target_error = job_->wanted.target_error;
         if (high <= target_error)
             return PT_TARGET_REACHED;
-        round_ = round_after(round_, samples_, tile_squares_, squared(high / target_error),
+        round_ = round_after(round_, samples_, tile_squares_, gains, squared(high / target_error),
                              (error().uncertain & PT_UNCERTAIN_UNSEEN) != 0);
-        tiles = wanting_tiles(samples_, tile_squares_, round_);
+        tiles = wanting_tiles(samples_, gains, round_);
     }
     return set_tiles(tiles) ? std::nullopt : std::optional<pt_result>(PT_OK);
 }

@@ -64,14 +64,15 @@ Sampled sampled_until(const std::vector<double> &variances, double target, const
     Sampled film{first_samples(), {}, 0};
     for (;;) {
         const std::vector<double> squares = model_squares(film.samples, variances);
+        const std::vector<double> gains = pt::tile_gains(film.samples, squares);
         ++film.looks;
-        const std::vector<std::uint32_t> wanting = pt::wanting_tiles(film.samples, squares, film.round);
+        const std::vector<std::uint32_t> wanting = pt::wanting_tiles(film.samples, gains, film.round);
         if (wanting.empty()) {
             const double ratio = model_error(film.samples, variances) / target;
             if (ratio <= 1.0)
                 return film;
-            film.round = pt::round_after(film.round, film.samples, squares, ratio * ratio, false);
-            EXPECT_FALSE(pt::wanting_tiles(film.samples, squares, film.round).empty());
+            film.round = pt::round_after(film.round, film.samples, squares, gains, ratio * ratio, false);
+            EXPECT_FALSE(pt::wanting_tiles(film.samples, gains, film.round).empty());
             continue;
         }
         for (const std::uint32_t tile : choose(wanting))
@@ -184,8 +185,9 @@ TEST(AdaptiveRule, WhatIsUnknownIsSampledEvenly) {
     const TileSamples samples = first_samples();
     for (const double square : {0.0, static_cast<double>(INFINITY)}) {
         const std::vector<double> squares(model_grid.count(), square);
-        const AdaptiveRound next = pt::round_after({}, samples, squares, INFINITY, false);
-        EXPECT_EQ(pt::wanting_tiles(samples, squares, next).size(), model_grid.count());
+        const std::vector<double> gains = pt::tile_gains(samples, squares);
+        const AdaptiveRound next = pt::round_after({}, samples, squares, gains, INFINITY, false);
+        EXPECT_EQ(pt::wanting_tiles(samples, gains, next).size(), model_grid.count());
     }
 }
 
@@ -198,9 +200,10 @@ TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
             double_samples(samples, tile);
     std::vector<double> squares(model_grid.count(), 0.0);
     squares[700] = 1e-3;
+    const std::vector<double> gains = pt::tile_gains(samples, squares);
     for (const bool unseen : {false, true}) {
-        const AdaptiveRound next = pt::round_after({}, samples, squares, 1.1, unseen);
-        const std::vector<std::uint32_t> wanting = pt::wanting_tiles(samples, squares, next);
+        const AdaptiveRound next = pt::round_after({}, samples, squares, gains, 1.1, unseen);
+        const std::vector<std::uint32_t> wanting = pt::wanting_tiles(samples, gains, next);
         EXPECT_EQ(wanting.size(), unseen ? 4U : 1U);
     }
 }
