@@ -28,6 +28,9 @@ std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 // that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
+// Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
+bool are_worth_telling_apart(std::span<const double> gains);
+
 // The tiles that are to take as many samples again in this round, all of them being at a level.
 std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<const double> gains,
                                          const AdaptiveRound &round);

@@ -233,7 +233,7 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
     const std::uint64_t most = samples_.most() + wanted.count;
-    const std::uint64_t apart_from = is_adaptive(wanted) ? devices_.front()->device().policy().adaptive_from : most;
+    const std::uint64_t apart_from = is_adaptive(wanted) ? adaptive_from() : most;
     Job job{wanted, progress, most, std::min(most, apart_from), nullptr, nullptr, {}};
     const bool is_even = samples_.even() && samples_.of(0).count() < job.even_count;
     if (is_even)
@@ -242,6 +242,12 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
     job_ = std::move(job);
     if (!is_even)
         tell_tiles_apart();
+}
+
+// A look takes the time of more samples where paths are short.
+std::uint64_t Renderer::adaptive_from() const {
+    const std::uint64_t samples = devices_.front()->device().policy().adaptive_from;
+    return settings_->max_path_length > 2 ? samples : 4 * samples;
 }
 
 // What is left of an even film: a pass, of which it has nothing yet, and splits that have moved while a device took no
@@ -359,24 +365,44 @@ pt_result Renderer::advance_tiles(SampleDealing::Clock::time_point until) {
     }
 }
 
-// Those of the tiles that are to take samples now, until the next level of adaptive_rule.h or what has been asked for.
+// Those of the tiles that are to take samples now, until the count that goal() gives for a tile, or what has been asked for.
 // False if none is.
-bool Renderer::set_tiles(const std::vector<std::uint32_t> &tiles) {
-    return job_->uneven->set_goal(tiles, [&](std::uint32_t tile) {
-        return job_->goals.empty() ? std::min(next_level(samples_.of(tile).count()), job_->most) : job_->goals[tile];
-    });
+bool Renderer::set_tiles(const std::vector<std::uint32_t> &tiles,
+                         const std::function<std::uint64_t(std::uint32_t)> &goal) {
+    return job_->uneven->set_goal(tiles, [&](std::uint32_t tile) { return std::min(goal(tile), job_->most); });
+}
+
+bool Renderer::set_all_tiles(const std::function<std::uint64_t(std::uint32_t)> &goal) {
+    std::vector<std::uint32_t> all(samples_.grid().count());
+    std::iota(all.begin(), all.end(), 0U);
+    return set_tiles(all, goal);
 }
 
 // Decides what is done next, or that nothing is.
 std::optional<pt_result> Renderer::next_tiles() {
-    if (!job_->goals.empty()) {
-        std::vector<std::uint32_t> all(samples_.grid().count());
-        std::iota(all.begin(), all.end(), 0U);
-        return set_tiles(all) ? std::nullopt : std::optional<pt_result>(PT_OK);
-    }
+    const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
+    if (!job_->goals.empty())
+        return unless_done(set_all_tiles([&](std::uint32_t tile) { return job_->goals[tile]; }));
+    if (samples_.even() && round_.number == AdaptiveRound::none)
+        return next_even_tiles();
+    const auto level_after = [&](std::uint32_t tile) { return next_level(samples_.of(tile).count()); };
     if (const std::vector<std::uint32_t> unfinished = unfinished_tiles(samples_); !unfinished.empty())
-        return set_tiles(unfinished) ? std::nullopt : std::optional<pt_result>(PT_OK);
+        return unless_done(set_tiles(unfinished, level_after));
     return next_adaptive_tiles();
+}
+
+// As long as tiles are not told apart: the error is looked at as with even samples, and at each level whether it pays to.
+std::optional<pt_result> Renderer::next_even_tiles() {
+    const std::uint64_t count = samples_.of(0).count();
+    if (is_on_target(job_->wanted.target_error))
+        return PT_TARGET_REACHED;
+    if (is_level(count)) {
+        error();
+        if (are_worth_telling_apart(tile_gains(samples_, tile_squares_)))
+            return next_adaptive_tiles();
+    }
+    return set_all_tiles([&](std::uint32_t) { return next_check(count); }) ? std::nullopt
+                                                                           : std::optional<pt_result>(PT_OK);
 }
 
 // The error is looked at while all tiles are at a level: the round goes on, or ends, and with the last one the samples.
@@ -392,7 +418,8 @@ std::optional<pt_result> Renderer::next_adaptive_tiles() {
                              (error().uncertain & PT_UNCERTAIN_UNSEEN) != 0);
         tiles = wanting_tiles(samples_, gains, round_);
     }
-    return set_tiles(tiles) ? std::nullopt : std::optional<pt_result>(PT_OK);
+    const auto level_after = [&](std::uint32_t tile) { return next_level(samples_.of(tile).count()); };
+    return set_tiles(tiles, level_after) ? std::nullopt : std::optional<pt_result>(PT_OK);
 }
 
 // The whole ones that the films hold. Nothing may be under way.

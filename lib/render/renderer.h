@@ -27,6 +27,7 @@
 #include <pt/stats.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -155,6 +156,7 @@ private:
     const ErrorEstimate &error();
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
+    std::uint64_t adaptive_from() const;
     void begin(const SamplesWanted &wanted, const Progress &progress);
     void tell_tiles_apart();
     Advance go_on(std::uint64_t nanoseconds);
@@ -165,7 +167,9 @@ private:
     pt_result advance_tiles(SampleDealing::Clock::time_point until);
     std::optional<pt_result> next_tiles();
     std::optional<pt_result> next_adaptive_tiles();
-    bool set_tiles(const std::vector<std::uint32_t> &tiles);
+    std::optional<pt_result> next_even_tiles();
+    bool set_tiles(const std::vector<std::uint32_t> &tiles, const std::function<std::uint64_t(std::uint32_t)> &goal);
+    bool set_all_tiles(const std::function<std::uint64_t(std::uint32_t)> &goal);
     TileSamples samples_of_job();
     void take_over(TileSamples samples) noexcept;
     void forget_error() noexcept;

@@ -208,6 +208,17 @@ TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     }
 }
 
+// mean(v) mean(1) / mean(root v)^2 of two kinds of tiles, half of each: 2 (1 + r) / (1 + root r)^2 for their ratio r.
+TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
+    std::vector<double> gains(1000, 1.0);
+    EXPECT_FALSE(pt::are_worth_telling_apart(gains));
+    EXPECT_FALSE(pt::are_worth_telling_apart(std::vector<double>(1000, 0.0)));
+    for (const auto &[ratio, expected] : {std::pair{6.8, false}, {6.9, true}}) {
+        std::fill_n(gains.begin(), 500, ratio);
+        EXPECT_EQ(pt::are_worth_telling_apart(gains), expected) << ratio;
+    }
+}
+
 TEST(AdaptiveRule, OfTwoFilmsTheLaterRoundGoesOn) {
     EXPECT_EQ(pt::later_of({3, 16}, {5, 8}), (AdaptiveRound{5, 16}));
     EXPECT_EQ(pt::later_of({}, {-4, 0}), (AdaptiveRound{-4, 0}));
