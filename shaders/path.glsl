@@ -125,8 +125,10 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
 // Takes the path to what its ray has met, with the light of the lamp, which arrives if nothing is in between.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
-    float share = SPOT_COUNT > 0u ? path.share : 1.0;
-    path.radiance += departure.lamp.light * (blocked ? 0.0 : departure.lamp.weight * share);
+    float lamp_weight = departure.lamp.weight;
+    if (SPOT_COUNT > 0u)
+        lamp_weight *= path.share;
+    path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
     // What the next vertex emits, weighted against lamp sampling if that could have found it too.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
@@ -138,10 +140,14 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
             float samples = lamp_samples(choice, departure.every_lamp, departure.directions);
             weight = direction_weight_against(departure.density, cone_density(choice.view) * samples);
         }
-        path.radiance += path.throughput * emission_of(hit.surface).rgb * (weight * share);
+        if (SPOT_COUNT > 0u)
+            weight *= path.share;
+        path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
     }
-    path.density = departure.density;
-    path.share = 1.0;
+    if (SPOT_COUNT > 0u) {
+        path.density = departure.density;
+        path.share = 1.0;
+    }
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
 
