@@ -23,12 +23,14 @@ struct Path {
     vec3 radiance;
     uint vertex_count; // so far
     bool alive;        // whether it goes on from there
-    float density;     // of the direction that led there, times the directions that the vertex before took
-    float share;       // of the light that its next departure finds; the rest is found by way of a spot
 };
 
+// Beside the path of an invocation, with spots. Not in Path, which costs kernels without them 4% of their time.
+float arrival_density; // of the direction that led to the last vertex, times the directions that the vertex before took
+float departure_share; // of the light that the next departure finds; the rest is found by way of a spot
+
 // At its first vertex.
-Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true, 0.0, 1.0); }
+Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
 // Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
 // importance sampling, or all to the lamps. A density here is that of one sample times the number of such samples
@@ -127,7 +129,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
 {
     float lamp_weight = departure.lamp.weight;
     if (SPOT_COUNT > 0u)
-        lamp_weight *= path.share;
+        lamp_weight *= departure_share;
     path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
     // What the next vertex emits, weighted against lamp sampling if that could have found it too.
@@ -141,12 +143,12 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
             weight = direction_weight_against(departure.density, cone_density(choice.view) * samples);
         }
         if (SPOT_COUNT > 0u)
-            weight *= path.share;
+            weight *= departure_share;
         path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
     }
     if (SPOT_COUNT > 0u) {
-        path.density = departure.density;
-        path.share = 1.0;
+        arrival_density = departure.density;
+        departure_share = 1.0;
     }
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
@@ -255,6 +257,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     float weight = power_heuristic(density, towards.density * float(BRANCH_COUNT)) / density;
     path.throughput = towards.f * (met ? towards.cosine * weight : 0.0);
     path.vertex_count = 2u;
+    departure_share = 1.0;
     extend(path, key, blocks_at_spot(), MAX_PATH_LENGTH - 1u, time);
     return path.radiance;
 }
@@ -264,7 +267,7 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 {
     float distance = dot(path.arrival.point - first.position, path.arrival.direction);
     float density = spot_density(spots, path.arrival, distance, time);
-    return density > 0.0 ? power_heuristic(path.density, density) : 1.0;
+    return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
 // Light that the first vertex and all paths from it bring. What it sends to the camera is most of the picture, so it
@@ -314,9 +317,11 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
         numbers.z = lobe_number(numbers.z, branch, directions);
         Path path = path_from(arrival);
+        if (SPOT_COUNT > 0u)
+            departure_share = 1.0;
         leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP, time, numbers, directions);
         if (SPOT_COUNT > 0u)
-            path.share = share_beside_spots(spots, path, vertex, time);
+            departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {
                 extend(path, branch_numbers, later_vertex_blocks(path.vertex_count), path.vertex_count, time);
