@@ -18,10 +18,22 @@ vec2 every_lamp_numbers(SampleKey key, uint lamp)
     return sample_block(key, 1u + lamp).xy;
 }
 
+// Of the way by a spot: place about it (x, y) and which spot (z).
+vec3 spot_numbers(SampleKey key)
+{
+    return sample_block(key, every_lamp_blocks(LAMP_COUNT)).xyz;
+}
+
+// Where the blocks of what follows at the spot begin: those of a later vertex.
+uint blocks_at_spot()
+{
+    return every_lamp_blocks(LAMP_COUNT) + 1u;
+}
+
 // Where the blocks of a branch begin for its first vertex, which is number 1, and for a later one.
 uint first_vertex_blocks()
 {
-    return shared_blocks(LAMP_COUNT);
+    return shared_blocks(LAMP_COUNT, SPOT_COUNT);
 }
 
 uint later_vertex_blocks(uint vertex)

@@ -50,7 +50,8 @@ PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of t
 PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0: there is none
 PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
 PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
-PT_CONSTANT CONSTANT_COUNT = 29;
+PT_CONSTANT ID_SPOT_COUNT = 29;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
+PT_CONSTANT CONSTANT_COUNT = 30;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -73,15 +74,23 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 // ---- Numbers of a sample: each that a path consumes is a dimension of its own ---------------------------------------
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
 // and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex
-// (2). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
+// (2); with spots, the way by one of them: the direction (2) and which spot (1), and at the spot what a later vertex
+// consumes: lamp (3) and direction (2 or 3). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
 // several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
 // and survival of Russian roulette (1, for long paths). The dimensions of a sequence are dealt to the blocks in this
 // order: the low ones are its best, and go to what makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
+PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-PT_FUNCTION uint shared_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
+// Blocks before those of the way by a spot, of that way, and of all that branches share.
+PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
+PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
+PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count)
+{
+    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count);
+}
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
     return lamp_count == 0 || (vertex == 1 && lamp_count <= EVERY_LAMP_LIMIT) ? 0 : lamp_count == 1 ? 2 : 3;
@@ -96,10 +105,11 @@ PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 }
 
 // Blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count)
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count)
 {
-    const uint first = shared_blocks(lamp_count) + vertex_blocks(1, lamp_count);
-    return max_path_length < 2 ? shared_blocks(lamp_count)
+    const uint of_sample = shared_blocks(lamp_count, spot_count);
+    const uint first = of_sample + vertex_blocks(1, lamp_count);
+    return max_path_length < 2 ? of_sample
                                : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
@@ -150,6 +160,8 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 //   tree              of lamps, if they have one (below), which is read from the storage buffer
+//   spots[SPOT_COUNT] lamp and surface: MATERIAL_INDEX_BITS + each, as the bits of floats; what the surface reflects of
+//                     light, the mean of R, G and B; glossiness of a mirror image, -1 of a glow (never in the storage buffer)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // A scene that would be longer is in the storage buffer, where surfaces of one material share its words:

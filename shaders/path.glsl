@@ -7,6 +7,7 @@
 #include "intersect.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
+#include "spots.glsl"
 #include "tree_walk.glsl"
 #include "vertex.glsl"
 
@@ -23,6 +24,10 @@ struct Path {
     uint vertex_count; // so far
     bool alive;        // whether it goes on from there
 };
+
+// Of the path that an invocation is on, with spots: kernels without them have nothing of it.
+float arrival_density; // of the direction that led to the last vertex, times the directions that the vertex before took
+float departure_share; // of the light that the next departure finds; the rest is found by way of a spot
 
 // At its first vertex.
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
@@ -122,7 +127,10 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
 // Takes the path to what its ray has met, with the light of the lamp, which arrives if nothing is in between.
 void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
 {
-    path.radiance += departure.lamp.light * (blocked ? 0.0 : departure.lamp.weight);
+    float lamp_weight = departure.lamp.weight;
+    if (SPOT_COUNT > 0u)
+        lamp_weight *= departure_share;
+    path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
 
     // What the next vertex emits, weighted against lamp sampling if that could have found it too.
     path.alive = hit.surface != NO_SURFACE && departure.carries_light;
@@ -134,7 +142,13 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
             float samples = lamp_samples(choice, departure.every_lamp, departure.directions);
             weight = direction_weight_against(departure.density, cone_density(choice.view) * samples);
         }
+        if (SPOT_COUNT > 0u)
+            weight *= departure_share;
         path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
+    }
+    if (SPOT_COUNT > 0u) {
+        arrival_density = departure.density;
+        departure_share = 1.0;
     }
     path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
     ++path.vertex_count;
@@ -208,12 +222,12 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Takes a path from a vertex beyond the first to the next.
-void extend(inout Path path, SampleKey key, float time)
+// Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the number
+// of the vertex, or of that as which it is left.
+void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);
-    Material material = material_to_leave(vertex.surface, path.vertex_count);
-    uint begin = later_vertex_blocks(path.vertex_count);
+    Material material = material_to_leave(vertex.surface, as_vertex);
     Lamps lamps;
     LampLight lamp = no_lamp_light();
     if (SAMPLE_LAMPS) {
@@ -223,6 +237,37 @@ void extend(inout Path path, SampleKey key, float time)
     }
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
     leave(path, vertex, material, lamp, lamps, false, time, numbers, 1.0);
+}
+
+// Light that reaches the first vertex over one more, in the direction of a spot: weighted against the branches, which find
+// it too (Veach 1997, chapter 9). The path ends there; what comes over more vertices is the branches' alone.
+vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
+{
+    vec3 numbers = spot_numbers(key);
+    uint spot = choose_spot(spots, numbers.z);
+    vec3 direction = direction_to_spot(spots, spot, vertex.position, time, numbers.xy);
+    Reflection towards = reflection(material, vertex, direction);
+    Start start = Start(vertex.position, vertex.surface, vertex.inside);
+    bool blocked;
+    Hit hit = ahead(closest_hit_and_shadow(start, time, direction, NO_SHADOW_RAY, blocked));
+
+    Path path = path_from(Arrival(vertex.position + hit.distance * direction, direction, spot_surface(spot)));
+    float density = spot_density(spots, path.arrival, hit.distance, time);
+    bool met = hit.surface == path.arrival.surface && density > 0.0;
+    float weight = power_heuristic(density, towards.density * float(BRANCH_COUNT)) / density;
+    path.throughput = towards.f * (met ? towards.cosine * weight : 0.0);
+    path.vertex_count = 2u;
+    departure_share = 1.0;
+    extend(path, key, blocks_at_spot(), MAX_PATH_LENGTH - 1u, time);
+    return path.radiance;
+}
+
+// The branch's share of the light that reaches the first vertex over the one where the branch has arrived.
+float share_beside_spots(Spots spots, Path path, Vertex first, float time)
+{
+    float distance = dot(path.arrival.point - first.position, path.arrival.direction);
+    float density = spot_density(spots, path.arrival, distance, time);
+    return density > 0.0 ? power_heuristic(arrival_density, density) : 1.0;
 }
 
 // Light that the first vertex and all paths from it bring. What it sends to the camera is most of the picture, so it
@@ -250,6 +295,12 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         } while (i < LAMP_COUNT);
     }
 
+    Spots spots;
+    if (SPOT_COUNT > 0u) {
+        spots = spots_from(vertex, time);
+        radiance += light_by_way_of_spot(vertex, material, spots, key, time);
+    }
+
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
@@ -266,10 +317,14 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
         numbers.z = lobe_number(numbers.z, branch, directions);
         Path path = path_from(arrival);
+        if (SPOT_COUNT > 0u)
+            departure_share = 1.0;
         leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP, time, numbers, directions);
+        if (SPOT_COUNT > 0u)
+            departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {
-                extend(path, branch_numbers, time);
+                extend(path, branch_numbers, later_vertex_blocks(path.vertex_count), path.vertex_count, time);
             } while (path.alive && path.vertex_count < MAX_PATH_LENGTH);
         }
         radiance += path.radiance;

@@ -22,7 +22,7 @@ layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pa
 // A sample of this invocation's pixel by its number in the slice.
 SampleKey key_of(uint pixel_index, uint number)
 {
-    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
+    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, SPOT_COUNT), BRANCH_COUNT);
     return SampleKey(frame.seed, pixel_index, frame.first_sample + number, number * row_length);
 }
 

@@ -23,7 +23,7 @@ SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
     umulExtended(key.sample_index, BRANCH_COUNT, high, low);
-    uint branch_blocks = TABLE_BLOCKS - shared_blocks(LAMP_COUNT);
+    uint branch_blocks = TABLE_BLOCKS - shared_blocks(LAMP_COUNT, SPOT_COUNT);
     return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.row + branch * branch_blocks);
 }
 
@@ -52,7 +52,7 @@ uvec4 pcg4d(uvec4 v)
 // (Cranley and Patterson 1976).
 uvec4 sample_words(SampleKey key, uint block)
 {
-    const bool all_in_table = path_blocks(MAX_PATH_LENGTH, LAMP_COUNT) <= TABLE_BLOCKS;
+    const bool all_in_table = path_blocks(MAX_PATH_LENGTH, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
     bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table || block < TABLE_BLOCKS);
     uvec4 words = pcg4d(uvec4(key.pixel, in_table ? 0u : key.sample_index, block + key.seed.x, key.seed.y));
     if (in_table) {

@@ -37,6 +37,7 @@ layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
 layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 layout(constant_id = ID_WALK_TRIPS) const uint WALK_TRIPS = 0;
+layout(constant_id = ID_SPOT_COUNT) const uint SPOT_COUNT = 0;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];
@@ -106,7 +107,8 @@ const uint SPECULAR = 3u * SURFACE_COUNT;
 const uint MOTIONS = HAS_TABLE ? EMISSION + EMITTING_SPHERES + PLANES_EMIT * PLANE_COUNT : (3u + GLOSS) * SURFACE_COUNT;
 const uint CURVATURES = MOTIONS + MOTION * SPHERE_COUNT;
 const uint LAMP_TREE = CURVATURES + CURVATURE * PLANE_COUNT;
-// ... and those of the storage buffer alone.
+// ... that of the uniform buffer alone, and those of the storage buffer alone.
+const uint SPOTS = LAMP_TREE + LAMP_TREE_WORDS;
 const uint INDICES = LAMP_TREE + LAMP_TREE_WORDS;
 const uint TREE_FRAME = INDICES + (SURFACE_COUNT + 3u) / 4u;
 const uint TABLE = TREE_FRAME + 5u * TREE;

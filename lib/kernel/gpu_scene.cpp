@@ -3,6 +3,7 @@
 
 #include "lib/base/mixed.h"
 #include "lib/kernel/lamp_tree_words.h"
+#include "lib/kernel/light_spots.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/ray_start.h"
 #include "lib/scene/seen_scene.h"
@@ -75,6 +76,12 @@ public:
         if (features_.curvature)
             words_[blocks_.curvature + surface - features_.sphere_count] =
                 glm::vec4(static_cast<float>(plane.curvature), glm::vec3(plane.way));
+    }
+
+    void spot(std::uint32_t index, const LightSpot &spot) {
+        words_[blocks_.spots + index] = {std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + spot.lamp),
+                                         std::bit_cast<float>(gpu::MATERIAL_INDEX_BITS + spot.surface),
+                                         spot.reflectance, spot.glossiness};
     }
 
     void tree(const SphereTree &tree, const Camera &camera, const std::vector<Material> &materials) {
@@ -156,6 +163,11 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     }
     for (std::uint32_t i = 0; i < features.table_materials; ++i)
         writer.reflection(i, scene.used_materials[i]);
+    if (features.spot_count > 0) {
+        std::uint32_t index = 0;
+        for (const LightSpot &spot : light_spots(surfaces, scene.scene.materials))
+            writer.spot(index++, spot);
+    }
     if (scene.tree)
         writer.tree(*scene.tree, camera, scene.scene.materials);
     if (features.lamp_tree) {

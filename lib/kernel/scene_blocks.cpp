@@ -19,7 +19,8 @@ SceneBlocks::SceneBlocks(const Features &features) {
         diffuse = 2 * surfaces;
         specular = 3 * surfaces;
         reflection_step = 1;
-        word_count = index;
+        spots = index;
+        word_count = spots + features.spot_count;
     } else {
         tree = index + (surfaces + 3) / 4;
         diffuse = tree + (features.tree ? sizeof(gpu::TreeFrame) / sizeof(glm::vec4) : 0);

@@ -2,6 +2,7 @@
 #include "lib/kernel/scene_features.h"
 
 #include "lib/kernel/lamp_tree_words.h"
+#include "lib/kernel/light_spots.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
@@ -146,12 +147,17 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features.scene_in_uniform = false;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
+    if (features.scene_in_uniform && samples_lamps(render) && render.max_path_length > 2 &&
+        features.lamp_count <= gpu::EVERY_LAMP_LIMIT &&
+        SceneBlocks(features).word_count + gpu::SPOT_LIMIT <= gpu::UNIFORM_SCENE_WORDS)
+        features.spot_count = static_cast<std::uint32_t>(light_spots(surfaces, scene.scene.materials).size());
     features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
     return features;
 }
 
 std::uint32_t branch_count(const Features &features) {
-    const std::uint32_t branches = features.many_spheres ? 2 : 4;
+    const bool spots_find_most = features.spot_count > 0 && features.max_path_length == 3;
+    const std::uint32_t branches = features.many_spheres || spots_find_most ? 2 : 4;
     constexpr std::uint64_t max_trips = 1 << 14; // a quarter of what those drivers allow: some samples to a submission
     const bool affordable = branches * loop_trips_per_branch(features) <= max_trips;
     return features.max_path_length > 2 && affordable ? branches : 1;
@@ -168,14 +174,20 @@ std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count);
+    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count, features.spot_count);
     const std::uint32_t branches = branch_count(features);
     if (features.sampler == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
     std::vector<std::uint32_t> blocks(shared, 2); // the place on each lamp
     blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
-    std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
     const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
+    if (features.spot_count > 0) {
+        const std::uint32_t spot = gpu::every_lamp_blocks(features.lamp_count);
+        blocks[spot] = 3;
+        blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features.lamp_count);
+        blocks[spot + 2] = direction;
+    }
+    std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
     for (std::uint32_t vertex = 1; vertex < features.max_path_length; ++vertex) {
         const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features.lamp_count);
         if (lamp + direction > left)
@@ -220,6 +232,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
         constants[gpu::ID_LAMP_TREE_WORDS] =
             static_cast<std::uint32_t>(lamp_tree_words(features.lamp_count, features.motion));
     }
+    constants[gpu::ID_SPOT_COUNT] = features.spot_count;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
@@ -230,7 +243,10 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint64_t walk = trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    return 1 + walk + first_vertex + branches * loop_trips_per_branch(features);
+    // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one beyond.
+    const std::uint64_t way =
+        features.spot_count > 0 ? (4 + branches) * features.spot_count + 2 * walk + lamp_trips(features) : 0;
+    return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
 double surface_tests_per_path(const Features &features, const SphereTree *tree) {
@@ -240,7 +256,8 @@ double surface_tests_per_path(const Features &features, const SphereTree *tree) 
     const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
     constexpr double tests_of_node = 4.0; // one for each child, about
     const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
-    return std::max(1.0, tests) * static_cast<double>(1 + further_lamps(features, branches) + 2 * vertices);
+    const std::uint32_t by_spot = features.spot_count > 0 ? 3 : 0; // the ray to it, and two from there
+    return std::max(1.0, tests) * static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

@@ -37,8 +37,9 @@ struct Features {
     bool known_sides;  // the camera tells the sides of surfaces, which is of use and possible
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
-    bool starts_ahead; // camera rays start ahead of the pinhole (ray_start.h)
-    bool scene_in_uniform; // the scene, with the words of a material for each surface, fits into a uniform buffer
+    std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
+    bool starts_ahead;        // camera rays start ahead of the pinhole (ray_start.h)
+    bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share
     bool tree;                     // most spheres are in a tree, and not among sphere_count
     bool tree_colors;              // with colours of their own
@@ -70,7 +71,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
 // six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are many
 // spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
-// share are less of the work: there are 2 branches. Where scene and path are so long that a sample is a long job by
+// share are less of the work: there are 2 branches; so there are where rays by way of spots find most of what comes over
+// three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by
 // itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 

@@ -23,7 +23,7 @@ void main()
     if (index >= pixel_count * sample_count)
         return;
     uint row = index % sample_count;
-    uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT), BRANCH_COUNT);
+    uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, 0u), BRANCH_COUNT);
     SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row * row_length);
     numbers[index] = sample_block(branch_key(key, branch), block);
 }

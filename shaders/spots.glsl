@@ -1,0 +1,218 @@
+// Spots: what is far brighter than its surroundings, and small. A glow is where a lamp is close to a plane, an image is
+// where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them in a scene. The first vertex sends
+// one ray more in the direction of a spot (path.glsl). Derivations: README.md, section 7.
+#ifndef SPOTS_GLSL
+#define SPOTS_GLSL
+
+#include "phong.glsl"
+#include "lights.glsl"
+
+struct SpotWord {
+    uint lamp;
+    uint surface;
+    float reflectance; // mean of R, G and B
+    float glossiness;  // of a mirror image; negative for a glow
+};
+
+SpotWord spot_word(uint spot)
+{
+    vec4 word = scene_word_among(SPOTS, SPOT_COUNT, spot);
+    uvec2 numbers = floatBitsToUint(word.xy) - MATERIAL_INDEX_BITS;
+    return SpotWord(numbers.x, numbers.y, word.z, word.w);
+}
+
+uint spot_surface(uint spot) { return spot_word(spot).surface; }
+
+bool is_glow(SpotWord word) { return GLOSS == 0u || word.glossiness < 0.0; }
+
+// A spot as seen from a vertex.
+struct Spot {
+    vec4 place;   // image: unit vector towards it, exponent of the lobe about that; glow: middle of its lamp, square of
+                  // the lamp's height above the plane
+    float weight; // in the choice among spots; 0 where it cannot be seen
+};
+
+struct Spots {
+    Spot views[SPOT_LIMIT];
+    float total_weight;
+};
+
+// Spots are chosen by the irradiance that they may cause, the less the larger the share of directions that find them
+// anyway. (The factor is by trial.)
+float spot_weight(float irradiance, float found_anyway)
+{
+    return irradiance / (1.0 + 10.0 * found_anyway);
+}
+
+Spot view_glow(Vertex vertex, vec4 lamp, float radiance, SpotWord word)
+{
+    vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+    float height = dot(plane.xyz, lamp.xyz) + plane.w;
+    float vertex_height = abs(dot(plane.xyz, vertex.position) + plane.w);
+    vec3 to_foot = lamp.xyz - height * plane.xyz - vertex.position;
+    float squared_height = height * height;
+    float squared_distance = dot(to_foot, to_foot) + squared_height;
+    float up = max(dot(vertex.normal, to_foot) + 0.5 * abs(height), 0.0);
+    float form = vertex_height * up / (squared_distance * squared_distance);
+    float irradiance = 2.0 * word.reflectance * radiance * lamp.w * lamp.w * form;
+    bool seen = word.surface != vertex.surface && squared_height > lamp.w * lamp.w;
+    return Spot(vec4(lamp.xyz, squared_height), seen ? spot_weight(irradiance, squared_height * form) : 0.0);
+}
+
+// Where a surface mirrors a lamp.
+struct MirrorPoint {
+    vec3 position;
+    vec3 normal;
+    float curvature;
+    bool exists;
+};
+
+MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
+{
+    vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), surface - SPHERE_COUNT);
+    float lamp_height = dot(plane.xyz, lamp.xyz) + plane.w;
+    float height = dot(plane.xyz, vertex.position) + plane.w;
+    vec3 foot = vertex.position - height * plane.xyz;
+    vec3 lamp_foot = lamp.xyz - lamp_height * plane.xyz;
+    vec3 position = foot + (height / (height + lamp_height)) * (lamp_foot - foot);
+    return MirrorPoint(position, height > 0.0 ? plane.xyz : -plane.xyz, 0.0, height * lamp_height > 0.0);
+}
+
+// Alhazen's problem: the normal halves the angle between the ways to the vertex, a, and to the lamp, b. It is found by
+// iteration, begun by what holds for far points, the half of the angle, and for near ones, the ratio of the heights. What
+// error is left costs variance, as the lobe is then about another direction; the density is that of the lobe as it is.
+MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
+{
+    vec4 sphere = sphere_of(surface, time);
+    vec3 a = vertex.position - sphere.xyz;
+    vec3 b = lamp.xyz - sphere.xyz;
+    float radius = sphere.w;
+    float a_length = length(a);
+    float b_length = length(b);
+    float a_height = max(a_length - radius, 0.0);
+    float b_height = max(b_length - radius, 0.0);
+    vec3 towards_a = a * (b_height / ((radius + b_height) * a_length));
+    vec3 towards_b = b * (a_height / ((radius + a_height) * b_length));
+    vec3 normal = normalize(towards_a + towards_b);
+    uint step = 0u;
+    [[unroll]] do {
+        vec3 position = radius * normal;
+        normal = normalize(normalize(a - position) + normalize(b - position));
+        ++step;
+    } while (step < 2u);
+    bool exists = a_length > radius && b_length > radius + lamp.w;
+    return MirrorPoint(sphere.xyz + radius * normal, normal, 1.0 / radius, exists);
+}
+
+// Directions are float32, and lobes narrower than a thousandth would show it.
+const float LARGEST_SPOT_EXPONENT = 1e6;
+
+Spot view_image(Vertex vertex, vec4 lamp, float radiance, SpotWord word, float time)
+{
+    MirrorPoint mirror;
+    if (is_sphere(word.surface))
+        mirror = mirror_point_of_sphere(vertex, lamp, word.surface, time);
+    else
+        mirror = mirror_point_of_plane(vertex, lamp, word.surface);
+    vec3 to_mirror = mirror.position - vertex.position;
+    vec3 to_lamp = lamp.xyz - mirror.position;
+    float distance = length(to_mirror);
+    float squared_beyond = dot(to_lamp, to_lamp);
+    vec3 direction = to_mirror / distance;
+    float cosine = dot(vertex.normal, direction);
+    float mirror_cosine = -dot(mirror.normal, direction);
+
+    float turn = 1.0 + distance * (inversesqrt(squared_beyond) + 2.0 * mirror.curvature);
+    float squared_sine = lamp.w * lamp.w / squared_beyond;
+    float exponent = turn * turn / (1.0 / max(word.glossiness, 1.0) + 0.25 * squared_sine);
+    float irradiance = word.reflectance * mirror_cosine * radiance * squared_sine * cosine / (turn * turn);
+    bool faces = distance > 0.0 && cosine > 0.0 && mirror_cosine > 0.0;
+    bool seen = mirror.exists && faces && word.surface != vertex.surface;
+    float weight = seen ? spot_weight(irradiance, 2.0 * cosine / exponent) : 0.0;
+    return Spot(vec4(direction, min(exponent, LARGEST_SPOT_EXPONENT)), weight);
+}
+
+Spots spots_from(Vertex vertex, float time)
+{
+    Spots spots;
+    spots.total_weight = 0.0;
+    uint i = 0u;
+    [[unroll]] do {
+        SpotWord word = spot_word(i);
+        vec4 lamp = sphere_of_lamp(word.lamp, time);
+        float radiance = emission_of_lamp(word.lamp).a;
+        if (is_glow(word))
+            spots.views[i] = view_glow(vertex, lamp, radiance, word);
+        else
+            spots.views[i] = view_image(vertex, lamp, radiance, word, time);
+        spots.total_weight += spots.views[i].weight;
+        ++i;
+    } while (i < SPOT_COUNT);
+    return spots;
+}
+
+// The last one of positive weight whose predecessors' weights do not exceed the number.
+uint choose_spot(Spots spots, float number)
+{
+    float target = number * spots.total_weight;
+    float cumulated = 0.0;
+    uint chosen = 0u;
+    uint i = 0u;
+    [[unroll]] do {
+        float weight = spots.views[i].weight;
+        chosen = cumulated <= target && weight > 0.0 ? i : chosen;
+        cumulated += weight;
+        ++i;
+    } while (i < SPOT_COUNT);
+    return chosen;
+}
+
+// A direction by way of a spot. An image's has a lobe about it; a glow's leads to where a direction with the density of
+// the cosine, downwards from the middle of the lamp, meets the plane.
+vec3 direction_to_spot(Spots spots, uint spot, vec3 position, float time, vec2 place)
+{
+    SpotWord word = spot_word(spot);
+    vec4 at = spots.views[0].place;
+    uint i = 1u;
+    [[unroll]] while (i < SPOT_COUNT) {
+        at = spot == i ? spots.views[i].place : at;
+        ++i;
+    }
+    vec3 axis = at.xyz;
+    vec2 cos_sin = cosine_hemisphere_cos_sin(place.x);
+    if (GLOSS == 1u)
+        cos_sin = is_glow(word) ? cos_sin : lobe_cos_sin(at.w, place.x);
+    if (PLANE_COUNT > 0u && is_glow(word)) {
+        vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+        axis = dot(plane.xyz, at.xyz) + plane.w > 0.0 ? -plane.xyz : plane.xyz;
+    }
+    vec3 direction = direction_about(axis, cos_sin, place.y);
+    if (is_glow(word))
+        direction = normalize(at.xyz + sqrt(at.w) / max(cos_sin.x, NUMBER_STEP) * direction - position);
+    return direction;
+}
+
+// Density over solid angle of such a direction, given what it has met: spots of other surfaces are not found that way.
+float spot_density(Spots spots, Arrival arrival, float distance, float time)
+{
+    float density = 0.0;
+    uint i = 0u;
+    [[unroll]] do {
+        SpotWord word = spot_word(i);
+        vec4 at = spots.views[i].place;
+        float of_spot;
+        if (is_glow(word)) {
+            vec4 plane = scene_word_among(SPHERE_COUNT, max(PLANE_COUNT, 1u), word.surface - SPHERE_COUNT);
+            vec3 from_lamp = arrival.point - at.xyz;
+            float ratio = distance / dot(from_lamp, from_lamp);
+            of_spot = at.w * ratio * ratio / (PI * max(abs(dot(plane.xyz, arrival.direction)), NUMBER_STEP));
+        } else {
+            of_spot = (at.w + 1.0) / (2.0 * PI) * lobe_power(at.xyz, arrival.direction, at.w);
+        }
+        density += word.surface == arrival.surface ? spots.views[i].weight * of_spot : 0.0;
+        ++i;
+    } while (i < SPOT_COUNT);
+    return spots.total_weight > 0.0 ? density / spots.total_weight : 0.0;
+}
+
+#endif

@@ -1,0 +1,135 @@
+"""Compares what two builds of libpt pay for the same error in the scenes of cli/scenes.
+
+    python3 tests/bench/compare_libraries.py --library old=OLD/libpt.so --library new=build/lib/libpt.so
+
+Each library renders pictures of 8, 32 and 128 samples with several seeds, in turn. Its error is that of its own pictures:
+their variance over the seeds, over r^2 + 0.01 with the mean r of all pictures of all libraries, averaged over pixels and
+channels, which is the relMSE against a perfect reference if the pictures are right in the mean. Its cost is the median of
+the process's CPU seconds for a picture.
+
+time, error     of a library over those of the first, at 32 samples
+gain            CPU seconds of the first library at 32 samples, over those that a library takes for the same error: read off
+                its three numbers of samples, straight between them in logarithms. Above 1 a library is ahead
+z               difference of the means of all pictures of 128 samples, in standard errors
+"""
+
+import argparse
+import json
+import math
+import os
+import resource
+import statistics
+import subprocess
+import sys
+
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+COUNTS, AT, FEW_SURFACES = (8, 32, 128), 32, 12
+
+sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
+from scene_file import FOLDER as SCENES, read_scene  # noqa: E402
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--library", action="append", required=True, metavar="NAME=FILE")
+    parser.add_argument("--scenes", default="closed-room,coursework,dim-room,mirror-wall,open-sky,tiny-lamp",
+                        metavar="NAME,...")
+    parser.add_argument("--path-lengths", default="3,6", metavar="L,...")
+    parser.add_argument("--size", default="64x32", metavar="WxH")
+    parser.add_argument("--seeds", type=int, default=8)
+    parser.add_argument("--one", metavar="NAME,L", help=argparse.SUPPRESS)  # in a process of its own
+    return parser.parse_args()
+
+
+def cpu_seconds():
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
+def render(renderer, options, length, samples, seed):
+    width, height = map(int, options.size.split("x"))
+    renderer.set_render(width, height, max_path_length=length, seed=seed)
+    start = cpu_seconds()
+    renderer.accumulate(samples)
+    return cpu_seconds() - start, renderer.image()
+
+
+def figures_of(pictures, pooled):
+    """Of one number of samples: the median of its costs, and the error."""
+    variances = (statistics.variance(values) for values in zip(*(image for _, image in pictures)))
+    errors = [variance / (r * r + 0.01) for variance, r in zip(variances, pooled)]
+    return statistics.median(cost for cost, _ in pictures), statistics.fmean(errors)
+
+
+def measure(name, length, options):
+    scene = read_scene(SCENES / f"{name}.json")
+    if len(scene["spheres"]) + len(scene.get("planes", [])) <= FEW_SURFACES:
+        os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")  # as pt does where the CPU can
+    os.environ["MESA_SHADER_CACHE_DISABLE"] = "true"
+    from scene_renderer import SceneRenderer  # loads a driver
+
+    libraries = {}
+    for library in options.library:
+        label, os.environ["PT_LIBRARY"] = library.split("=", 1)
+        libraries[label] = SceneRenderer(scene)
+    for renderer in libraries.values():
+        for _ in range(3):
+            render(renderer, options, length, COUNTS[0], 0)
+    pictures = {(label, count): [] for label in libraries for count in COUNTS}
+    for count in COUNTS:
+        for seed in range(options.seeds):
+            for label, renderer in libraries.items():
+                pictures[label, count].append(render(renderer, options, length, count, 1000 * count + seed))
+    most = [image for (_, count), of_label in pictures.items() if count == COUNTS[-1] for _, image in of_label]
+    pooled = [statistics.fmean(values) for values in zip(*most)]
+    result = {}
+    for label in libraries:
+        means = [statistics.fmean(image) for _, image in pictures[label, COUNTS[-1]]]
+        result[label] = {"figures": [figures_of(pictures[label, count], pooled) for count in COUNTS],
+                         "mean": statistics.fmean(means),
+                         "error_of_mean": statistics.stdev(means) / math.sqrt(len(means))}
+    return result
+
+
+def cost_of_error(figures, error):
+    """Beyond what was measured the last two go on."""
+    points = [(math.log(one), math.log(cost)) for cost, one in figures]
+    for (left, left_cost), (right, right_cost) in zip(points, points[1:]):
+        if math.log(error) >= right:
+            break
+    share = (math.log(error) - left) / (right - left)
+    return math.exp(left_cost + share * (right_cost - left_cost))
+
+
+def row_of(name, length, label, of_first, of_label):
+    at = COUNTS.index(AT)
+    first_cost, first_error = of_first["figures"][at]
+    cost, error = of_label["figures"][at]
+    gain = first_cost / cost_of_error(of_label["figures"], first_error)
+    spread = math.hypot(of_first["error_of_mean"], of_label["error_of_mean"])
+    deviation = (of_label["mean"] - of_first["mean"]) / spread if spread else 0.0
+    return [name, str(length), label, f"{cost / first_cost:.2f}", f"{error / first_error:.2f}", f"{gain:.2f}",
+            f"{deviation:+.1f}"]
+
+
+def main():
+    options = parse_arguments()
+    if options.one:
+        name, length = options.one.split(",")
+        print(json.dumps(measure(name, int(length), options)))
+        return
+    from table import print_table
+
+    rows = [["scene", "L", "", "time", "error", "gain", "z"]]
+    for name in options.scenes.split(","):
+        for length in options.path_lengths.split(","):
+            output = subprocess.run([sys.executable, "-B", __file__, *sys.argv[1:], "--one", f"{name},{length}"],
+                                    check=True, stdout=subprocess.PIPE, text=True).stdout
+            result = json.loads(output)
+            first = next(iter(result.values()))
+            rows += [row_of(name, length, label, first, figures) for label, figures in list(result.items())[1:]]
+    print_table(rows)
+
+
+if __name__ == "__main__":
+    main()
