@@ -73,6 +73,7 @@ void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulka
         settings.like_gpus ? vulkan::gpu_like_policy() : vulkan::default_policy(vulkan::describe(physical_device));
     policy.scene_in_constants = policy.scene_in_constants && settings.scene_kernels;
     policy.tree_from = settings.tree_from.value_or(policy.tree_from);
+    policy.adaptive_from = settings.adaptive_from.value_or(policy.adaptive_from);
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), policy,
                                                       code_, settings.submit_milliseconds * 1e-3));
     devices_.back()->keep_kernels(settings.kernel_store);

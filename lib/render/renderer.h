@@ -49,6 +49,7 @@ struct CreateSettings {
     std::uint32_t devices_of_each = 1;      // render devices on each that is named: tests share work where there is one
     bool like_gpus = false;                 // CPUs are used as GPUs are: for tests without one
     std::optional<std::uint32_t> tree_from; // DevicePolicy's: for tests of trees over few spheres
+    std::optional<std::uint32_t> adaptive_from; // likewise: for tests of few samples
 };
 
 // All Vulkan devices of this machine.

@@ -48,7 +48,7 @@ struct DevicePolicy {
     // Samples of a pixel: until there are as many, tiles are not told apart (lib/film/adaptive_rule.h). On GPUs, where a look
     // takes as long as some samples, pictures that need no more are done sooner without, and with paths of two vertices four times as many.
     // 0, or a power of two from 16 on.
-    std::uint32_t adaptive_from = 64;
+    std::uint32_t adaptive_from = 256;
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };

@@ -5,14 +5,16 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 // Where the work is to be shared by several devices and there may be one alone, it is taken more than once. like_gpus: CPUs are used as GPUs are.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
-                               bool like_gpus = false) {
+                               bool like_gpus = false, std::optional<uint32_t> adaptive_from = std::nullopt) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::CreateSettings settings = pt::validated_create(info);
         settings.devices_of_each = devices_of_each;
         settings.like_gpus = like_gpus;
+        settings.adaptive_from = adaptive_from;
         *context = std::make_unique<pt_context>(settings).release();
     });
 }
