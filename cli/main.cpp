@@ -9,6 +9,7 @@
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
 #include "cli/selftest/selftest_command.h"
+#include "cli/tonemap/tonemap_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -35,6 +36,11 @@ int parse_and_run(int argument_count, char **arguments) {
     CLI::App *render = program.add_subcommand("render", "Render a scene file to images");
     cli::add_render_options(*render, options);
     render->footer(std::string(cli::render_help) + "\n" + cli::exit_code_help);
+
+    cli::TonemapOptions tonemap_options;
+    CLI::App *tonemap = program.add_subcommand("tonemap", "Make a picture of a file of radiance, without rendering");
+    cli::add_tonemap_options(*tonemap, tonemap_options);
+    tonemap->footer(std::string(cli::tonemap_help) + "\n" + cli::exit_code_help);
 
     cli::BenchOptions bench_options;
     CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
@@ -65,6 +71,9 @@ int parse_and_run(int argument_count, char **arguments) {
     if (render->parsed()) {
         return cli::run_render(options);
     }
+    if (tonemap->parsed()) {
+        return cli::run_tonemap(tonemap_options);
+    }
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
@@ -74,7 +83,8 @@ int parse_and_run(int argument_count, char **arguments) {
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage, "a subcommand is missing: render, bench, selftest or devices (see pt --help)");
+    return fail(cli::ExitCode::usage,
+                "a subcommand is missing: render, tonemap, bench, selftest or devices (see pt --help)");
 }
 
 } // namespace

@@ -11,10 +11,12 @@
 namespace cli {
 namespace {
 
-pt_render piece_of(const pt_render &render, std::uint32_t first_row, std::uint32_t rows) {
-    pt_render piece = render;
-    piece.first_row = first_row;
-    piece.row_count = std::min(rows, render.height - first_row);
+// first_row: of the window.
+pt_render piece_of(const RenderSettings &settings, std::uint32_t first_row, std::uint32_t rows) {
+    const Rectangle &part = settings.window.part;
+    pt_render piece = settings.render;
+    piece.first_row = part.y + first_row;
+    piece.row_count = std::min(rows, part.height - first_row);
     return piece;
 }
 
@@ -55,9 +57,10 @@ void render_piece(const Context &context, const SceneFile &file, const RenderSet
 
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows) {
-    std::uint32_t rows = wanted_rows == 0 ? settings.render.height : std::min(wanted_rows, settings.render.height);
+    const std::uint32_t height = settings.window.part.height;
+    std::uint32_t rows = wanted_rows == 0 ? height : std::min(wanted_rows, height);
     for (;; rows = (rows + 1) / 2) {
-        const pt_render piece = piece_of(settings.render, 0, rows);
+        const pt_render piece = piece_of(settings, 0, rows);
         const pt_result result = pt_set_render(context.get(), &piece);
         const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
         if (too_large && rows > 1) {
@@ -70,18 +73,18 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
 
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                              std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress) {
-    const pt_render &render = settings.render;
-    const std::size_t row_values = std::size_t{3} * render.width;
+    const Rectangle &part = settings.window.part;
+    const std::size_t row_values = std::size_t{3} * part.width;
     PiecewiseImage image{};
-    image.radiance.resize(row_values * render.height);
+    image.radiance.resize(row_values * part.height);
     image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
-    while (image.rows_done < render.height && !stop()) {
+    while (image.rows_done < part.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
-        const pt_render piece = piece_of(render, first_row, rows);
+        const pt_render piece = piece_of(settings, first_row, rows);
         if (first_row > 0) {
             context.require(pt_set_render(context.get(), &piece));
         }
-        const double height = render.height;
+        const double height = part.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
         render_piece(context, file, settings, stop, progress);
 
@@ -90,9 +93,12 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
             break;
         }
         join(image.stats, stats, first_row, piece.row_count);
-        context.read_image(piece, PT_QUANTITY_RADIANCE, &image.radiance[row_values * first_row]);
+        const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
+            context.read_columns(part.x, part.width, piece.row_count, quantity, &values[row_values * first_row]);
+        };
+        read(PT_QUANTITY_RADIANCE, image.radiance);
         if (with_standard_error) {
-            context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * first_row]);
+            read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
         }
         image.rows_done += piece.row_count;
     }

@@ -14,18 +14,19 @@
 namespace cli {
 
 struct PiecewiseImage {
-    std::vector<float> radiance;       // of the whole image; black below rows_done
+    std::vector<float> radiance;       // of the settings' window; black below rows_done
     std::vector<float> standard_error; // empty if it was not asked for
-    std::uint32_t rows_done;           // of the image, with samples
+    std::uint32_t rows_done;           // of the window, with samples
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
 };
 
 // Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that
-// is 0, all of them; halved until the device has the memory. Throws Failure.
+// is 0, all of the window's; halved until the device has the memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows);
 
-// After fit_pieces. Ends early, between or within pieces, once it is to stop.
+// After fit_pieces. Renders whole rows, for rows are what the library can be asked for, and reads the window's columns.
+// Ends early, between or within pieces, once it is to stop.
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                              std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress);
 

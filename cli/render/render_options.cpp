@@ -24,11 +24,13 @@ CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_e
 void add_output_options(CLI::App &command, RenderOptions &options) {
     command
         .add_option("-o,--output", options.outputs,
-                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
+                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
+                    "- is standard output")
         ->required()
         ->expected(1)
         ->take_all()
         ->type_name("FILE");
+    add_format(command, options.format);
     command
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
@@ -41,25 +43,18 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
-    const auto read_exposure = [&options](const std::string &text) {
-        options.exposure = parse_exposure(text);
-        if (!options.exposure) {
-            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+    const auto read_crop = [&options](const std::string &text) {
+        options.crop = parse_rectangle(text);
+        if (!options.crop) {
+            refuse_option("--crop", "must be four whole numbers like 10,20,640,480: x, y, width and height", text);
         }
     };
     command
-        .add_option_function<std::string>("--exposure", read_exposure,
-                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: the "
-                                          "scene's, else auto)")
-        ->type_name("EV")
+        .add_option_function<std::string>("--crop", read_crop,
+                                          "Render this part of the picture alone, in pixels from its top left corner")
+        ->type_name("X,Y,W,H")
         ->group("Picture");
-    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: the scene's, else none)")
-        ->group("Picture");
-    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
-                    "Encode with the power 1/G in place of the sRGB curve; .png and .jpg only (default: the scene's)")
-        ->type_name("G")
-        ->group("Picture");
+    add_display_options(command, options.display, "the scene's, else ");
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/base/number.h"
-#include "cli/image/exposure.h"
-#include "cli/image/tone_map.h"
+#include "cli/image/display_options.h"
+#include "cli/image/image_file.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,11 +19,13 @@ namespace cli {
 struct RenderOptions {
     std::string scene;
     std::vector<std::string> outputs;
-    std::string standard_error; // path of the image of standard errors; empty: none
+    std::optional<ImageFormat> format; // of an output that is standard output
+    std::string standard_error;        // path of the image of standard errors; empty: none
     std::string stats;
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;
+    std::optional<Rectangle> crop;
     std::optional<std::uint32_t> sample_count;
     std::optional<double> target_error; // relative; nothing: take all samples
     std::optional<std::uint64_t> seed;
@@ -32,10 +34,7 @@ struct RenderOptions {
     std::optional<std::uint32_t> estimator;
     std::uint32_t first_sample = 0;
 
-    // Of .png and .jpg alone.
-    std::optional<Exposure> exposure;
-    std::optional<ToneCurve> tone_curve;
-    std::optional<double> gamma;
+    DisplayOptions display; // of .png and .jpg alone
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default

@@ -6,6 +6,8 @@
 #include "cli/base/host_memory.h"
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
+#include "cli/image/display_image.h"
+#include "cli/image/image_target.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
@@ -13,34 +15,24 @@
 namespace cli {
 namespace {
 
-void write_image(ImageWriter &writer, const std::string &path, const RenderReport &report,
-                 std::span<const float> values, std::uint32_t quantity) {
-    const auto [width, height] = std::pair(report.render.width, report.render.height);
-    if (image_format(path) == ImageFormat::exr) {
+void write_image(ImageWriter &writer, const ImageTarget &target, const RenderOptions &options,
+                 const RenderReport &report, std::span<const float> values, std::uint32_t quantity) {
+    if (target.format == ImageFormat::exr) {
         const ImageMetadata metadata(report, quantity, nullptr);
-        writer.write_radiance(path, width, height, values, metadata.attributes());
+        const pt_image_layer layer{"", 3, 0, values.data()};
+        writer.write_radiance(target, report.window, {&layer, 1}, metadata.attributes());
     } else {
         const ToneMap &tone_map = report.tone_map.value();
         const ImageMetadata metadata(report, quantity, &tone_map);
-        writer.write_bytes(path, width, height, map_to_8_bits(values, tone_map), metadata.attributes(), tone_map.gamma);
+        write_display_image(writer, target, report.window, values, tone_map, options.display.png_bits,
+                            metadata.attributes());
     }
 }
 
-void refuse_standard_output(const std::string &option, std::span<const std::string> paths) {
-    if (std::find(paths.begin(), paths.end(), standard_stream) != paths.end()) {
-        throw Failure(ExitCode::usage, option + " -: images are not written to standard output; give a file's name");
+void check_standard_error_name(const std::string &path) {
+    if (path == standard_stream) {
+        throw Failure(ExitCode::usage, "--standard-error -: goes to a file, whose name ends in .exr");
     }
-}
-
-void check_extensions(const RenderOptions &options) {
-    refuse_standard_output("-o", options.outputs);
-    refuse_standard_output("--standard-error", {&options.standard_error, 1});
-    for (const std::string &path : options.outputs) {
-        if (!image_format(path)) {
-            throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
-        }
-    }
-    const std::string &path = options.standard_error;
     if (!path.empty() && image_format(path) != ImageFormat::exr) {
         throw Failure(ExitCode::usage, "--standard-error " + path + ": the name must end in .exr");
     }
@@ -66,20 +58,15 @@ void check_sources_are_kept(const RenderOptions &options) {
 } // namespace
 
 void check_names(const RenderOptions &options) {
-    check_extensions(options);
+    check_image_names(options.outputs, options.format);
+    check_standard_error_name(options.standard_error);
     check_sources_are_kept(options);
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {
     require_host_memory(settings, options.scene, options.standard_error.empty() ? 1 : 2);
-    const std::uint32_t side = std::max(settings.render.width, settings.render.height);
     for (const std::string &path : options.outputs) {
-        const std::uint32_t longest = longest_side(image_format(path).value());
-        if (side > longest) {
-            throw Failure(ExitCode::usage, "-o " + path + ": this format holds at most " + std::to_string(longest) +
-                                               " pixels a side, not " + std::to_string(side));
-        }
-        AtomicFile::check_writable(path);
+        check_image_target(image_target(path, options.format), settings.window);
     }
     if (!options.standard_error.empty()) {
         AtomicFile::check_writable(options.standard_error);
@@ -92,8 +79,8 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
     std::vector<std::string> written;
     const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity) {
         try {
-            write_image(writer, path, report, values, quantity);
-            written.push_back(path);
+            write_image(writer, image_target(path, options.format), options, report, values, quantity);
+            written.push_back(path == standard_stream ? "standard output" : path);
         } catch (const Failure &failure) {
             print_message(failure.what());
         }
@@ -108,8 +95,21 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 }
 
 bool needs_module(const RenderOptions &options) {
-    const auto is_png = [](const std::string &path) { return image_format(path) == ImageFormat::png; };
+    const auto is_png = [&](const std::string &path) {
+        return image_target(path, options.format).format == ImageFormat::png;
+    };
     return !options.standard_error.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_png);
+}
+
+bool needs_tone_map(const RenderOptions &options) {
+    return std::any_of(options.outputs.begin(), options.outputs.end(), [&](const std::string &path) {
+        return image_target(path, options.format).format != ImageFormat::exr;
+    });
+}
+
+bool takes_standard_output(const RenderOptions &options) {
+    return options.stats == standard_stream ||
+           std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end();
 }
 
 std::size_t output_count(const RenderOptions &options) {

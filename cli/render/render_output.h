@@ -27,6 +27,12 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 // Whether any output is in a format that the image module encodes.
 bool needs_module(const RenderOptions &options);
 
+// Whether any is for a display.
+bool needs_tone_map(const RenderOptions &options);
+
+// Whether an image or the report goes there, so that lines for people do not.
+bool takes_standard_output(const RenderOptions &options);
+
 std::size_t output_count(const RenderOptions &options);
 
 } // namespace cli

@@ -46,15 +46,15 @@ bool take_scene(const Context &context, const RenderOptions &options, const Scen
 
 PiecewiseImage render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                                     const RenderSettings &settings, std::uint32_t rows, const Stop &stop) {
-    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
+    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.window.part.height;
     Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
     return render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress);
 }
 
 // What an image in pieces takes of memory, before it is rendered.
-void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
-    const std::uint64_t host_bytes = image_bytes(render, options.standard_error.empty() ? 1 : 2);
-    print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
+void print_pieces(const Context &context, const RenderOptions &options, const ImageWindow &window, std::uint32_t rows) {
+    const std::uint64_t host_bytes = image_bytes(window, options.standard_error.empty() ? 1 : 2);
+    print_message(std::to_string((window.part.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
                   " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
                   memory_text(host_bytes) + " for the image");
 }
@@ -66,7 +66,7 @@ void print_summary(const RenderOptions &options, const RenderReport &report, con
     }
     const std::string exposure = report.automatic_exposure ? exposure_text(report) + "\n" : "";
     print_for_people("wrote " + names + summary_text(report) + "\n" + exposure + error_text(report) + "\n",
-                     options.stats == standard_stream);
+                     takes_standard_output(options));
 }
 
 // Whether all images could be written.
@@ -89,8 +89,7 @@ bool write_outputs(ImageWriter &writer, const RenderOptions &options, RenderRepo
 // Nothing if no output is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSettings &settings,
                                    std::span<const float> radiance) {
-    const auto is_mapped = [](const std::string &path) { return image_format(path) != ImageFormat::exr; };
-    if (std::none_of(options.outputs.begin(), options.outputs.end(), is_mapped)) {
+    if (!needs_tone_map(options)) {
         return std::nullopt;
     }
     const std::optional<double> stops = settings.exposure.stops;
@@ -98,8 +97,9 @@ std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSet
 }
 
 void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done) {
-    const bool whole = rows_done == settings.render.height;
-    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
+    const std::uint32_t height = settings.window.part.height;
+    const bool whole = rows_done == height;
+    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(height) + " rows";
     print_message("stopped by " + interrupt_name() + " after " + std::to_string(done) + " of " +
                   std::to_string(settings.sample_count) + " samples per pixel" +
                   (done == 0 ? "; nothing was written"
@@ -115,6 +115,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.scene = file.path;
     report.date = source_date();
     report.render = settings.render;
+    report.window = settings.window;
     report.requested_sample_count = settings.sample_count;
     report.target_error = settings.target_error;
 
@@ -131,8 +132,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         print_warnings(report.warnings);
     }
     const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
-    if (rows < settings.render.height && !options.quiet) {
-        print_pieces(context, options, settings.render, rows);
+    if (rows < settings.window.part.height && !options.quiet) {
+        print_pieces(context, options, settings.window, rows);
     }
     report.create_seconds = seconds_since(times.create_start);
 

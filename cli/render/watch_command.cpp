@@ -14,6 +14,7 @@
 
 #include <pt/shaders.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -30,6 +31,9 @@ constexpr std::chrono::milliseconds patience{200};
 
 // A pipe can be read once, and its reader waits for its writer.
 void require_files(const RenderOptions &options) {
+    if (std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end()) {
+        throw Failure(ExitCode::usage, "-o -: --watch needs a file, not standard output");
+    }
     if (options.scene == standard_stream) {
         throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
     }

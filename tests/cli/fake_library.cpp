@@ -240,8 +240,11 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
     auto *value = static_cast<float *>(image->data);
-    for (std::uint32_t y = render.first_row; y < render.first_row + rows_of(render); ++y) {
-        for (std::uint32_t x = 0; x < render.width; ++x) {
+    const bool is_whole = image->width == 0;
+    const std::uint32_t width = is_whole ? render.width : image->width;
+    const std::uint32_t height = is_whole ? rows_of(render) : image->height;
+    for (std::uint32_t y = render.first_row + image->y; y < render.first_row + image->y + height; ++y) {
+        for (std::uint32_t x = image->x; x < image->x + width; ++x) {
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
             *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
             *value++ = 2.0F + wrong;

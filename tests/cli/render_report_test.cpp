@@ -16,6 +16,7 @@ cli::RenderReport example_render() {
     report.scene = "scene.json";
     report.render.width = 256;
     report.render.height = 128;
+    report.window = cli::whole_window(256, 128);
     report.render.seed = 18446744073709551615U;
     report.render.first_sample = 4294967295U;
     report.render.max_path_length = 6;
