@@ -5,6 +5,7 @@
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
+#include "cli/compare/compare_command.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -42,6 +43,11 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_tonemap_options(*tonemap, tonemap_options);
     tonemap->footer(std::string(cli::tonemap_help) + "\n" + cli::exit_code_help);
 
+    cli::CompareOptions compare_options;
+    CLI::App *compare = program.add_subcommand("compare", "Compare an image with a reference");
+    cli::add_compare_options(*compare, compare_options);
+    compare->footer(std::string(cli::compare_help) + "\n" + cli::exit_code_help);
+
     cli::BenchOptions bench_options;
     CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
     cli::add_bench_options(*bench, bench_options);
@@ -74,6 +80,9 @@ int parse_and_run(int argument_count, char **arguments) {
     if (tonemap->parsed()) {
         return cli::run_tonemap(tonemap_options);
     }
+    if (compare->parsed()) {
+        return cli::run_compare(compare_options);
+    }
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
@@ -84,7 +93,7 @@ int parse_and_run(int argument_count, char **arguments) {
         return cli::run_devices(as_json);
     }
     return fail(cli::ExitCode::usage,
-                "a subcommand is missing: render, tonemap, bench, selftest or devices (see pt --help)");
+                "a subcommand is missing: render, tonemap, compare, bench, selftest or devices (see pt --help)");
 }
 
 } // namespace

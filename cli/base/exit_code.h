@@ -17,6 +17,7 @@ enum class ExitCode {
     device_lost = 5,
     file = 6,
     target_missed = 7,
+    images_differ = 8,
     signal = 128 // plus the signal's number
 };
 
@@ -30,6 +31,7 @@ inline constexpr const char *exit_code_help =
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
     "  7    the target error was not reached; all files were written\n"
+    "  8    the images that were compared differ by more than a limit\n"
     "  129  SIGHUP: the samples done so far were written, if there were any\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"

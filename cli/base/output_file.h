@@ -34,6 +34,7 @@ public:
         if (file_) {
             file_->commit();
         } else if (!std::cout.flush()) {
+            std::cout.clear(); // it is told now, and not once more at the end of the program
             throw Failure(ExitCode::file, "cannot write to standard output");
         }
     }

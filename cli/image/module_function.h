@@ -9,7 +9,7 @@ namespace cli {
 // own, and not built everywhere.
 std::filesystem::path module_path();
 
-// name: PT_ENCODE_IMAGE_SYMBOL or PT_DECODE_IMAGE_SYMBOL. Throws Failure(ExitCode::internal) if it cannot be loaded.
+// name: PT_ENCODE_IMAGE_SYMBOL or another of that header. Throws Failure(ExitCode::internal) if it cannot be loaded.
 void *load_symbol(const std::filesystem::path &path, const char *name);
 
 } // namespace cli
