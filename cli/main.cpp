@@ -1,6 +1,7 @@
 // The program `pt`: chooses the subcommand, and turns every exception into an exit code.
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
@@ -9,6 +10,7 @@
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
+#include "cli/scene/scene_schema.h"
 #include "cli/selftest/selftest_command.h"
 #include "cli/tonemap/tonemap_command.h"
 
@@ -17,6 +19,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -58,6 +61,8 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_selftest_options(*selftest, selftest_options);
     selftest->footer(std::string(cli::selftest_help) + "\n" + cli::exit_code_help);
 
+    CLI::App *schema = program.add_subcommand("schema", "Print the JSON Schema of scene files");
+
     bool as_json = false;
     CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
     devices->add_flag("--json", as_json, "Print JSON");
@@ -89,11 +94,16 @@ int parse_and_run(int argument_count, char **arguments) {
     if (selftest->parsed()) {
         return cli::run_selftest(selftest_options);
     }
+    if (schema->parsed()) {
+        std::cout << cli::json_text(cli::scene_schema());
+        return static_cast<int>(cli::ExitCode::done);
+    }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
-    return fail(cli::ExitCode::usage,
-                "a subcommand is missing: render, tonemap, compare, bench, selftest or devices (see pt --help)");
+    return fail(
+        cli::ExitCode::usage,
+        "a subcommand is missing: render, tonemap, compare, bench, selftest, schema or devices (see pt --help)");
 }
 
 } // namespace

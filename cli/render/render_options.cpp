@@ -3,6 +3,9 @@
 #include "cli/base/common_options.h"
 #include "cli/base/method_names.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace cli {
 namespace {
 
@@ -109,6 +112,26 @@ void add_editing_options(CLI::App &command, RenderOptions &options) {
         ->group(group);
 }
 
+void add_animation_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Animation";
+    const auto read_frames = [&options](const std::string &text) {
+        options.frames = parse_frames(text);
+        if (!options.frames) {
+            refuse_option("--frames", "must be two whole numbers like 0-23, or one", text);
+        }
+    };
+    CLI::Option *frames =
+        command
+            .add_option_function<std::string>("--frames", read_frames,
+                                              "Render these frames of the scene's animation; # signs in the names of "
+                                              "files become the frame's number")
+            ->type_name("A-B")
+            ->group(group);
+    command.add_flag("--skip-existing", options.skip_existing, "Leave out frames whose files are all there")
+        ->needs(frames)
+        ->group(group);
+}
+
 } // namespace
 
 const char *const render_help =
@@ -133,9 +156,21 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
+    const auto read_overrides = [&options](const std::vector<std::string> &texts) {
+        options.overrides.clear();
+        std::transform(texts.begin(), texts.end(), std::back_inserter(options.overrides), &parse_override);
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", read_overrides,
+            "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
+        ->expected(1)
+        ->take_all()
+        ->type_name("PATH=VALUE");
     add_output_options(command, options);
     add_picture_options(command, options);
     add_sampling_options(command, options);
+    add_animation_options(command, options);
     add_device_options(command, options);
     add_editing_options(command, options);
     add_reporting(command, options.progress, options.quiet);

@@ -4,6 +4,8 @@
 #include "cli/base/number.h"
 #include "cli/image/display_options.h"
 #include "cli/image/image_file.h"
+#include "cli/render/frame_range.h"
+#include "cli/scene/scene_override.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,6 +20,7 @@ namespace cli {
 
 struct RenderOptions {
     std::string scene;
+    std::vector<SceneOverride> overrides; // of its values
     std::vector<std::string> outputs;
     std::optional<ImageFormat> format; // of an output that is standard output
     std::string standard_error;        // path of the image of standard errors; empty: none
@@ -35,6 +38,9 @@ struct RenderOptions {
     std::uint32_t first_sample = 0;
 
     DisplayOptions display; // of .png and .jpg alone
+
+    std::optional<FrameRange> frames; // of an animation; nothing: a picture
+    bool skip_existing = false;       // of these frames
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default

@@ -57,6 +57,11 @@ void check_sources_are_kept(const RenderOptions &options) {
 
 } // namespace
 
+SceneFile read_scene(const RenderOptions &options) {
+    const SceneText scene = read_scene_text(options.scene);
+    return parse_scene(scene.text, scene.path, options.overrides);
+}
+
 void check_names(const RenderOptions &options) {
     check_image_names(options.outputs, options.format);
     check_standard_error_name(options.standard_error);

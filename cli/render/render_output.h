@@ -13,6 +13,9 @@
 
 namespace cli {
 
+// With the values that --set gives in place of its own. Throws Failure.
+SceneFile read_scene(const RenderOptions &options);
+
 // Throws Failure(ExitCode::usage) if an output's name tells no known format, or the output is another one or a source.
 void check_names(const RenderOptions &options);
 

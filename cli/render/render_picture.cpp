@@ -121,7 +121,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
 
     context.require(pt_get_context_device(context.get(), &report.device));
     if (!take_scene(context, options, file, superseded)) {
-        if (interrupt_signal() == 0) {
+        if (superseded()) {
             return Outcome::superseded;
         }
         print_interruption(settings, 0, 0);
@@ -149,7 +149,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
-    const bool interrupted = interrupt_signal() != 0;
+    const bool interrupted = interrupt_signal() != 0 && !superseded();
     if (interrupted) {
         print_interruption(settings, report.stats.sample_count, image.rows_done);
         if (report.stats.sample_count == 0) {

@@ -68,7 +68,7 @@ Failure RenderSettings::explain(const LibraryError &error, const SceneFile &scen
     ExitCode code = ExitCode::scene;
     const std::string explained = error.in_words([&](const BrokenRule &rule) {
         const bool from_scene = is_from_scene(rule);
-        code = from_scene ? code : ExitCode::usage;
+        code = from_scene && code == ExitCode::scene ? scene.blame(rule) : ExitCode::usage;
         return from_scene ? scene.explain(rule) : in_words_of_options(rule);
     });
     return {code, explained};
