@@ -8,8 +8,8 @@
 
 namespace cli {
 
-// R, G, B as displays take them for each number of [0, 1], dark to bright; white for NaN. width numbers to a row. Throws
-// Failure, as for images that are read.
+// R, G, B as displays take them for each number of [0, 1], dark to bright; white for NaN. width numbers to a row.
+// Throws Failure, as for images that are read.
 std::vector<std::uint8_t> map_colours(std::span<const float> numbers, std::uint32_t width);
 
 } // namespace cli

@@ -1,5 +1,5 @@
-// From linear radiance to a file for a display: tone map, encoding, bits of a channel, metadata. One way for pictures that
-// are rendered and for those made of a file of radiance, so that both have the same bits.
+// From linear radiance to a file for a display: tone map, encoding, bits of a channel, metadata. One way for pictures
+// that are rendered and for those made of a file of radiance, so that both have the same bits.
 #pragma once
 
 #include "cli/image/image_attributes.h"

@@ -17,8 +17,8 @@ void check_image_names(std::span<const std::string> paths, std::optional<ImageFo
 // Of a path that passed these checks. format: of standard output.
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
 
-// Throws Failure: ExitCode::usage for an image that is too large for its format, ExitCode::file for a file that cannot be
-// written.
+// Throws Failure: ExitCode::usage for an image that is too large for its format, ExitCode::file for a file that cannot
+// be written.
 void check_image_target(const ImageTarget &target, const ImageWindow &window);
 
 } // namespace cli

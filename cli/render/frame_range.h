@@ -23,8 +23,8 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
     return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
 }
 
-// The name of a frame's file: the last row of # signs is its number, with zeros in front up to as many digits. Nothing if
-// there is no #.
+// The name of a frame's file: the last row of # signs is its number, with zeros in front up to as many digits. Nothing
+// if there is no #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
     if (last == std::string::npos) {

@@ -6,7 +6,7 @@
 
 namespace cli {
 
-// Returns the exit code; throws Failure. A frame that a signal stops is not written, so that each file is a whole frame.
+// Returns the exit code; throws Failure. A frame that a signal stops is not written: each file is a whole frame.
 int render_frames(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

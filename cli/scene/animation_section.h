@@ -13,9 +13,9 @@ namespace cli {
 // Of one value; throws JsonRefusal.
 void read_animation_item(SceneFile &scene, const JsonPlace &place, const nlohmann::json &value);
 
-// What takes the place of the scene's values in a frame. A frame lasts from its number to the next one, and the shutter's
-// times are shares of that: spheres move within the frame, on a straight way from where they are at its begin to where
-// they are at its end; all else stands still, as it is in the middle of the time that the shutter is open.
+// What takes the place of the scene's values in a frame. A frame lasts from its number to the next one, and the
+// shutter's times are shares of that: spheres move within the frame, on a straight way from where they are at its begin
+// to where they are at its end; all else stands still, as it is in the middle of the time that the shutter is open.
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame);
 
 } // namespace cli

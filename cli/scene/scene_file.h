@@ -59,7 +59,7 @@ struct SceneFile {
     std::string explain(const BrokenRule &rule) const;
     std::string explain(const LibraryError &error) const;
 
-    // Where the fault is if that rule is broken: in the file, or in the source of a value that took the place of its own.
+    // Where the fault is if that rule is broken: in the file, or in the source of a value in place of its own.
     ExitCode blame(const BrokenRule &rule) const;
 };
 

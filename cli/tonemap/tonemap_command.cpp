@@ -26,8 +26,8 @@ void check(const TonemapOptions &options) {
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
-// Of a picture, or of a part of it. Another program's pixels may lie outside of the picture, where they are a picture of
-// their own.
+// Of a picture, or of a part of it. Another program's pixels may lie outside of the picture: then they are a picture
+// of their own.
 ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;

@@ -74,7 +74,7 @@ class Compare(CommandLineTest):
                 (2, ("a.exr", "c.exr"), "they must be equally large"), (2, ("c.exr", "d.exr"), "must be equally large"),
                 (2, ("a.exr", "a.png"), "a.exr holds radiance, a.png numbers for a display: they must be of one kind"),
                 (6, ("a.exr", "none.exr"), "cannot read none.exr"),
-                (6, ("a.exr", "r.exr", "--layer", "albedo"), "R, G and B of the layer albedo, or a channel of that name"),
+                (6, ("a.exr", "r.exr", "--layer", "albedo"), "R, G and B of the layer albedo, or a channel"),
                 (2, ("a.exr", "r.exr", "--difference", "d.jpg"), "--difference d.jpg: the name must end in .png"),
                 (2, ("a.exr", "r.png", "--difference", "r.png"), "is the same file as the reference r.png"),
                 (2, ("a.exr", "r.exr", "--json", "a.exr"), "is the same file as the image a.exr"),

@@ -50,8 +50,8 @@ class Frames(FramesTest):
 
     def test_a_stop_leaves_whole_frames(self):
         submission = 2 * 16 * 4 + 5  # four to a sample, in the third frame
-        self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q", error="pt: stopped by SIGINT in frame 6",
-                    FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
+        self.expect(130, "render", "s.json", "--frames", "4-9", "-o", "#.png", "-q",
+                    error="pt: stopped by SIGINT in frame 6", FAKE_PT_SIGNAL=f"{int(signal.SIGINT)}:{submission}")
         self.assertEqual(self.files(), ["4.png", "5.png", "s.json"])
         self.expect(0, "render", "s.json", "--frames", "4-6", "-o", "#.png", "--skip-existing")
         self.assertEqual(self.files(), ["4.png", "5.png", "6.png", "s.json"])
@@ -67,7 +67,7 @@ class Frames(FramesTest):
                 (2, ("s.json", "-o", "#.png", "--frames", "0", "--watch"), "--watch: shows one picture"),
                 (2, ("s.json", "-o", "#.json", "--frames", "0"), "the name must end in"),
                 (3, (COURSEWORK, "-o", "#.png", "--frames", "0"), "has no animation, of which --frames are rendered"),
-                (2, ("s.json", "-o", "#.png", "--frames", "0", "--set", "spheres[5].radius=1"), "--set spheres[5].radi")):
+                (2, ("s.json", "-o", "#.png", "--frames", "0", "--set", "spheres[5].radius=1"), "--set spheres[5].")):
             with self.subTest(arguments=arguments):
                 self.expect(code, "render", *arguments, error=error)
         self.assertEqual(self.files(), ["s.json"])

@@ -39,7 +39,8 @@ class RealDevice(CommandLineTest):
     program = PT
 
     def test_the_picture_is_that_of_the_changed_scene(self):
-        lamp = '{"materials": {"l": {"emission": %s}}, "spheres": [{"center": [0, 0, -5], "radius": %s, "material": "l"}]}'
+        lamp = ('{"materials": {"l": {"emission": %s}}, '
+                '"spheres": [{"center": [0, 0, -5], "radius": %s, "material": "l"}]}')
         arguments = ("--size", "8x4", "--spp", "4", "--exposure", "0", "-q", "-o")
         self.write("a.json", lamp % (0.25, 3))
         self.write("b.json", lamp % (0.5, 1))
