@@ -37,10 +37,10 @@ ImageDifference compare_images(Values image, Values reference) {
             }
         }
     }
-    const auto count = static_cast<double>(image.size() / 3 - total.not_finite);
-    if (count > 0.0) {
-        total.mse /= count;
-        total.relative_mse /= count;
+    const std::size_t pixel_count = image.size() / 3 - total.not_finite;
+    if (pixel_count > 0) {
+        total.mse /= static_cast<double>(pixel_count);
+        total.relative_mse /= static_cast<double>(pixel_count);
     }
     return total;
 }

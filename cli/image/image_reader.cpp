@@ -63,9 +63,9 @@ std::string contents_text(const DecodedImage &image) {
 
 std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::string &layer) {
     std::array<std::size_t, 3> channels{};
+    const std::string prefix = layer.empty() ? "" : layer + ".";
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::string channel(1, "RGB"[i]);
-        auto found = find_channel(image, layer.empty() ? channel : layer + "." + channel);
+        auto found = find_channel(image, prefix + "RGB"[i]);
         found = found || layer.empty() ? found : find_channel(image, layer);
         if (!found) {
             throw Failure(ExitCode::file,
