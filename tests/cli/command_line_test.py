@@ -45,7 +45,8 @@ class Usage(CommandLineTest):
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
         for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt'),
-                                 (["scene.json"], 'subcommand "scene.json", known: render, bench, merge, selftest, devices'),
+                                 (["scene.json"], 'subcommand "scene.json", known: render, tonemap, compare, bench, '
+                                                  'merge, selftest, schema, devices'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
                                  ([*render, "--expsure", "-3"], 'mean "--exposure"?'),
