@@ -64,6 +64,14 @@ class Usage(CommandLineTest):
         self.expect(0, *arguments, "6")
         self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass")
 
+    def test_samples_by_the_error_need_one(self):
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling"]
+        self.expect(2, *arguments, "adaptive", error="pt: --sampling adaptive: needs --error")
+        self.assertEqual(self.files(), [])
+        for sampling in "adaptive", "uniform", "best":
+            self.expect(0, *arguments, sampling, "--error", "50%")
+        self.expect(0, *arguments, "uniform")
+
     def test_unknown_extensions(self):
         for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):
             with self.subTest(name=name):

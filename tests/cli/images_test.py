@@ -6,6 +6,7 @@ Arguments: see command_line.py.
 import itertools
 import os
 import pty
+import signal
 import struct
 import subprocess
 
@@ -133,6 +134,15 @@ class StandardOutput(ImagesTest):
         self.assertEqual((done.stdout, done.stderr), (self.contents("a.jpg"), b""))
         self.assertEqual(self.contents("b.png"), self.contents("a.png"))
         self.assertNotIn("-", self.files())
+
+    def test_it_gets_no_picture_so_far(self):
+        arguments = ("render", COURSEWORK, *SIZE, "--spp", "20", "-o", "-", "--format", "png")
+        once = self.piped(*arguments)
+        asked = self.piped(*arguments, env={**os.environ, "FAKE_PT_SAMPLE_MS": "4",
+                                            "FAKE_PT_SIGNAL": f"{int(signal.SIGUSR1)}:8"})
+        self.assertEqual((asked.returncode, asked.stdout), (0, once.stdout), asked.stderr)
+        self.render("-o", "-", "--format", "png", "--preview-every", "1", code=2,
+                    error="--preview-every: needs the name of a file")
 
     def test_its_format_has_to_be_given(self):
         self.render("-o", "-", code=2, error="-o -: standard output needs --format exr, png or jpg")
