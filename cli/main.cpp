@@ -1,23 +1,28 @@
 // The program `pt`: chooses the subcommand, and turns every exception into an exit code.
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/standard_streams.h"
 #include "cli/base/unknown_argument.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
+#include "cli/compare/compare_command.h"
 #include "cli/film/merge_command.h"
 #include "cli/film/merge_options.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
+#include "cli/scene/scene_schema.h"
 #include "cli/selftest/selftest_command.h"
+#include "cli/tonemap/tonemap_command.h"
 
 #include <CLI/CLI.hpp>
 
 #include <exception>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -39,6 +44,16 @@ int parse_and_run(int argument_count, char **arguments) {
     cli::add_render_options(*render, options);
     render->footer(std::string(cli::render_help) + "\n" + cli::exit_code_help);
 
+    cli::TonemapOptions tonemap_options;
+    CLI::App *tonemap = program.add_subcommand("tonemap", "Make a picture of a file of radiance, without rendering");
+    cli::add_tonemap_options(*tonemap, tonemap_options);
+    tonemap->footer(std::string(cli::tonemap_help) + "\n" + cli::exit_code_help);
+
+    cli::CompareOptions compare_options;
+    CLI::App *compare = program.add_subcommand("compare", "Compare an image with a reference");
+    cli::add_compare_options(*compare, compare_options);
+    compare->footer(std::string(cli::compare_help) + "\n" + cli::exit_code_help);
+
     cli::BenchOptions bench_options;
     CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
     cli::add_bench_options(*bench, bench_options);
@@ -53,6 +68,8 @@ int parse_and_run(int argument_count, char **arguments) {
     CLI::App *selftest = program.add_subcommand("selftest", "Check a device against exact answers, in a second or so");
     cli::add_selftest_options(*selftest, selftest_options);
     selftest->footer(std::string(cli::selftest_help) + "\n" + cli::exit_code_help);
+
+    CLI::App *schema = program.add_subcommand("schema", "Print the JSON Schema of scene files");
 
     bool as_json = false;
     CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
@@ -73,6 +90,12 @@ int parse_and_run(int argument_count, char **arguments) {
     if (render->parsed()) {
         return cli::run_render(options);
     }
+    if (tonemap->parsed()) {
+        return cli::run_tonemap(tonemap_options);
+    }
+    if (compare->parsed()) {
+        return cli::run_compare(compare_options);
+    }
     if (bench->parsed()) {
         return cli::run_bench(bench_options);
     }
@@ -82,11 +105,16 @@ int parse_and_run(int argument_count, char **arguments) {
     if (selftest->parsed()) {
         return cli::run_selftest(selftest_options);
     }
+    if (schema->parsed()) {
+        std::cout << cli::json_text(cli::scene_schema());
+        return static_cast<int>(cli::ExitCode::done);
+    }
     if (devices->parsed()) {
         return cli::run_devices(as_json);
     }
     return fail(cli::ExitCode::usage,
-                "a subcommand is missing: render, merge, bench, selftest or devices (see pt --help)");
+                "a subcommand is missing: render, tonemap, compare, bench, merge, selftest, schema or devices (see pt "
+                "--help)");
 }
 
 } // namespace

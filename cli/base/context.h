@@ -61,18 +61,21 @@ public:
     // Three components to a pixel.
     std::vector<float> read_image(const pt_render &render) const {
         std::vector<float> values(std::size_t{3} * render.width * render.height);
-        read_image(render, PT_QUANTITY_RADIANCE, values.data());
+        read_columns(0, render.width, render.height, PT_QUANTITY_RADIANCE, values.data());
         return values;
     }
 
-    // The rows that the settings ask for. quantity: PT_QUANTITY_*.
-    void read_image(const pt_render &render, std::uint32_t quantity, float *values) const {
+    // The same of some columns of the rows that are rendered. quantity: PT_QUANTITY_*.
+    void read_columns(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
+                      float *values) const {
         pt_image image{};
         image.struct_size = sizeof(pt_image);
         image.quantity = quantity;
         image.data = values;
-        const std::uint32_t rows = render.row_count == 0 ? render.height - render.first_row : render.row_count;
-        image.size_bytes = std::uint64_t{3} * render.width * rows * sizeof(float);
+        image.size_bytes = std::uint64_t{3} * count * rows * sizeof(float);
+        image.x = first;
+        image.width = count;
+        image.height = rows;
         require(pt_readback(context_, &image));
     }
 

@@ -17,6 +17,7 @@ enum class ExitCode {
     device_lost = 5,
     file = 6,
     target_missed = 7,
+    images_differ = 8,
     resumable = 75, // EX_TEMPFAIL of sysexits.h, after which schedulers try again
     signal = 128    // plus the signal's number
 };
@@ -32,6 +33,7 @@ inline constexpr const char *exit_code_help =
     "  6    a file could not be read or written\n"
     "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files were "
     "written\n"
+    "  8    the images that were compared differ by more than a limit\n"
     "  75   --time came first; all files were written, and --resume goes on from the checkpoint\n"
     "  129  SIGHUP: the samples done so far were written, if there were any, and the checkpoint\n"
     "  130  SIGINT: the same\n"

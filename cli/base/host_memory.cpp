@@ -37,18 +37,18 @@ std::uint64_t most_bytes() {
 
 } // namespace
 
-std::uint64_t image_bytes(const pt_render &render, std::uint32_t image_count) {
+std::uint64_t image_bytes(const ImageWindow &window, std::uint32_t image_count) {
     constexpr std::uint64_t pixel_bytes = 3 * sizeof(float);
-    return pixel_bytes * render.width * render.height * image_count;
+    return pixel_bytes * window.part.width * window.part.height * image_count;
 }
 
 void require_host_memory(const RenderSettings &settings, const std::string &scene, std::uint32_t image_count) {
-    const std::uint64_t needed = image_bytes(settings.render, image_count);
+    const std::uint64_t needed = image_bytes(settings.window, image_count);
     const std::uint64_t most = most_bytes();
     if (needed <= most) {
         return;
     }
-    const std::string size = std::to_string(settings.render.width) + "x" + std::to_string(settings.render.height);
+    const std::string size = window_text(settings.window);
     const bool from_scene = settings.is_size_from_scene();
     throw Failure(from_scene ? ExitCode::scene : ExitCode::usage,
                   (from_scene ? scene + ": film of " : "--size ") + size + ": " +

@@ -8,8 +8,8 @@
 
 namespace cli {
 
-// Size of so many images of radiance, or of its standard error.
-std::uint64_t image_bytes(const pt_render &render, std::uint32_t image_count);
+// Size of so many images of radiance, or of its standard error, of a window.
+std::uint64_t image_bytes(const ImageWindow &window, std::uint32_t image_count);
 
 // Throws Failure if they take more than the process can ever have, and blames who gave the size: the command line, or
 // the scene file of that path.

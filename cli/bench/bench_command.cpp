@@ -12,7 +12,7 @@
 #include "cli/base/vector_width.h"
 #include "cli/bench/bench_report.h"
 #include "cli/bench/bench_run.h"
-#include "cli/image/image_file.h"
+#include "cli/image/image_reader.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
 #include "cli/scene/scene_setup.h"

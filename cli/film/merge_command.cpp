@@ -12,7 +12,6 @@
 #include "cli/image/image_file.h"
 #include "cli/render/render_output.h"
 
-#include <algorithm>
 #include <memory>
 
 namespace cli {
@@ -27,7 +26,7 @@ void check(const MergeOptions &options) {
     for (const std::string &part : options.parts) {
         parts.push_back({"the part", part});
     }
-    check_merged_outputs(output, parts);
+    check_merged_names(output, parts);
 }
 
 // All parts are looked at, so that all that is wrong is told at once.
@@ -54,13 +53,13 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
 }
 
 std::optional<ToneMap> tone_map_of(const RenderOptions &options, std::span<const float> radiance) {
-    const auto is_mapped = [](const std::string &path) { return image_format(path) != ImageFormat::exr; };
-    if (std::none_of(options.outputs.begin(), options.outputs.end(), is_mapped)) {
+    if (!needs_tone_map(options)) {
         return std::nullopt;
     }
-    const std::optional<double> stops = options.exposure.value_or(Exposure{}).stops;
-    return ToneMap{stops ? *stops : automatic_exposure(radiance), options.tone_curve.value_or(ToneCurve::none),
-                   options.gamma};
+    const DisplayOptions &display = options.display;
+    const std::optional<double> stops = display.exposure.value_or(Exposure{}).stops;
+    return ToneMap{stops ? *stops : automatic_exposure(radiance), display.tone_curve.value_or(ToneCurve::none),
+                   display.gamma};
 }
 
 // Whether all files could be written.
@@ -69,7 +68,7 @@ bool write_outputs(const FilmHandle &film, const RenderOptions &options, MergeRe
     const std::vector<float> standard_error =
         options.standard_error.empty() ? std::vector<float>() : film.read_image(PT_QUANTITY_STANDARD_ERROR);
     report.picture.tone_map = tone_map_of(options, radiance);
-    report.picture.automatic_exposure = report.picture.tone_map && !options.exposure.value_or(Exposure{}).stops;
+    report.picture.automatic_exposure = report.picture.tone_map && !options.display.exposure.value_or(Exposure{}).stops;
     ImageWriter writer;
     const std::size_t written = write_images(writer, options, report.picture, radiance, standard_error).size();
     const bool has_film = options.film.empty() || write_film([&] { return film.bytes(); }, options.film);
@@ -80,7 +79,7 @@ bool write_outputs(const FilmHandle &film, const RenderOptions &options, MergeRe
 void print_summary(const RenderOptions &options, const MergeReport &report) {
     const std::string exposure = report.picture.automatic_exposure ? exposure_text(report.picture) + "\n" : "";
     print_for_people(summary_text(report) + "\n" + exposure + error_text(report.picture) + "\n",
-                     options.stats == standard_stream);
+                     takes_standard_output(options));
 }
 
 } // namespace
@@ -89,6 +88,7 @@ int run_merge(const MergeOptions &options) {
     check(options);
     const std::unique_ptr<FilmHandle> film = sum_of(options.parts);
     MergeReport report = merge_report(*film, options);
+    check_files(options.output, report.picture.window);
     if (!write_outputs(*film, options.output, report)) {
         return static_cast<int>(ExitCode::file);
     }

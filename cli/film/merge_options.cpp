@@ -11,10 +11,12 @@ void add_file_options(CLI::App &command, MergeOptions &options) {
         ->type_name("PART");
     command
         .add_option("-o,--output", options.output.outputs,
-                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
+                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
+                    "- is standard output")
         ->expected(1)
         ->take_all()
         ->type_name("FILE");
+    add_format(command, options.output.format);
     command
         .add_option("--standard-error", options.output.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
@@ -41,7 +43,7 @@ void add_merge_options(CLI::App &command, MergeOptions &options) {
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
                                     "How many there should be from there on; those missing are told, with exit code 7 "
                                     "(default: up to the last there is)");
-    add_tone_map(command, {options.output.exposure, options.output.tone_curve, options.output.gamma, ""});
+    add_display_options(command, options.output.display, "");
     command.add_flag("-q,--quiet", options.output.quiet, "Print errors only")->group("Reporting");
 }
 

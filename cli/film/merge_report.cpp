@@ -61,8 +61,9 @@ void copy_name(const std::string &from, char (&name)[Size]) {
 RenderReport picture_of(const FilmHandle &film, const pt_film_info &info, const pt_sample_range &hull) {
     RenderReport picture{};
     picture.date = source_date();
-    picture.render.width = info.columns;
-    picture.render.height = info.rows;
+    picture.render.width = info.width;
+    picture.render.height = info.height;
+    picture.window = {{info.x, info.y, info.columns, info.rows}, info.width, info.height};
     picture.render.max_path_length = info.max_path_length;
     picture.render.seed = info.seed;
     picture.render.first_sample = static_cast<std::uint32_t>(hull.first);

@@ -1,7 +1,8 @@
-// Writes and reads images: writes PNG itself, and uses the module of image_module.h for all other formats and to read.
+// Writes images: PNG itself, and all other formats by the module of image_module.h.
 #pragma once
 
 #include "cli/image/image_module.h"
+#include "cli/image/image_window.h"
 
 #include <atomic>
 #include <cstdint>
@@ -9,33 +10,31 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace cli {
 
 enum class ImageFormat {
     exr, // linear radiance, 32-bit float
-    png, // 8 bits, tone-mapped, like jpeg
+    png, // tone-mapped, like jpeg
     jpeg
 };
 
 // By the extension, whatever its case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
 std::optional<ImageFormat> image_format(const std::string &path);
 
+// "exr", "png" or "jpg", as in an extension.
+std::optional<ImageFormat> find_image_format(std::string_view name);
+inline constexpr std::array<std::string_view, 4> image_format_names{"exr", "png", "jpg", "jpeg"};
+
 // The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
 // ends the whole process if it is asked for more.
 std::uint32_t longest_side(ImageFormat format);
 
-struct RadianceImage {
-    std::uint32_t width;
-    std::uint32_t height;
-    std::vector<float> radiance; // R, G, B of each pixel, row by row from the top
+struct ImageTarget {
+    std::string path; // "-": standard output
+    ImageFormat format;
 };
 
-// Throws Failure: ExitCode::file if it cannot be read or has other channels, or without the module.
-RadianceImage read_radiance(const std::string &path);
-
-// Encodes and writes images: PNG itself, all others by the module.
 class ImageWriter {
 public:
     // In the background, so that it is there when the first image is to be written; otherwise it is loaded then. Throws
@@ -52,16 +51,18 @@ public:
         }
     }
 
-    // Both throw Failure(ExitCode::file) and leave an existing file as it was. Three components to a pixel.
-    void write_radiance(const std::string &path, std::uint32_t width, std::uint32_t height,
-                        std::span<const float> radiance, std::span<const pt_image_attribute> attributes);
-    // gamma: of the bytes' encoding; nothing: it is that of sRGB.
-    void write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
-                     std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes,
-                     std::optional<double> gamma = std::nullopt);
+    // All throw Failure(ExitCode::file) and leave an existing file as it was. Values are those of the window's part.
+    void write_radiance(const ImageTarget &target, const ImageWindow &window, std::span<const pt_image_layer> layers,
+                        std::span<const pt_image_attribute> attributes);
+    // Three components to a pixel, of 8 bits, or of 16 for PNG. gamma: of their encoding; nothing: it is that of sRGB.
+    void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint8_t> bytes,
+                      std::span<const pt_image_attribute> attributes, std::optional<double> gamma = std::nullopt);
+    void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint16_t> words,
+                      std::span<const pt_image_attribute> attributes, std::optional<double> gamma = std::nullopt);
 
 private:
-    void write(const std::string &path, pt_image_data image, std::span<const pt_image_attribute> attributes);
+    void write(const ImageTarget &target, const ImageWindow &window, pt_image_data image,
+               std::span<const pt_image_attribute> attributes);
     void write_png(const std::string &path, const pt_image_data &image);
     void write_by_module(const std::string &path, const pt_image_data &image);
 

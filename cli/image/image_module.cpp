@@ -5,9 +5,13 @@
 #include "cli/image/image_attribute_text.h"
 
 #include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -33,15 +37,48 @@ std::string description(std::span<const pt_image_attribute> attributes) {
     return text;
 }
 
-OIIO::ImageSpec describe(const pt_image_data &image) {
-    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3,
-                         image.radiance != nullptr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-    const std::span attributes(image.attributes, image.attribute_count);
-    if (image.radiance == nullptr) {
-        spec.attribute("ImageDescription", description(attributes));
-    } else {
-        spec.attribute("DateTime", ""); // without a date, OpenImageIO would write the present one
+// "R", "G" and "B" of the main layer, "layer.R" of others, and the name alone of a layer of one channel.
+std::vector<std::string> channel_names(std::span<const pt_image_layer> layers) {
+    std::vector<std::string> names;
+    for (const pt_image_layer &layer : layers) {
+        const std::string name = layer.name;
+        if (layer.channel_count == 1) {
+            names.push_back(name);
+            continue;
+        }
+        for (const char *channel : {"R", "G", "B"}) {
+            names.push_back(name.empty() ? channel : name + "." + channel);
+        }
     }
+    return names;
+}
+
+// The primaries and the white point of Rec. 709 (ITU-R BT.709-6, table 1), those of the radiance.
+void add_chromaticities(OIIO::ImageSpec &spec) {
+    constexpr std::array<float, 8> rec709{0.64F, 0.33F, 0.30F, 0.60F, 0.15F, 0.06F, 0.3127F, 0.3290F};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, rec709.size()), rec709.data());
+}
+
+OIIO::ImageSpec describe_radiance(const pt_image_data &image) {
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 1, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = channel_names({image.layers, image.layer_count});
+    spec.nchannels = static_cast<int>(spec.channelnames.size());
+    spec.x = static_cast<int>(image.x);
+    spec.y = static_cast<int>(image.y);
+    spec.full_width = static_cast<int>(image.full_width);
+    spec.full_height = static_cast<int>(image.full_height);
+    add_chromaticities(spec);
+    spec.attribute("DateTime", ""); // without a date, OpenImageIO would write the present one
+    return spec;
+}
+
+OIIO::ImageSpec describe_bytes(const pt_image_data &image) {
+    OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("ImageDescription", description({image.attributes, image.attribute_count}));
+    return spec;
+}
+
+void add_attributes(OIIO::ImageSpec &spec, std::span<const pt_image_attribute> attributes) {
     for (const pt_image_attribute &attribute : attributes) {
         if (attribute.text != nullptr) {
             spec.attribute(attribute.name, attribute.text);
@@ -51,7 +88,30 @@ OIIO::ImageSpec describe(const pt_image_data &image) {
             spec.attribute(attribute.name, static_cast<int>(attribute.number));
         }
     }
-    return spec;
+}
+
+// One row of the file, in which the channels of all layers stand side by side.
+void interleave_row(const pt_image_data &image, std::uint32_t y, std::span<float> row) {
+    const std::size_t stride = row.size() / image.width;
+    std::size_t offset = 0;
+    for (const pt_image_layer &layer : std::span(image.layers, image.layer_count)) {
+        const float *value = layer.values + std::size_t{y} * image.width * layer.channel_count;
+        for (std::size_t x = 0; x < image.width; ++x, value += layer.channel_count) {
+            std::copy_n(value, layer.channel_count, row.begin() + static_cast<std::ptrdiff_t>(x * stride + offset));
+        }
+        offset += layer.channel_count;
+    }
+}
+
+bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const pt_image_data &image) {
+    std::vector<float> row(std::size_t{image.width} * static_cast<std::size_t>(spec.nchannels));
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        interleave_row(image, y, row);
+        if (!output.write_scanline(spec.y + static_cast<int>(y), 0, OIIO::TypeDesc::FLOAT, row.data())) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // In memory and not to a path: OpenImageIO does not notice when closing a file fails, as it does on a full disk.
@@ -62,30 +122,73 @@ std::vector<unsigned char> encode(const pt_image_data &image) {
         throw std::runtime_error(OIIO::geterror());
     }
     OIIO::Filesystem::IOVecOutput memory;
-    const void *pixels = image.radiance != nullptr ? static_cast<const void *>(image.radiance) : image.bytes;
-    const OIIO::ImageSpec spec = describe(image);
-    if (!output->set_ioproxy(&memory) || !output->open(name, spec) || !output->write_image(spec.format, pixels) ||
-        !output->close()) {
+    const bool is_radiance = image.layers != nullptr;
+    OIIO::ImageSpec spec = is_radiance ? describe_radiance(image) : describe_bytes(image);
+    add_attributes(spec, {image.attributes, image.attribute_count});
+    const bool is_written =
+        output->set_ioproxy(&memory) && output->open(name, spec) &&
+        (is_radiance ? write_layers(*output, spec, image) : output->write_image(spec.format, image.bytes)) &&
+        output->close();
+    if (!is_written) {
         throw std::runtime_error(output->geterror());
     }
     return std::move(memory.buffer());
 }
 
-void decode(const char *path, pt_radiance_sink sink, void *user) {
+// Texts and single numbers, which are all that this program writes; the result points into the specification.
+std::vector<pt_image_attribute> attributes_of(const OIIO::ImageSpec &spec) {
+    std::vector<pt_image_attribute> attributes;
+    for (const OIIO::ParamValue &each : spec.extra_attribs) {
+        const OIIO::TypeDesc type = each.type();
+        if (type == OIIO::TypeDesc::STRING) {
+            attributes.push_back({each.name().c_str(), each.get_ustring().c_str(), 0.0, 0, 0});
+        } else if (type == OIIO::TypeDesc::FLOAT || type == OIIO::TypeDesc::INT) {
+            const bool is_float = type == OIIO::TypeDesc::FLOAT;
+            const double number = is_float ? double{each.get_float()} : double(each.get_int());
+            attributes.push_back({each.name().c_str(), nullptr, number, is_float ? 1 : 0, 0});
+        }
+    }
+    return attributes;
+}
+
+void decode(const char *path, pt_decoded_sink sink, void *user) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
     if (!input) {
         throw std::runtime_error(OIIO::geterror());
     }
     const OIIO::ImageSpec &spec = input->spec();
-    const int red = spec.channelindex("R");
-    if (red < 0 || spec.channelindex("G") != red + 1 || spec.channelindex("B") != red + 2) {
-        throw std::runtime_error("must have the channels R, G and B, one after the other");
-    }
-    std::vector<float> radiance(std::size_t{3} * spec.image_pixels());
-    if (!input->read_image(0, 0, red, red + 3, OIIO::TypeDesc::FLOAT, radiance.data())) {
+    std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
         throw std::runtime_error(input->geterror());
     }
-    sink(user, static_cast<std::uint32_t>(spec.width), static_cast<std::uint32_t>(spec.height), radiance.data());
+    std::vector<const char *> names;
+    for (const std::string &name : spec.channelnames) {
+        names.push_back(name.c_str());
+    }
+    const std::vector<pt_image_attribute> attributes = attributes_of(spec);
+    pt_decoded_image image{};
+    image.x = spec.x - spec.full_x;
+    image.y = spec.y - spec.full_y;
+    image.width = static_cast<std::uint32_t>(spec.width);
+    image.height = static_cast<std::uint32_t>(spec.height);
+    image.full_width = static_cast<std::uint32_t>(spec.full_width);
+    image.full_height = static_cast<std::uint32_t>(spec.full_height);
+    image.is_float = spec.format.is_floating_point() ? 1 : 0;
+    image.channel_count = static_cast<std::uint32_t>(spec.nchannels);
+    image.channel_names = names.data();
+    image.values = values.data();
+    image.attributes = attributes.data();
+    image.attribute_count = attributes.size();
+    sink(user, &image);
+}
+
+void map_colours(const float *numbers, uint32_t width, uint32_t height, float *light) {
+    const OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 1, OIIO::TypeDesc::FLOAT);
+    const OIIO::ImageBuf source(spec, const_cast<float *>(numbers)); // only read
+    const OIIO::ImageBuf colours = OIIO::ImageBufAlgo::color_map(source, 0, "viridis");
+    if (colours.has_error() || !colours.get_pixels(colours.roi(), OIIO::TypeDesc::FLOAT, light)) {
+        throw std::runtime_error(colours.geterror());
+    }
 }
 
 int32_t failure(std::string_view text, char *message, size_t message_size) {
@@ -120,6 +223,12 @@ pt_encode_image(const pt_image_data *image, pt_image_sink sink, void *user, char
 }
 
 extern "C" __attribute__((visibility("default"))) int32_t
-pt_decode_image(const char *path, pt_radiance_sink sink, void *user, char *message, size_t message_size) {
+pt_decode_image(const char *path, pt_decoded_sink sink, void *user, char *message, size_t message_size) {
     return guard([&] { decode(path, sink, user); }, message, message_size);
+}
+
+extern "C" __attribute__((visibility("default"))) int32_t pt_map_colours(const float *numbers, uint32_t width,
+                                                                         uint32_t height, float *light, char *message,
+                                                                         size_t message_size) {
+    return guard([&] { map_colours(numbers, width, height, light); }, message, message_size);
 }

@@ -16,12 +16,26 @@ struct pt_image_attribute {
     int32_t reserved;
 };
 
+// Channels of an image whose values stand together.
+struct pt_image_layer {
+    const char *name;       // empty for the main one
+    uint32_t channel_count; // 3: R, G and B; 1: the layer is the channel
+    uint32_t reserved;
+    const float *values; // pixel by pixel, row by row from the top
+};
+
 struct pt_image_data {
     const char *extension; // "exr" or "jpg"
-    uint32_t width;
+    uint32_t width;        // of the pixels
     uint32_t height;
-    const float *radiance; // R, G, B triples for "exr", else NULL
+    uint32_t x; // where they begin in the picture
+    uint32_t y;
+    uint32_t full_width; // of the picture
+    uint32_t full_height;
+    const pt_image_layer *layers; // for "exr", else NULL
+    size_t layer_count;
     const uint8_t *bytes;  // R, G, B triples for the others, else NULL
+    const uint16_t *words; // for PNG in place of bytes: 16 bits to a channel
     double gamma;          // light is the byte / 255 to this power; 0: by the sRGB curve. For PNG
     const pt_image_attribute *attributes;
     size_t attribute_count;
@@ -34,13 +48,35 @@ using pt_image_sink = void (*)(void *user, const void *bytes, size_t size);
 using pt_encode_image_fn = int32_t (*)(const pt_image_data *image, pt_image_sink sink, void *user, char *message,
                                        size_t message_size);
 
-// Receives a whole image, R, G, B triples row by row from the top. Must not throw.
-using pt_radiance_sink = void (*)(void *user, uint32_t width, uint32_t height, const float *radiance);
+// What a file holds. Valid during the call that hands it out.
+struct pt_decoded_image {
+    int32_t x; // where the pixels begin in the picture; may lie outside of it
+    int32_t y;
+    uint32_t width; // of the pixels
+    uint32_t height;
+    uint32_t full_width; // of the picture
+    uint32_t full_height;
+    int32_t is_float; // 0: whole numbers, as displays take them, scaled to [0, 1]
+    uint32_t channel_count;
+    const char *const *channel_names;
+    const float *values; // channel by channel of a pixel, row by row from the top
+    const pt_image_attribute *attributes;
+    size_t attribute_count;
+};
 
-// Reads the channels R, G and B of a file in any format that OpenImageIO knows. Returns like pt_encode_image.
-using pt_decode_image_fn = int32_t (*)(const char *path, pt_radiance_sink sink, void *user, char *message,
+// Must not throw.
+using pt_decoded_sink = void (*)(void *user, const pt_decoded_image *image);
+
+// Reads a file in any format that OpenImageIO knows. Returns like pt_encode_image.
+using pt_decode_image_fn = int32_t (*)(const char *path, pt_decoded_sink sink, void *user, char *message,
                                        size_t message_size);
+
+// Writes width * height R, G, B triples of linear light in [0, 1]: colours of the map viridis for numbers in [0, 1], to
+// which others are limited. Returns like pt_encode_image.
+using pt_map_colours_fn = int32_t (*)(const float *numbers, uint32_t width, uint32_t height, float *light,
+                                      char *message, size_t message_size);
 }
 
 #define PT_ENCODE_IMAGE_SYMBOL "pt_encode_image"
 #define PT_DECODE_IMAGE_SYMBOL "pt_decode_image"
+#define PT_MAP_COLOURS_SYMBOL "pt_map_colours"

@@ -5,7 +5,9 @@
 #include <png.h>
 
 #include <algorithm>
+#include <bit>
 #include <csetjmp>
+#include <cstdint>
 #include <new>
 #include <span>
 #include <stdexcept>
@@ -82,11 +84,19 @@ void set_colour_space(const Encoding &encoding, double gamma) {
 }
 
 std::vector<png_bytep> rows_of(const pt_image_data &image) {
+    const auto *first = image.words != nullptr ? reinterpret_cast<const std::uint8_t *>(image.words) : image.bytes;
+    const std::size_t pixel_bytes = image.words != nullptr ? 6 : 3;
     std::vector<png_bytep> rows(image.height);
     for (std::size_t y = 0; y < rows.size(); ++y) {
-        rows[y] = const_cast<png_bytep>(image.bytes + y * 3 * image.width); // only read
+        rows[y] = const_cast<png_bytep>(first + y * pixel_bytes * image.width); // only read
     }
     return rows;
+}
+
+// PNG has the more significant byte of a word first (ISO 15948, 7.2).
+int transforms_of(const pt_image_data &image) {
+    const bool is_swapped = image.words != nullptr && std::endian::native == std::endian::little;
+    return is_swapped ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY;
 }
 
 // False after a failure. A long jump runs no destructors: this function has no objects that need one.
@@ -94,8 +104,8 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
     if (setjmp(png_jmpbuf(encoding.png)) != 0) { // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
     }
-    png_set_IHDR(encoding.png, encoding.info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(encoding.png, encoding.info, image.width, image.height, image.words != nullptr ? 16 : 8,
+                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_colour_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as large
     // as the best of all filters and zlib's default do, in a third of the time or less.
@@ -103,7 +113,7 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));
     png_set_rows(encoding.png, encoding.info, rows);
-    png_write_png(encoding.png, encoding.info, PNG_TRANSFORM_IDENTITY, nullptr);
+    png_write_png(encoding.png, encoding.info, transforms_of(image), nullptr);
     return true;
 }
 

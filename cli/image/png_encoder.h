@@ -8,7 +8,7 @@
 
 namespace cli {
 
-// The whole file: image.bytes, and the attributes as text chunks. Throws std::runtime_error.
+// The whole file: image.bytes or image.words, and the attributes as text chunks. Throws std::runtime_error.
 std::vector<std::byte> encode_png(const pt_image_data &image);
 
 } // namespace cli

@@ -1,4 +1,4 @@
-// From linear radiance to 8-bit pixels: exposure, tone curve, display encoding, rounding.
+// From linear radiance to pixels of 8 or 16 bits: exposure, tone curve, display encoding, rounding.
 #pragma once
 
 #include <array>
@@ -39,7 +39,8 @@ Colour apply_curve(ToneCurve curve, const Colour &radiance);
 // Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);
 
-// R, G, B triples in, as many bytes out.
+// R, G, B triples of radiance >= 0 in, as many bytes or words out: 255 or 65535 times the signal, rounded, halves up.
 std::vector<std::uint8_t> map_to_8_bits(std::span<const float> radiance, const ToneMap &map);
+std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const ToneMap &map);
 
 } // namespace cli

@@ -22,7 +22,7 @@ public:
     CheckpointObserver(const Context &context, std::string path, double seconds,
                        std::function<void(const std::string &)> say);
 
-    void enter(const PiecewiseImage & /*before*/, const pt_render & /*piece*/) override {}
+    void enter(const PiecewiseImage & /*before*/, std::uint32_t /*rows*/) override {}
     bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
     void stepped(const RenderState &state) override;
 

@@ -8,7 +8,6 @@
 #include "cli/render/preview_observer.h"
 #include "cli/render/render_options.h"
 #include "cli/render/time_limit_observer.h"
-#include "cli/scene/render_settings.h"
 
 #include <cstdint>
 #include <functional>
@@ -20,8 +19,8 @@ namespace cli {
 class PictureObservers {
 public:
     // All must outlive it. The time that is limited begins now. write_preview: see PreviewObserver.
-    PictureObservers(const Context &context, const RenderOptions &options, const RenderSettings &settings,
-                     Progress &progress, std::function<bool(const PiecewiseImage &)> write_preview);
+    PictureObservers(const Context &context, const RenderOptions &options, Progress &progress,
+                     std::function<bool(const PiecewiseImage &)> write_preview);
 
     std::vector<PieceObserver *> list();
 
@@ -32,7 +31,7 @@ public:
     bool has_checkpoint() const { return checkpoint_ && checkpoint_->is_valid(); }
 
 private:
-    PreviewObserver preview_;
+    std::optional<PreviewObserver> preview_; // of one picture: the file of a frame is to mean that it is done
     std::optional<CheckpointObserver> checkpoint_;
     std::optional<TimeLimitObserver> time_limit_;
 };

@@ -10,10 +10,12 @@
 namespace cli {
 namespace {
 
-pt_render piece_of(const pt_render &render, std::uint32_t first_row, std::uint32_t rows) {
-    pt_render piece = render;
-    piece.first_row = first_row;
-    piece.row_count = std::min(rows, render.height - first_row);
+// first_row: of the window.
+pt_render piece_of(const RenderSettings &settings, std::uint32_t first_row, std::uint32_t rows) {
+    const Rectangle &part = settings.window.part;
+    pt_render piece = settings.render;
+    piece.first_row = part.y + first_row;
+    piece.row_count = std::min(rows, part.height - first_row);
     return piece;
 }
 
@@ -55,18 +57,21 @@ void render_piece(const Context &context, const SceneFile &file, const RenderSet
 }
 
 // Adds the samples that the context has of a piece; false if there are none.
-bool add_piece(const Context &context, const pt_render &piece, PiecewiseImage &image) {
-    const std::size_t row_values = std::size_t{3} * piece.width;
+bool add_piece(const Context &context, std::uint32_t rows, PiecewiseImage &image) {
     const pt_stats stats = context.read_stats();
     if (stats.sample_count == 0) {
         return false;
     }
-    join(image.stats, stats, piece.first_row, piece.row_count);
-    context.read_image(piece, PT_QUANTITY_RADIANCE, &image.radiance[row_values * piece.first_row]);
+    join(image.stats, stats, image.rows_done, rows);
+    const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
+        const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
+        context.read_columns(image.part.x, image.part.width, rows, quantity, &values[first]);
+    };
+    read(PT_QUANTITY_RADIANCE, image.radiance);
     if (!image.standard_error.empty()) {
-        context.read_image(piece, PT_QUANTITY_STANDARD_ERROR, &image.standard_error[row_values * piece.first_row]);
+        read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
     }
-    image.rows_done += piece.row_count;
+    image.rows_done += rows;
     return true;
 }
 
@@ -74,9 +79,10 @@ bool add_piece(const Context &context, const pt_render &piece, PiecewiseImage &i
 
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows) {
-    std::uint32_t rows = wanted_rows == 0 ? settings.render.height : std::min(wanted_rows, settings.render.height);
+    const std::uint32_t height = settings.window.part.height;
+    std::uint32_t rows = wanted_rows == 0 ? height : std::min(wanted_rows, height);
     for (;; rows = (rows + 1) / 2) {
-        const pt_render piece = piece_of(settings.render, 0, rows);
+        const pt_render piece = piece_of(settings, 0, rows);
         const pt_result result = pt_set_render(context.get(), &piece);
         const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
         if (too_large && rows > 1) {
@@ -87,32 +93,33 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
     }
 }
 
-PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, const pt_render &piece) {
+PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, std::uint32_t rows) {
     PiecewiseImage image = before;
-    add_piece(context, piece, image);
+    add_piece(context, rows, image);
     return image;
 }
 
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                              std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
                              std::span<PieceObserver *const> others) {
-    const pt_render &render = settings.render;
+    const Rectangle &part = settings.window.part;
     PiecewiseImage image{};
-    image.radiance.resize(std::size_t{3} * render.width * render.height);
+    image.part = part;
+    image.radiance.resize(3 * part.pixel_count());
     image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
-    while (image.rows_done < render.height && !stop()) {
+    while (image.rows_done < part.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
-        const pt_render piece = piece_of(render, first_row, rows);
+        const pt_render piece = piece_of(settings, first_row, rows);
         if (first_row > 0) {
             context.require(pt_set_render(context.get(), &piece));
         }
-        const double height = render.height;
+        const double height = part.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
         for (PieceObserver *other : others) {
-            other->enter(image, piece);
+            other->enter(image, piece.row_count);
         }
         render_piece(context, file, settings, stop, progress, others);
-        if (!add_piece(context, piece, image)) {
+        if (!add_piece(context, piece.row_count, image)) {
             break;
         }
     }

@@ -15,29 +15,32 @@
 namespace cli {
 
 struct PiecewiseImage {
-    std::vector<float> radiance;       // of the whole image; black below rows_done
+    Rectangle part;                    // of the picture: the settings' window
+    std::vector<float> radiance;       // of this part; black below rows_done
     std::vector<float> standard_error; // empty if it was not asked for
-    std::uint32_t rows_done;           // of the image, with samples
+    std::uint32_t rows_done;           // of it, with samples
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
 };
 
 // Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that
-// is 0, all of them; halved until the device has the memory. Throws Failure.
+// is 0, all of the window's; halved until the device has the memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          std::uint32_t wanted_rows);
 
 // Looks at an image while it is rendered in pieces.
 class PieceObserver : public RenderObserver {
 public:
-    // From now on a piece is rendered. before: the pieces that are done; it stays where it is until all are.
-    virtual void enter(const PiecewiseImage &before, const pt_render &piece) = 0;
+    // From now on a piece of so many rows is rendered. before: the pieces that are done; it stays where it is until all
+    // are.
+    virtual void enter(const PiecewiseImage &before, std::uint32_t rows) = 0;
 };
 
 // The image so far, with what the context has of a piece.
-PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, const pt_render &piece);
+PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, std::uint32_t rows);
 
-// After fit_pieces. Ends early, between or within pieces, once it is to stop. The samples that the context has are the
-// first ones of the first piece.
+// After fit_pieces. Renders whole rows, for rows are what the library can be asked for, and reads the window's columns.
+// Ends early, between or within pieces, once it is to stop. The samples that the context has are the first ones of the
+// first piece.
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
                              std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
                              std::span<PieceObserver *const> others);

@@ -11,9 +11,9 @@ PreviewObserver::PreviewObserver(const Context &context, double seconds,
     write_(std::move(write)),
     last_(Clock::now()) {}
 
-void PreviewObserver::enter(const PiecewiseImage &before, const pt_render &piece) {
+void PreviewObserver::enter(const PiecewiseImage &before, std::uint32_t rows) {
     before_ = &before;
-    piece_ = piece;
+    rows_ = rows;
 }
 
 bool PreviewObserver::is_wanted() const {
@@ -27,7 +27,7 @@ void PreviewObserver::stepped(const RenderState &state) {
     forget_picture_request();
     last_ = state.time;
     task_.finish();
-    image_ = image_so_far(context_, *before_, piece_);
+    image_ = image_so_far(context_, *before_, rows_);
     task_.start([this] { has_failed_ = !write_(image_); });
 }
 

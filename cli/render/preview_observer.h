@@ -19,7 +19,7 @@ public:
     // than finish() waits; false if not all could be written, after which nothing is written by itself.
     PreviewObserver(const Context &context, double seconds, std::function<bool(const PiecewiseImage &)> write);
 
-    void enter(const PiecewiseImage &before, const pt_render &piece) override;
+    void enter(const PiecewiseImage &before, std::uint32_t rows) override;
     bool pauses() const override { return is_wanted() && !task_.is_under_way(); }
     void stepped(const RenderState &state) override;
 
@@ -35,7 +35,7 @@ private:
     Clock::time_point last_;
     std::atomic<bool> has_failed_ = false;
     const PiecewiseImage *before_ = nullptr;
-    pt_render piece_{};
+    std::uint32_t rows_ = 0; // of the piece
     PiecewiseImage image_{}; // of the task
     BackgroundTask task_;    // destroyed first: it uses the others
 };

@@ -3,6 +3,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/vector_width.h"
+#include "cli/render/frames_command.h"
 #include "cli/render/render_context.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_picture.h"
@@ -19,7 +20,7 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
     check_names(options);
-    const SceneFile file = read_scene_file(options.scene);
+    const SceneFile file = read_scene(options);
     const RenderSettings settings = merge_settings(options, file);
     check_outputs(options, settings);
     catch_interrupts();
@@ -36,7 +37,9 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
 
 int run_render(const RenderOptions &options) {
     ValidationLog log;
-    const int code = options.watch ? watch(options, log) : render_once(options, log);
+    const int code = options.watch    ? watch(options, log)
+                     : options.frames ? render_frames(options, log)
+                                      : render_once(options, log);
     // Only now, for the layer reports leaks when the context goes.
     return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }

@@ -3,6 +3,9 @@
 #include "cli/base/common_options.h"
 #include "cli/base/method_names.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace cli {
 namespace {
 
@@ -24,10 +27,12 @@ CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_e
 void add_output_options(CLI::App &command, RenderOptions &options) {
     command
         .add_option("-o,--output", options.outputs,
-                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped")
+                    "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
+                    "- is standard output")
         ->expected(1)
         ->take_all()
         ->type_name("FILE");
+    add_format(command, options.format);
     command
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
@@ -44,7 +49,18 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
-    add_tone_map(command, {options.exposure, options.tone_curve, options.gamma, "the scene's, else "});
+    const auto read_crop = [&options](const std::string &text) {
+        options.crop = parse_rectangle(text);
+        if (!options.crop) {
+            refuse_option("--crop", "must be four whole numbers like 10,20,640,480: x, y, width and height", text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--crop", read_crop,
+                                          "Render this part of the picture alone, in pixels from its top left corner")
+        ->type_name("X,Y,W,H")
+        ->group("Picture");
+    add_display_options(command, options.display, "the scene's, else ");
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
@@ -56,8 +72,9 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     add_target_error(command, options.target_error)->group(group);
     const auto find_sampling = [](std::string_view name) { return samplings.find(name); };
     add_name(command, "--sampling", options.sampling, find_sampling, "way to sample", samplings.names(),
-             samplings.list() + "; adaptive, which is best with --error, takes more samples where they lessen the error "
-                                "most (default: best)")
+             samplings.list() +
+                 "; adaptive, which is best with --error, takes more samples where they lessen the error "
+                 "most (default: best)")
         ->group(group);
     add_seed(command, options.seed)->group(group);
     add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
@@ -132,31 +149,27 @@ void add_editing_options(CLI::App &command, RenderOptions &options) {
         ->group(group);
 }
 
-} // namespace
-
-void add_tone_map(CLI::App &command, const ToneMapOptions &options) {
-    const auto read_exposure = [&exposure = options.exposure](const std::string &text) {
-        exposure = parse_exposure(text);
-        if (!exposure) {
-            refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
+void add_animation_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Animation";
+    const auto read_frames = [&options](const std::string &text) {
+        options.frames = parse_frames(text);
+        if (!options.frames) {
+            refuse_option("--frames", "must be two whole numbers like 0-23, or one", text);
         }
     };
-    command
-        .add_option_function<std::string>("--exposure", read_exposure,
-                                          "Brighten by EV stops, or auto, see below; .png and .jpg only (default: " +
-                                              options.default_before + "auto)")
-        ->type_name("EV")
-        ->group("Picture");
-    add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp), reinhard, aces, agx, neutral; .png and .jpg only (default: " + options.default_before +
-                 "none)")
-        ->group("Picture");
-    add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
-                    "Encode with the power 1/G; .png and .jpg only (default: " + options.default_before +
-                        "the sRGB curve)")
-        ->type_name("G")
-        ->group("Picture");
+    CLI::Option *frames =
+        command
+            .add_option_function<std::string>("--frames", read_frames,
+                                              "Render these frames of the scene's animation; # signs in the names of "
+                                              "files become the frame's number")
+            ->type_name("A-B")
+            ->group(group);
+    command.add_flag("--skip-existing", options.skip_existing, "Leave out frames whose files are all there")
+        ->needs(frames)
+        ->group(group);
 }
+
+} // namespace
 
 const char *const render_help =
     "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
@@ -180,10 +193,22 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
+    const auto read_overrides = [&options](const std::vector<std::string> &texts) {
+        options.overrides.clear();
+        std::transform(texts.begin(), texts.end(), std::back_inserter(options.overrides), &parse_override);
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", read_overrides,
+            "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
+        ->expected(1)
+        ->take_all()
+        ->type_name("PATH=VALUE");
     add_output_options(command, options);
     add_picture_options(command, options);
     add_sampling_options(command, options);
     add_lasting_options(command, options);
+    add_animation_options(command, options);
     add_device_options(command, options);
     add_editing_options(command, options);
     add_reporting(command, options.progress, options.quiet);

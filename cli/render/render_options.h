@@ -2,8 +2,10 @@
 #pragma once
 
 #include "cli/base/number.h"
-#include "cli/image/exposure.h"
-#include "cli/image/tone_map.h"
+#include "cli/image/display_options.h"
+#include "cli/image/image_file.h"
+#include "cli/render/frame_range.h"
+#include "cli/scene/scene_override.h"
 
 #include <cstdint>
 #include <optional>
@@ -18,8 +20,10 @@ namespace cli {
 
 struct RenderOptions {
     std::string scene;
+    std::vector<SceneOverride> overrides; // of its values
     std::vector<std::string> outputs;
-    std::string standard_error; // path of the image of standard errors; empty: none
+    std::optional<ImageFormat> format; // of an output that is standard output
+    std::string standard_error;        // path of the image of standard errors; empty: none
     std::string stats;
     std::string film;       // path of the film; empty: none
     std::string checkpoint; // likewise
@@ -29,20 +33,21 @@ struct RenderOptions {
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;
+    std::optional<Rectangle> crop;
     std::optional<std::uint32_t> sample_count;
     std::optional<double> target_error; // relative; nothing: take all samples
     std::optional<std::uint32_t> sampling;
-    std::optional<double> time_limit;   // seconds
+    std::optional<double> time_limit; // seconds, of each frame
     std::optional<std::uint64_t> seed;
     std::optional<std::uint32_t> max_path_length;
     std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
     std::uint32_t first_sample = 0;
 
-    // Of .png and .jpg alone.
-    std::optional<Exposure> exposure;
-    std::optional<ToneCurve> tone_curve;
-    std::optional<double> gamma;
+    DisplayOptions display; // of .png and .jpg alone
+
+    std::optional<FrameRange> frames; // of an animation; nothing: a picture
+    bool skip_existing = false;       // of these frames
 
     std::string device;
     std::uint32_t submit_milliseconds = 0; // 0: the library's default
@@ -59,16 +64,6 @@ struct RenderOptions {
 inline constexpr double default_checkpoint_seconds = 30.0;
 
 extern const char *const render_help;
-
-// Where what the options of a tone map give goes.
-struct ToneMapOptions {
-    std::optional<Exposure> &exposure;
-    std::optional<ToneCurve> &tone_curve;
-    std::optional<double> &gamma;
-    std::string default_before; // what is asked before the default, for the help
-};
-
-void add_tone_map(CLI::App &command, const ToneMapOptions &options);
 
 // The options write into `options` when the command line is parsed, so it has to live as long as the command.
 void add_render_options(CLI::App &command, RenderOptions &options);

@@ -8,6 +8,8 @@
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
 #include "cli/film/film_file.h"
+#include "cli/image/display_image.h"
+#include "cli/image/image_target.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
@@ -16,67 +18,53 @@
 namespace cli {
 namespace {
 
-void write_image(ImageWriter &writer, const std::string &path, const RenderReport &report,
-                 std::span<const float> values, std::uint32_t quantity) {
-    const auto [width, height] = std::pair(report.render.width, report.render.height);
-    if (image_format(path) == ImageFormat::exr) {
+void write_image(ImageWriter &writer, const ImageTarget &target, const RenderOptions &options,
+                 const RenderReport &report, std::span<const float> values, std::uint32_t quantity) {
+    if (target.format == ImageFormat::exr) {
         const ImageMetadata metadata(report, quantity, nullptr);
-        writer.write_radiance(path, width, height, values, metadata.attributes());
+        const pt_image_layer layer{"", 3, 0, values.data()};
+        writer.write_radiance(target, report.window, {&layer, 1}, metadata.attributes());
     } else {
         const ToneMap &tone_map = report.tone_map.value();
         const ImageMetadata metadata(report, quantity, &tone_map);
-        writer.write_bytes(path, width, height, map_to_8_bits(values, tone_map), metadata.attributes(), tone_map.gamma);
+        write_display_image(writer, target, report.window, values, tone_map, options.display.png_bits,
+                            metadata.attributes());
     }
 }
 
-void refuse_standard_output(const std::string &option, std::span<const std::string> paths) {
-    if (std::find(paths.begin(), paths.end(), standard_stream) != paths.end()) {
-        throw Failure(ExitCode::usage, option + " -: images are not written to standard output; give a file's name");
+void refuse_if(bool is_refused, const std::string &message) {
+    if (is_refused) {
+        throw Failure(ExitCode::usage, message);
     }
 }
 
 // What only makes sense with something else, or without it.
 void check_combinations(const RenderOptions &options) {
-    const auto refuse_if = [](bool is_refused, const std::string &message) {
-        if (is_refused) {
-            throw Failure(ExitCode::usage, message);
-        }
-    };
     const bool has_checkpoint = !options.checkpoint.empty();
     refuse_if(options.outputs.empty() && options.film.empty(), "-o or --film is missing: there is nothing to write");
+    refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE && !options.target_error, "--sampling adaptive: needs --error");
     refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint, the file to go on from");
     refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");
     refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
     refuse_if(options.watch && !options.film.empty(), "--film: a picture under --watch has none");
+    refuse_if(options.frames && has_checkpoint,
+              "--checkpoint: --frames have none; --skip-existing goes on after the frames that are done");
+    refuse_if(options.frames && options.preview_seconds,
+              "--preview-every: --frames have none, as --skip-existing takes a file that is there for a frame that is "
+              "done");
+    refuse_if(options.preview_seconds && output_count(without_standard_output(options)) == 0,
+              "--preview-every: needs the name of a file, which -o gives");
 }
 
-void check_extensions(const RenderOptions &options) {
-    refuse_standard_output("-o", options.outputs);
-    refuse_standard_output("--standard-error", {&options.standard_error, 1});
-    refuse_standard_output("--film", {&options.film, 1});
-    refuse_standard_output("--checkpoint", {&options.checkpoint, 1});
-    for (const std::string &path : options.outputs) {
-        if (!image_format(path)) {
-            throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
-        }
+void check_file_names(const RenderOptions &options) {
+    for (const auto &[option, path] : {NamedFile{"--standard-error", options.standard_error},
+                                       {"--film", options.film},
+                                       {"--checkpoint", options.checkpoint}}) {
+        refuse_if(path == standard_stream, option + " -: is not written to standard output; give a file's name");
     }
     const std::string &path = options.standard_error;
-    if (!path.empty() && image_format(path) != ImageFormat::exr) {
-        throw Failure(ExitCode::usage, "--standard-error " + path + ": the name must end in .exr");
-    }
-}
-
-// Whether all files can be written, as far as that can be known before.
-void check_files(const RenderOptions &options) {
-    for (const std::string &path : options.outputs) {
-        AtomicFile::check_writable(path);
-    }
-    for (const std::string *path : {&options.standard_error, &options.film}) {
-        if (!path->empty()) {
-            AtomicFile::check_writable(*path);
-        }
-    }
-    check_report_file(options.stats);
+    refuse_if(!path.empty() && image_format(path) != ImageFormat::exr,
+              "--standard-error " + path + ": the name must end in .exr");
 }
 
 // A checkpoint of hours is not replaced by one of seconds unless that goes on from it. One that cannot be written costs
@@ -120,30 +108,45 @@ void check_sources_are_kept(const RenderOptions &options) {
 
 } // namespace
 
+SceneFile read_scene(const RenderOptions &options) {
+    const SceneText scene = read_scene_text(options.scene);
+    return parse_scene(scene.text, scene.path, options.overrides);
+}
+
 void check_names(const RenderOptions &options) {
     check_combinations(options);
-    check_extensions(options);
+    check_image_names(options.outputs, options.format);
+    check_file_names(options);
     check_sources_are_kept(options);
+}
+
+void check_merged_names(const RenderOptions &options, const std::vector<NamedFile> &sources) {
+    check_image_names(options.outputs, options.format);
+    check_file_names(options);
+    require_distinct_files(sources, outputs_of(options));
+}
+
+void check_files(const RenderOptions &options, const ImageWindow &window) {
+    for (const std::string &path : options.outputs) {
+        check_image_target(image_target(path, options.format), window);
+    }
+    for (const std::string *path : {&options.standard_error, &options.film}) {
+        if (!path->empty()) {
+            AtomicFile::check_writable(*path);
+        }
+    }
+    check_report_file(options.stats);
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {
     require_host_memory(settings, options.scene, options.standard_error.empty() ? 1 : 2);
-    const std::uint32_t side = std::max(settings.render.width, settings.render.height);
-    for (const std::string &path : options.outputs) {
-        const std::uint32_t longest = longest_side(image_format(path).value());
-        if (side > longest) {
-            throw Failure(ExitCode::usage, "-o " + path + ": this format holds at most " + std::to_string(longest) +
-                                               " pixels a side, not " + std::to_string(side));
-        }
-    }
-    check_files(options);
+    check_files(options, settings.window);
     check_checkpoint(options);
 }
 
-void check_merged_outputs(const RenderOptions &options, const std::vector<NamedFile> &sources) {
-    check_extensions(options);
-    require_distinct_files(sources, outputs_of(options));
-    check_files(options);
+RenderOptions without_standard_output(RenderOptions options) {
+    std::erase(options.outputs, standard_stream);
+    return options;
 }
 
 bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path) {
@@ -164,8 +167,8 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
     std::vector<std::string> written;
     const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity) {
         try {
-            write_image(writer, path, report, values, quantity);
-            written.push_back(path);
+            write_image(writer, image_target(path, options.format), options, report, values, quantity);
+            written.push_back(path == standard_stream ? "standard output" : path);
         } catch (const Failure &failure) {
             print_message(failure.what());
         }
@@ -180,8 +183,21 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 }
 
 bool needs_module(const RenderOptions &options) {
-    const auto is_png = [](const std::string &path) { return image_format(path) == ImageFormat::png; };
+    const auto is_png = [&](const std::string &path) {
+        return image_target(path, options.format).format == ImageFormat::png;
+    };
     return !options.standard_error.empty() || !std::all_of(options.outputs.begin(), options.outputs.end(), is_png);
+}
+
+bool needs_tone_map(const RenderOptions &options) {
+    return std::any_of(options.outputs.begin(), options.outputs.end(), [&](const std::string &path) {
+        return image_target(path, options.format).format != ImageFormat::exr;
+    });
+}
+
+bool takes_standard_output(const RenderOptions &options) {
+    return options.stats == standard_stream ||
+           std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end();
 }
 
 std::size_t output_count(const RenderOptions &options) {

@@ -56,10 +56,10 @@ struct Rendered {
 Rendered render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                               const RenderSettings &settings, std::uint32_t rows, const Stop &stop,
                               const std::function<bool(const PiecewiseImage &)> &write_preview) {
-    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.render.height;
+    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.window.part.height;
     Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
     progress.begin_at(context.sample_count());
-    PictureObservers observers(context, options, settings, progress, write_preview);
+    PictureObservers observers(context, options, progress, write_preview);
     Rendered rendered{};
     rendered.image =
         render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress, observers.list());
@@ -73,7 +73,7 @@ Rendered render_with_progress(const Context &context, const RenderOptions &optio
 void require_one_piece(const RenderOptions &options, const RenderSettings &settings, std::uint32_t rows) {
     const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
     const bool is_asked = !options.checkpoint.empty() || !options.film.empty();
-    if (is_asked && rows < settings.render.height) {
+    if (is_asked && rows < settings.window.part.height) {
         throw Failure(ExitCode::usage,
                       option + ": needs the whole image on the device, which " +
                           (options.piece_rows > 0 ? "--piece-rows " + std::to_string(rows) + " forbids"
@@ -105,9 +105,9 @@ const char *ending_of(const RenderReport &report, bool interrupted) {
 }
 
 // What an image in pieces takes of memory, before it is rendered.
-void print_pieces(const Context &context, const RenderOptions &options, const pt_render &render, std::uint32_t rows) {
-    const std::uint64_t host_bytes = image_bytes(render, options.standard_error.empty() ? 1 : 2);
-    print_message(std::to_string((render.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
+void print_pieces(const Context &context, const RenderOptions &options, const ImageWindow &window, std::uint32_t rows) {
+    const std::uint64_t host_bytes = image_bytes(window, options.standard_error.empty() ? 1 : 2);
+    print_message(std::to_string((window.part.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
                   " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
                   memory_text(host_bytes) + " for the image");
 }
@@ -119,7 +119,7 @@ void print_summary(const RenderOptions &options, const RenderReport &report, con
     }
     const std::string exposure = report.automatic_exposure ? exposure_text(report) + "\n" : "";
     print_for_people("wrote " + names + summary_text(report) + "\n" + exposure + error_text(report) + "\n",
-                     options.stats == standard_stream);
+                     takes_standard_output(options));
 }
 
 // Whether all images, and the film, could be written.
@@ -145,8 +145,7 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderOpti
 // Nothing if no output is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSettings &settings,
                                    std::span<const float> radiance) {
-    const auto is_mapped = [](const std::string &path) { return image_format(path) != ImageFormat::exr; };
-    if (std::none_of(options.outputs.begin(), options.outputs.end(), is_mapped)) {
+    if (!needs_tone_map(options)) {
         return std::nullopt;
     }
     const std::optional<double> stops = settings.exposure.stops;
@@ -155,8 +154,9 @@ std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSet
 
 void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done,
                         const std::string &checkpoint) {
-    const bool whole = rows_done == settings.render.height;
-    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(settings.render.height) + " rows";
+    const std::uint32_t height = settings.window.part.height;
+    const bool whole = rows_done == height;
+    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(height) + " rows";
     print_message("stopped by " + interrupt_name() + " after " + std::to_string(done) + " of " +
                   std::to_string(settings.sample_count) + " samples per pixel" +
                   (done == 0 ? "; nothing was written"
@@ -173,12 +173,13 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.scene = file.path;
     report.date = source_date();
     report.render = settings.render;
+    report.window = settings.window;
     report.requested_sample_count = settings.sample_count;
     report.target_error = settings.target_error;
 
     context.require(pt_get_context_device(context.get(), &report.device));
     if (!take_scene(context, options, file, superseded)) {
-        if (interrupt_signal() == 0) {
+        if (superseded()) {
             return Outcome::superseded;
         }
         print_interruption(settings, 0, 0, "");
@@ -190,8 +191,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     }
     const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
     require_one_piece(options, settings, rows);
-    if (rows < settings.render.height && !options.quiet) {
-        print_pieces(context, options, settings.render, rows);
+    if (rows < settings.window.part.height && !options.quiet) {
+        print_pieces(context, options, settings.window, rows);
     }
     report.create_seconds = seconds_since(times.create_start);
 
@@ -206,8 +207,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         so_far.stats = image.stats;
         so_far.tone_map = tone_map_of(options, settings, image.radiance);
         writer.wait();
-        return write_images(writer, options, so_far, image.radiance, image.standard_error).size() ==
-               output_count(options);
+        const RenderOptions files = without_standard_output(options); // a stream takes one image
+        return write_images(writer, files, so_far, image.radiance, image.standard_error).size() == output_count(files);
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
@@ -217,7 +218,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
-    const bool interrupted = interrupt_signal() != 0;
+    const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, interrupted);
     report.checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {

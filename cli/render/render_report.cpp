@@ -3,13 +3,13 @@
 #include "cli/base/device_text.h"
 #include "cli/base/json_number.h"
 #include "cli/base/method_names.h"
+#include "cli/image/display_image.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -46,8 +46,14 @@ std::uint64_t peak_host_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
+nlohmann::ordered_json crop_json(const ImageWindow &window) {
+    const Rectangle &part = window.part;
+    return window.is_whole() ? nlohmann::ordered_json(nullptr)
+                             : nlohmann::ordered_json{part.x, part.y, part.width, part.height};
+}
+
 double samples_per_second(const RenderReport &report) {
-    const double pixels = static_cast<double>(report.render.width) * report.render.height;
+    const double pixels = static_cast<double>(report.render.width) * report.window.part.height; // of whole rows
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
@@ -139,6 +145,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"scene", report.scene},
         {"width", render.width},
         {"height", render.height},
+        {"crop", crop_json(report.window)},
         {"spp", report.stats.sample_count},
         {"spp_mean", report.stats.mean_sample_count},
         {"spp_max", report.stats.max_sample_count},
@@ -173,9 +180,9 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 
 std::string summary_text(const RenderReport &report) {
     std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), "%ux%u, %s spp in %.2f s on ", report.render.width, report.render.height,
-                  samples_text(report.stats).c_str(), report.total_seconds);
-    return text.data() + std::string(report.device.name);
+    std::snprintf(text.data(), text.size(), ", %s spp in %.2f s on ", samples_text(report.stats).c_str(),
+                  report.total_seconds);
+    return window_text(report.window) + text.data() + report.device.name;
 }
 
 std::string exposure_text(const RenderReport &report) {
@@ -200,7 +207,10 @@ ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity,
     add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
                            (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
     if (tone_map != nullptr) {
-        add_tone_map(*tone_map);
+        add_tone_map(*this, *tone_map);
+    }
+    if (!report.window.is_whole()) {
+        add("pt.crop", window_text(report.window));
     }
     if (!report.scene.empty()) {
         add("pt.scene", std::filesystem::path(report.scene).filename());
@@ -218,30 +228,6 @@ ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity,
     if (report.device.driver[0] != '\0') {
         add("pt.driver", report.device.driver);
     }
-}
-
-void ImageMetadata::add_tone_map(const ToneMap &tone_map) {
-    add("pt.toneMap", std::string(tone_curve_names[static_cast<std::size_t>(tone_map.curve)]));
-    add_real("pt.exposure", tone_map.exposure);
-    if (tone_map.gamma) {
-        add_real("pt.gamma", *tone_map.gamma);
-    } else {
-        add("pt.encoding", "sRGB");
-    }
-}
-
-void ImageMetadata::add(const char *name, std::string text) {
-    texts_.push_back(std::make_unique<std::string>(std::move(text)));
-    attributes_.push_back({name, texts_.back()->c_str(), 0.0, 0, 0});
-}
-
-void ImageMetadata::add_whole(const char *name, std::uint32_t number) {
-    constexpr std::uint32_t largest = std::numeric_limits<std::int32_t>::max();
-    attributes_.push_back({name, nullptr, static_cast<double>(std::min(number, largest)), 0, 0});
-}
-
-void ImageMetadata::add_real(const char *name, double number) {
-    attributes_.push_back({name, nullptr, number, 1, 0});
 }
 
 } // namespace cli

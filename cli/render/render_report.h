@@ -1,7 +1,8 @@
 // The facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
 #pragma once
 
-#include "cli/image/image_module.h"
+#include "cli/image/image_attributes.h"
+#include "cli/image/image_window.h"
 #include "cli/image/tone_map.h"
 
 #include <pt/devices.h>
@@ -11,7 +12,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +22,7 @@ struct RenderReport {
     std::string scene;
     std::string date; // for the images; empty: none
     pt_render render;
+    ImageWindow window;                   // of the images
     std::uint32_t requested_sample_count; // the most, if there is a target
     double target_error;                  // relative; 0: none
     pt_stats stats;
@@ -56,25 +57,12 @@ std::string exposure_text(const RenderReport &report);
 // "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
 std::string error_text(const RenderReport &report);
 
-// Attributes of the image file, which keep the texts that they point to.
-class ImageMetadata {
+// What the metadata of an image say of the rendering.
+class ImageMetadata : public ImageAttributes {
 public:
     // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing
     // was.
     ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
-    ImageMetadata(const ImageMetadata &) = delete;
-    ImageMetadata &operator=(const ImageMetadata &) = delete;
-
-    const std::vector<pt_image_attribute> &attributes() const { return attributes_; }
-
-private:
-    void add(const char *name, std::string text);
-    void add_whole(const char *name, std::uint32_t number);
-    void add_real(const char *name, double number);
-    void add_tone_map(const ToneMap &tone_map);
-
-    std::vector<std::unique_ptr<std::string>> texts_;
-    std::vector<pt_image_attribute> attributes_;
 };
 
 } // namespace cli

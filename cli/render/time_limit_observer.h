@@ -11,14 +11,11 @@ class TimeLimitObserver : public PieceObserver {
 public:
     using Clock = std::chrono::steady_clock;
 
-    TimeLimitObserver(Clock::time_point start, double seconds, std::uint32_t height) :
-        start_(start),
-        seconds_(seconds),
-        height_(height) {}
+    TimeLimitObserver(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
 
     // Each piece of the image has its share of the time, with what those before have left.
-    void enter(const PiecewiseImage & /*before*/, const pt_render &piece) override {
-        const double share = (static_cast<double>(piece.first_row) + piece.row_count) / height_;
+    void enter(const PiecewiseImage &before, std::uint32_t rows) override {
+        const double share = (static_cast<double>(before.rows_done) + rows) / before.part.height;
         const std::chrono::duration<double> time(seconds_ * share);
         end_ = start_ + std::chrono::duration_cast<Clock::duration>(time);
         is_over_ = false;
@@ -39,7 +36,6 @@ public:
 private:
     Clock::time_point start_;
     double seconds_;
-    double height_;
     Clock::time_point end_;
     bool is_over_ = false;
     bool has_ended_piece_ = false;

@@ -14,6 +14,7 @@
 
 #include <pt/shaders.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -30,6 +31,12 @@ constexpr std::chrono::milliseconds patience{200};
 
 // A pipe can be read once, and its reader waits for its writer.
 void require_files(const RenderOptions &options) {
+    if (options.frames) {
+        throw Failure(ExitCode::usage, "--watch: shows one picture, not --frames");
+    }
+    if (std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end()) {
+        throw Failure(ExitCode::usage, "-o -: --watch needs a file, not standard output");
+    }
     if (options.scene == standard_stream) {
         throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
     }
@@ -88,7 +95,7 @@ private:
         RenderTimes times{};
         times.start = std::chrono::steady_clock::now();
         check_names(options_);
-        const SceneFile file = read_scene_file(options_.scene);
+        const SceneFile file = read_scene(options_);
         const RenderSettings settings = merge_settings(options_, file);
         check_outputs(options_, settings);
         times.create_start = std::chrono::steady_clock::now();

@@ -30,6 +30,24 @@ void limit_samples(RenderSettings &settings, bool is_upper_limit) {
     settings.sample_count = static_cast<std::uint32_t>(left);
 }
 
+// The library refuses a picture that is empty itself, which has no part.
+ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render &render) {
+    ImageWindow window = whole_window(render.width, render.height);
+    if (!crop || render.width == 0 || render.height == 0) {
+        return window;
+    }
+    const bool is_inside = crop->x < render.width && crop->width <= render.width - crop->x && crop->y < render.height &&
+                           crop->height <= render.height - crop->y;
+    if (!is_inside || crop->pixel_count() == 0) {
+        throw Failure(ExitCode::usage, "--crop " + std::to_string(crop->x) + "," + std::to_string(crop->y) + "," +
+                                           std::to_string(crop->width) + "," + std::to_string(crop->height) +
+                                           ": must be a part of the picture, of " + window_text(window) +
+                                           " pixels, with at least one");
+    }
+    window.part = *crop;
+    return window;
+}
+
 } // namespace
 
 bool RenderSettings::gives(std::string_view member) const {
@@ -50,7 +68,7 @@ Failure RenderSettings::explain(const LibraryError &error, const SceneFile &scen
     ExitCode code = ExitCode::scene;
     const std::string explained = error.in_words([&](const BrokenRule &rule) {
         const bool from_scene = is_from_scene(rule);
-        code = from_scene ? code : ExitCode::usage;
+        code = from_scene && code == ExitCode::scene ? scene.blame(rule) : ExitCode::usage;
         return from_scene ? scene.explain(rule) : in_words_of_options(rule);
     });
     return {code, explained};
@@ -73,9 +91,10 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     settings.sample_count = first_given(options.sample_count, scene.sample_count,
                                         stops_otherwise ? default_most_samples : default_sample_count);
     limit_samples(settings, stops_otherwise);
-    settings.exposure = first_given(options.exposure, scene.exposure, Exposure{});
-    settings.tone_curve = first_given(options.tone_curve, scene.tone_curve, ToneCurve::none);
-    settings.gamma = options.gamma ? options.gamma : scene.gamma;
+    settings.window = chosen_window(options.crop, render);
+    settings.exposure = first_given(options.display.exposure, scene.exposure, Exposure{});
+    settings.tone_curve = first_given(options.display.tone_curve, scene.tone_curve, ToneCurve::none);
+    settings.gamma = options.display.gamma ? options.display.gamma : scene.gamma;
     if (!options.size && (scene.width || scene.height)) {
         settings.scene_members.insert(settings.scene_members.end(), {"width", "height"});
     }

@@ -3,6 +3,7 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/library_error.h"
+#include "cli/image/image_window.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 
@@ -17,7 +18,8 @@
 namespace cli {
 
 struct RenderSettings {
-    pt_render render;
+    pt_render render;           // of the whole picture
+    ImageWindow window;         // the part of it that is wanted
     std::uint32_t sample_count; // the most, if there is a target
     double target_error;        // relative; 0: none
     std::uint32_t sampling;     // PT_SAMPLING_*

@@ -6,9 +6,11 @@
 #include "cli/base/report_file.h"
 #include "cli/base/text_file.h"
 #include "cli/scene/json_sections.h"
+#include "cli/scene/scene_override.h"
 #include "cli/scene/scene_place.h"
 #include "cli/scene/scene_reader.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -35,9 +37,19 @@ std::optional<std::string> read_again(const SceneFile &scene) {
     }
 }
 
+// What has taken the place of the file's value there; nullptr if nothing has.
+const OverriddenValue *find_override(const SceneFile &scene, const JsonPath &path) {
+    const auto found = std::find_if(scene.overridden.rbegin(), scene.overridden.rend(),
+                                    [&](const OverriddenValue &each) { return is_within(path, each.path); });
+    return found == scene.overridden.rend() ? nullptr : &*found;
+}
+
 // text: of the file, if it is known.
 std::string explain_rule(const SceneFile &scene, const std::optional<std::string> &text, const BrokenRule &rule) {
     const JsonPath path = path_of(scene, rule);
+    if (const OverriddenValue *value = find_override(scene, path)) {
+        return value->source + ": " + rule_text(path_text(path), rule);
+    }
     const auto number = text && !path.empty() ? find_line(*text, path) : std::nullopt;
     return rule_text(place_text(scene.path, number, path.empty() ? field_text(rule) : path_text(path)), rule);
 }
@@ -68,14 +80,28 @@ std::string SceneFile::explain(const LibraryError &error) const {
     return error.in_words([&](const BrokenRule &rule) { return explain_rule(*this, text, rule); });
 }
 
+ExitCode SceneFile::blame(const BrokenRule &rule) const {
+    const OverriddenValue *value = find_override(*this, path_of(*this, rule));
+    return value == nullptr ? ExitCode::scene : value->blame;
+}
+
 SceneFile parse_scene(std::string_view text, const std::string &path) {
+    return parse_scene(text, path, {});
+}
+
+SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides) {
     SceneFile scene{};
     scene.path = path;
     scene.text_hash = hash_of(text);
     SceneReader reader(scene);
+    for (const SceneOverride &each : overrides) {
+        scene.overridden.push_back({each.path, each.source, each.blame});
+    }
+    OverridingHandler handler(reader, overrides);
     const std::string_view checked = require_text(text, path);
     try {
-        parse_json_sections(checked, path, reader);
+        parse_json_sections(checked, path, handler);
+        handler.finish();
         reader.finish();
     } catch (const JsonRefusal &refusal) {
         const auto line = find_line(checked, refusal.path, refusal.occurrence);
@@ -84,9 +110,14 @@ SceneFile parse_scene(std::string_view text, const std::string &path) {
     return scene;
 }
 
+SceneText read_scene_text(const std::string &path) {
+    return path == standard_stream ? SceneText{"standard input", read_standard_input()}
+                                   : SceneText{path, read_file(path)};
+}
+
 SceneFile read_scene_file(const std::string &path) {
-    return path == standard_stream ? parse_scene(read_standard_input(), "standard input")
-                                   : parse_scene(read_file(path), path);
+    const SceneText scene = read_scene_text(path);
+    return parse_scene(scene.text, scene.path);
 }
 
 } // namespace cli

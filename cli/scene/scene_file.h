@@ -2,9 +2,12 @@
 // library; explain() leads its messages back to the file.
 #pragma once
 
+#include "cli/base/exit_code.h"
+#include "cli/base/json_path.h"
 #include "cli/base/library_error.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
+#include "cli/scene/animation.h"
 
 #include <pt/pt.h>
 
@@ -17,14 +20,25 @@
 
 namespace cli {
 
+struct SceneOverride;
+
+// A value that is not the file's own, and where it comes from.
+struct OverriddenValue {
+    JsonPath path;
+    std::string source;
+    ExitCode blame;
+};
+
 struct SceneFile {
     std::string path;
-    std::size_t text_hash;                   // of what was read
+    std::size_t text_hash; // of what was read
+    std::vector<OverriddenValue> overridden;
     std::vector<std::string> material_names; // like all three arrays in the order of the file
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
     pt_camera camera;
+    std::vector<AnimatedValue> animation;
 
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
@@ -44,11 +58,23 @@ struct SceneFile {
     // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
     std::string explain(const BrokenRule &rule) const;
     std::string explain(const LibraryError &error) const;
+
+    // Where the fault is if that rule is broken: in the file, or in the source of a value in place of its own.
+    ExitCode blame(const BrokenRule &rule) const;
 };
 
 // The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not
 // a scene file.
 SceneFile read_scene_file(const std::string &path);
 SceneFile parse_scene(std::string_view text, const std::string &path);
+SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides);
+
+// The text of a scene file, and what it is called in messages. path: "-" is standard input. Throws
+// Failure(ExitCode::file) if it cannot be read.
+struct SceneText {
+    std::string path;
+    std::string text;
+};
+SceneText read_scene_text(const std::string &path);
 
 } // namespace cli

@@ -14,13 +14,14 @@ void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
         json::value_t kind;
         ItemReader read_item;
     };
-    static constexpr std::array<Section, 6> sections{{
+    static constexpr std::array<Section, 7> sections{{
         {"camera", json::value_t::object, &SceneReader::camera_item},
         {"film", json::value_t::object, &SceneReader::film_item},
         {"render", json::value_t::object, &SceneReader::render_item},
         {"materials", json::value_t::object, &SceneReader::material_item},
         {"spheres", json::value_t::array, &SceneReader::sphere_item},
         {"planes", json::value_t::array, &SceneReader::plane_item},
+        {"animation", json::value_t::object, &SceneReader::animation_item},
     }};
     const auto section = std::find_if(sections.begin(), sections.end(),
                                       [&](const Section &candidate) { return candidate.name == place.key; });

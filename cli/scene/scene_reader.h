@@ -1,6 +1,7 @@
 // Reads the sections of a scene file, each by its own class or function.
 #pragma once
 
+#include "cli/scene/animation_section.h"
 #include "cli/scene/camera_section.h"
 #include "cli/scene/json_sections.h"
 #include "cli/scene/picture_sections.h"
@@ -26,6 +27,9 @@ private:
     void camera_item(const JsonPlace &place, const nlohmann::json &value) { camera_.item(place, value); }
     void film_item(const JsonPlace &place, const nlohmann::json &value) { read_film_item(scene_, place, value); }
     void render_item(const JsonPlace &place, const nlohmann::json &value) { read_render_item(scene_, place, value); }
+    void animation_item(const JsonPlace &place, const nlohmann::json &value) {
+        read_animation_item(scene_, place, value);
+    }
     void material_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.material(place, value); }
     void sphere_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.sphere(place, value); }
     void plane_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.plane(place, value); }

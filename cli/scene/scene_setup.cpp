@@ -9,7 +9,8 @@ namespace {
 void require_scene(const Context &context, const SceneFile &file, pt_result result) {
     if (result < 0) {
         const LibraryError error = context.last_error();
-        throw Failure(error.rules.empty() ? exit_code_of(result) : ExitCode::scene, file.explain(error));
+        throw Failure(error.rules.empty() ? exit_code_of(result) : file.blame(error.rules.front()),
+                      file.explain(error));
     }
 }
 

@@ -232,8 +232,9 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     std::vector<std::string> warnings;
     const pt_stats &stats = report.stats;
     if (stats.rejected_samples > 0) {
-        const std::size_t pixel_count = radiance.size() / 3;
-        const double sample_count = static_cast<double>(pixel_count) * stats.sample_count;
+        const double pixel_count =
+            static_cast<double>(report.render.width) * report.window.part.height; // of whole rows
+        const double sample_count = pixel_count * stats.sample_count;
         const double share = static_cast<double>(stats.rejected_samples) / sample_count;
         warnings.push_back(std::to_string(stats.rejected_samples) + " samples (" + percent_text(share) +
                            ") were left out: not finite, negative or too bright");

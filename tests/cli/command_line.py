@@ -26,33 +26,44 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
           "INCOMPATIBLE": -11}
 
 
-def read_png(path):
-    """Width, height and bytes of an 8-bit RGB image; enough of PNG (ISO 15948) for what is written here."""
-    with open(path, "rb") as file:
-        data = file.read()
+def png_chunks(data):
+    """Name and contents of each."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    position, pixels = 8, b""
+    position = 8
     while position < len(data):
         length, kind = struct.unpack(">I4s", data[position:position + 8])
-        body = data[position + 8:position + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2)
-        elif kind == b"IDAT":
-            pixels += body
+        yield kind.decode(), data[position + 8:position + 8 + length]
         position += 12 + length
-    lines, stride, above, image = zlib.decompress(pixels), 3 * width, bytes(3 * width), []
+
+
+def parse_png(data):
+    """Width, height and rows of numbers of an RGB image of 8 or 16 bits; enough of PNG (ISO 15948) for what is written
+    here."""
+    pixels = b""
+    for kind, body in png_chunks(data):
+        if kind == "IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert depth in (8, 16) and colour == 2
+        elif kind == "IDAT":
+            pixels += body
+    step = 3 * depth // 8
+    lines, stride, above, image = zlib.decompress(pixels), step * width, bytes(step * width), []
     for y in range(height):
         kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
         for x in range(stride):
-            left = line[x - 3] if x >= 3 else 0
-            corner = above[x - 3] if x >= 3 else 0
+            left = line[x - step] if x >= step else 0
+            corner = above[x - step] if x >= step else 0
             guesses = (left, above[x], corner)
             paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
             line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
         above = line
-        image.append(line)
+        image.append(line if depth == 8 else list(struct.unpack(f">{3 * width}H", bytes(line))))
     return width, height, image
+
+
+def read_png(path):
+    with open(path, "rb") as file:
+        return parse_png(file.read())
 
 
 def parse_exr_header(data):

@@ -45,7 +45,8 @@ class Usage(CommandLineTest):
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
         for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt'),
-                                 (["scene.json"], 'subcommand "scene.json", known: render, bench, merge, selftest, devices'),
+                                 (["scene.json"], 'subcommand "scene.json", known: render, tonemap, compare, bench, '
+                                                  'merge, selftest, schema, devices'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
                                  ([*render, "--expsure", "-3"], 'mean "--exposure"?'),
@@ -62,6 +63,14 @@ class Usage(CommandLineTest):
         arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--first-sample", "4294967290", "--spp"]
         self.expect(0, *arguments, "6")
         self.expect(2, *arguments, "7", error="pt: --first-sample 4294967290: 7 samples from there on would pass")
+
+    def test_samples_by_the_error_need_one(self):
+        arguments = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "20", "--sampling"]
+        self.expect(2, *arguments, "adaptive", error="pt: --sampling adaptive: needs --error")
+        self.assertEqual(self.files(), [])
+        for sampling in "adaptive", "uniform", "best":
+            self.expect(0, *arguments, sampling, "--error", "50%")
+        self.expect(0, *arguments, "uniform")
 
     def test_unknown_extensions(self):
         for name in ("a", "a.tiff", "", ".png", "a.exr.bak"):

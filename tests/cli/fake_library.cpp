@@ -246,8 +246,11 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
     auto *value = static_cast<float *>(image->data);
-    for (std::uint32_t y = render.first_row; y < render.first_row + rows_of(render); ++y) {
-        for (std::uint32_t x = 0; x < render.width; ++x) {
+    const bool is_whole = image->width == 0;
+    const std::uint32_t width = is_whole ? render.width : image->width;
+    const std::uint32_t height = is_whole ? rows_of(render) : image->height;
+    for (std::uint32_t y = render.first_row + image->y; y < render.first_row + image->y + height; ++y) {
+        for (std::uint32_t x = image->x; x < image->x + width; ++x) {
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
             *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
             *value++ = 2.0F + wrong;
@@ -257,7 +260,8 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
 }
 
 pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
-    stats->sample_count = context->sample_count;
+    stats->sample_count = stats->max_sample_count = context->sample_count;
+    stats->mean_sample_count = context->sample_count;
     stats->rejected_samples = failure("rejected") == PT_OK ? 0 : 3;
     stats->device_bytes = 4096;
     stats->submit_count = 4 * std::uint64_t{context->sample_count};

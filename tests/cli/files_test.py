@@ -63,8 +63,8 @@ class StandardStreams(CommandLineTest):
         self.assertIn("pt: cannot write to standard output\n", done.stderr)
 
     def test_what_does_not_go_through_a_stream(self):
-        for arguments, error in ((("-o", "-"), "-o -: images are not written"),
-                                 (("-o", "a.png", "--standard-error", "-"), "--standard-error -: images are not")):
+        for arguments, error in ((("-o", "-"), "-o -: standard output needs --format"),
+                                 (("-o", "a.png", "--standard-error", "-"), "--standard-error -: goes to a file")):
             self.expect(2, "render", COURSEWORK, *arguments, error=error)
         self.expect(2, "render", "-", "--watch", "-o", "a.png", error="--watch needs a file")
         self.assertEqual(self.files(), [])

@@ -2,6 +2,9 @@
 #include "cli/image/image_file.h"
 
 #include "cli/base/exit_code.h"
+#include "cli/image/colour_map.h"
+#include "cli/image/image_reader.h"
+#include "cli/image/image_target.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -11,6 +14,7 @@
 #include <array>
 #include <limits>
 #include <random>
+#include <tuple>
 
 namespace {
 
@@ -20,6 +24,15 @@ using cli::ImageWriter;
 constexpr std::array<pt_image_attribute, 3> attributes{{{"samplesPerPixel", nullptr, 64.0, 0, 0},
                                                         {"pt.exposure", nullptr, 1.5, 1, 0},
                                                         {"pt.seed", "18446744073709551615", 0.0, 0, 0}}};
+
+cli::ImageTarget target(const std::string &path) {
+    return cli::image_target(path, std::nullopt);
+}
+
+void write_main_layer(const std::string &path, const cli::ImageWindow &window, std::span<const float> radiance) {
+    const pt_image_layer layer{"", 3, 0, radiance.data()};
+    ImageWriter().write_radiance(target(path), window, {&layer, 1}, attributes);
+}
 
 template <typename Value>
 std::vector<Value> read_pixels(const std::string &path, OIIO::TypeDesc type) {
@@ -51,15 +64,14 @@ TEST(ImageFile, ExrKeepsEveryBit) {
         135.0F,   1e-30F, 2.0F,
         65504.5F, // beyond half precision
         5.0F,     6.0F,   7.0F};
-    ImageWriter writer;
-    writer.write_radiance(folder.file("a.exr"), 2, 2, radiance, attributes);
+    write_main_layer(folder.file("a.exr"), cli::whole_window(2, 2), radiance);
     EXPECT_EQ(read_pixels<float>(folder.file("a.exr"), OIIO::TypeDesc::FLOAT), radiance);
     EXPECT_EQ(folder.count(), 1);
 }
 
 TEST(ImageFile, ExrHasChannelsAndMetadata) {
     const TemporaryFolder folder;
-    ImageWriter().write_radiance(folder.file("a.exr"), 1, 1, std::array{1.0F, 2.0F, 3.0F}, attributes);
+    write_main_layer(folder.file("a.exr"), cli::whole_window(1, 1), std::array{1.0F, 2.0F, 3.0F});
     const auto input = OIIO::ImageInput::open(folder.file("a.exr"));
     ASSERT_TRUE(input);
     const OIIO::ImageSpec &spec = input->spec();
@@ -73,11 +85,54 @@ TEST(ImageFile, ExrHasChannelsAndMetadata) {
 TEST(ImageFile, ExrIsReadBack) {
     const TemporaryFolder folder;
     const std::vector<float> radiance{0.1F, 2.0F, 3e30F, 4.0F, 5.0F, 6.0F};
-    ImageWriter().write_radiance(folder.file("a.exr"), 1, 2, radiance, attributes);
+    write_main_layer(folder.file("a.exr"), cli::whole_window(1, 2), radiance);
     const cli::RadianceImage image = cli::read_radiance(folder.file("a.exr"));
     EXPECT_EQ(image.width, 1U);
     EXPECT_EQ(image.height, 2U);
     EXPECT_EQ(image.radiance, radiance);
+}
+
+TEST(ImageFile, ALayerIsReadByItsName) {
+    const TemporaryFolder folder;
+    const std::array<float, 6> main{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F};
+    const std::array<float, 6> error{0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F};
+    const std::array<float, 2> count{16.0F, 32.0F};
+    const std::array<pt_image_layer, 3> layers{
+        {{"", 3, 0, main.data()}, {"error", 3, 0, error.data()}, {"count", 1, 0, count.data()}}};
+    const cli::ImageWindow window{{3, 4, 1, 2}, 10, 20};
+    ImageWriter().write_radiance(target(folder.file("a.exr")), window, layers, attributes);
+    const cli::DecodedImage image = cli::read_image(folder.file("a.exr"));
+    EXPECT_EQ(std::tuple(image.x, image.y, image.width, image.height), std::tuple(3, 4, 1U, 2U));
+    EXPECT_EQ(std::tuple(image.full_width, image.full_height, image.is_float), std::tuple(10U, 20U, true));
+    EXPECT_EQ(image.layer(""), std::vector<float>(main.begin(), main.end()));
+    EXPECT_EQ(image.layer("error"), std::vector<float>(error.begin(), error.end()));
+    EXPECT_EQ(image.layer("count"), (std::vector<float>{16.0F, 16.0F, 16.0F, 32.0F, 32.0F, 32.0F}));
+    try {
+        image.layer("albedo");
+        FAIL() << "was read";
+    } catch (const cli::Failure &failure) {
+        EXPECT_NE(std::string(failure.what()).find("of the layer albedo, or a channel of that name, has "),
+                  std::string::npos)
+            << failure.what();
+    }
+}
+
+// The ends of viridis as its authors publish them, #440154 and #fde725.
+TEST(ImageFile, ColoursStandForNumbers) {
+    const std::array<float, 6> numbers{0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F, 2.0F, 0.5F};
+    const std::vector<std::uint8_t> bytes = cli::map_colours(numbers, 3);
+    ASSERT_EQ(bytes.size(), 18U);
+    const std::vector<std::uint8_t> expected{0x44, 0x01, 0x54, 0xfd, 0xe7, 0x25, 255, 255,
+                                             255,  0x44, 0x01, 0x54, 0xfd, 0xe7, 0x25};
+    EXPECT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + 15), expected);
+    EXPECT_GT(bytes[16], 0x90); // green in the middle, near #21918c
+}
+
+TEST(ImageFile, WordsKeepEveryBit) {
+    const TemporaryFolder folder;
+    const std::vector<std::uint16_t> words{0, 1, 255, 256, 257, 32768, 65279, 65534, 65535};
+    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(3, 1), words, attributes);
+    EXPECT_EQ(read_pixels<std::uint16_t>(folder.file("a.png"), OIIO::TypeDesc::UINT16), words);
 }
 
 TEST(ImageFile, WhatCannotBeReadIsRefused) {
@@ -101,13 +156,14 @@ TEST(ImageFile, WhatCannotBeReadIsRefused) {
 TEST(ImageFile, PngKeepsEveryByte) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes{0, 1, 2, 127, 128, 129, 253, 254, 255};
-    ImageWriter().write_bytes(folder.file("a.png"), 3, 1, bytes, attributes);
+    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(3, 1), bytes, attributes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
 TEST(ImageFile, PngHasMetadata) {
     const TemporaryFolder folder;
-    ImageWriter().write_bytes(folder.file("a.png"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1, 1),
+                               std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
     const auto input = OIIO::ImageInput::open(folder.file("a.png"));
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().nchannels, 3);
@@ -120,7 +176,8 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
     const TemporaryFolder folder;
     const std::string name = "sc\xc3\xa8ne.json"; // as which libpng reads international text chunks
     const std::array<pt_image_attribute, 1> named{{{"pt.scene", name.c_str(), 0.0, 0, 0}}};
-    ImageWriter().write_bytes(folder.file("a.png"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, named);
+    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1, 1),
+                               std::array<std::uint8_t, 3>{1, 2, 3}, named);
     EXPECT_EQ(OIIO::ImageInput::open(folder.file("a.png"))->spec().get_string_attribute("pt.scene"), name);
     EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
 }
@@ -128,9 +185,9 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
 TEST(ImageFile, PngTellsItsColourSpace) {
     const TemporaryFolder folder;
     const std::array<std::uint8_t, 3> bytes{1, 2, 3};
-    ImageWriter().write_bytes(folder.file("srgb.png"), 1, 1, bytes, attributes);
+    ImageWriter().write_signal(target(folder.file("srgb.png")), cli::whole_window(1, 1), bytes, attributes);
     EXPECT_NE(folder.read("srgb.png").find("sRGB"), std::string::npos);
-    ImageWriter().write_bytes(folder.file("gamma.png"), 1, 1, bytes, attributes, 2.2);
+    ImageWriter().write_signal(target(folder.file("gamma.png")), cli::whole_window(1, 1), bytes, attributes, 2.2);
     const std::string file = folder.read("gamma.png");
     EXPECT_EQ(file.find("sRGB"), std::string::npos);
     EXPECT_NE(file.find("cHRM"), std::string::npos);
@@ -144,14 +201,14 @@ TEST(ImageFile, PngKeepsALargePicture) {
     std::vector<std::uint8_t> bytes(std::size_t{1000} * 700 * 3);
     std::minstd_rand random(1);
     std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() >> 16); });
-    ImageWriter().write_bytes(folder.file("a.png"), 1000, 700, bytes, attributes);
+    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1000, 700), bytes, attributes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
 TEST(ImageFile, JpegIsClose) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes(std::size_t{16} * 16 * 3, 100);
-    ImageWriter().write_bytes(folder.file("a.jpeg"), 16, 16, bytes, attributes);
+    ImageWriter().write_signal(target(folder.file("a.jpeg")), cli::whole_window(16, 16), bytes, attributes);
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
     for (const std::uint8_t value : read) {
@@ -161,7 +218,8 @@ TEST(ImageFile, JpegIsClose) {
 
 TEST(ImageFile, JpegHasMetadataInItsDescription) {
     const TemporaryFolder folder;
-    ImageWriter().write_bytes(folder.file("a.jpg"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    ImageWriter().write_signal(target(folder.file("a.jpg")), cli::whole_window(1, 1),
+                               std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
     const auto input = OIIO::ImageInput::open(folder.file("a.jpg"));
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().get_string_attribute("ImageDescription"),
@@ -175,7 +233,7 @@ TEST(ImageFile, AFailureLeavesTheOldFile) {
     const std::uint32_t side = cli::longest_side(ImageFormat::png) + 1;
     const std::vector<std::uint8_t> bytes(std::size_t{side} * 3);
     try {
-        ImageWriter().write_bytes(folder.file("a.png"), side, 1, bytes, attributes);
+        ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(side, 1), bytes, attributes);
         FAIL() << "was written";
     } catch (const cli::Failure &failure) {
         EXPECT_EQ(failure.code(), cli::ExitCode::file);
@@ -191,7 +249,7 @@ TEST(ImageFile, LongestSidesHold) {
     for (const char *name : {"a.png", "a.jpg"}) {
         const std::uint32_t side = cli::longest_side(cli::image_format(name).value());
         const std::vector<std::uint8_t> bytes(std::size_t{side} * 3, 200);
-        EXPECT_NO_THROW(writer.write_bytes(folder.file(name), side, 1, bytes, attributes));
+        EXPECT_NO_THROW(writer.write_signal(target(folder.file(name)), cli::whole_window(side, 1), bytes, attributes));
         EXPECT_EQ(read_pixels<std::uint8_t>(folder.file(name), OIIO::TypeDesc::UINT8).size(), bytes.size());
     }
 }

@@ -4,8 +4,9 @@ see command_line.py."""
 import json
 import os
 import random
+import subprocess
 
-from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_blocks, read_png
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_blocks, read_png
 
 PARTS = 8
 
@@ -85,6 +86,27 @@ class Merge(CommandLineTest):
         self.assertEqual(self.contents("a.png"), self.contents("b.png"))
         self.merge(0, *self.parts, "-o", "c.png", "--first-sample", "0", "--spp", "72")
         self.assertEqual(self.errors, "")
+
+    def test_rows_of_a_crop_are_shown_at_their_place(self):
+        whole = ("--spp", "18", "--exposure", "0")
+        self.expect(0, *self.small, "-o", "crop.exr", "-o", "crop.png", "--crop", "0,4,24,5", "--png-bits", "16", *whole)
+        for i in 0, 1:
+            self.expect(0, *self.small, "--crop", "6,4,3,5", "--film", f"{i}.ptfilm", "--first-sample", str(9 * i), "--spp",
+                        "9")
+        self.merge(0, "0.ptfilm", "1.ptfilm", "-o", "m.exr", "-o", "m.png", "--png-bits", "16", "--exposure", "0")
+        self.assertEqual(read_exr_blocks(self.path("m.exr")), read_exr_blocks(self.path("crop.exr")))
+        for window in "dataWindow", "displayWindow":
+            found, rendered = (read_exr_attributes(self.path(name))[window] for name in ("m.exr", "crop.exr"))
+            self.assertEqual(found, rendered)
+        self.assertEqual(self.contents("m.png").split(b"IDAT")[1:], self.contents("crop.png").split(b"IDAT")[1:])
+
+    def test_standard_output(self):
+        self.merge(0, *self.parts, "-o", "a.png", "-q")
+        done = subprocess.run([self.program, "merge", *self.parts, "-o", "-", "--format", "png"], cwd=self.folder,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, self.contents("a.png")))
+        self.assertIn(b"8 films of 24x13 pixels", done.stderr)
+        self.merge(2, *self.parts, "-o", "-", error="-o -: standard output needs --format")
 
     def test_a_part_is_kept(self):
         before = self.contents(self.parts[0])

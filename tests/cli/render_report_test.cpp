@@ -11,18 +11,25 @@
 
 namespace {
 
+// Of all pixels.
+void set_sample_count(pt_stats &stats, std::uint32_t count) {
+    stats.sample_count = stats.max_sample_count = count;
+    stats.mean_sample_count = count;
+}
+
 cli::RenderReport example_render() {
     cli::RenderReport report{};
     report.scene = "scene.json";
     report.render.width = 256;
     report.render.height = 128;
+    report.window = cli::whole_window(256, 128);
     report.render.seed = 18446744073709551615U;
     report.render.first_sample = 4294967295U;
     report.render.max_path_length = 6;
     report.render.sampler = PT_SAMPLER_HALTON_CP;
     report.render.estimator = PT_ESTIMATOR_MIS;
     report.requested_sample_count = 64;
-    report.stats.sample_count = 32;
+    set_sample_count(report.stats, 32);
     report.stats.rejected_samples = 3;
     report.stats.features = PT_FEATURE_LAMPS | PT_FEATURE_LARGE;
     report.accumulate_seconds = 2.0;
@@ -42,7 +49,9 @@ void set_error(cli::RenderReport &report, double estimate, double low, double hi
 TEST(RenderReport, StatsJson) {
     const auto json = cli::stats_json(example_render());
     EXPECT_EQ(json.at("scene"), "scene.json");
-    EXPECT_EQ(json.at("spp"), 32);
+    for (const char *samples : {"spp", "spp_mean", "spp_max"}) {
+        EXPECT_EQ(json.at(samples), 32) << samples;
+    }
     EXPECT_EQ(json.at("spp_requested"), 64);
     EXPECT_EQ(json.at("seed"), 18446744073709551615U);
     EXPECT_EQ(json.at("first_sample"), 4294967295U);
@@ -96,9 +105,9 @@ TEST(RenderReport, ErrorText) {
     cli::RenderReport report = example_render();
     set_error(report, infinity, 0.0, infinity);
     EXPECT_EQ(cli::error_text(report), "error unknown");
-    report.stats.sample_count = 15;
+    set_sample_count(report.stats, 15);
     EXPECT_EQ(cli::error_text(report), "error unknown with fewer than 16 samples");
-    report.stats.sample_count = 32;
+    set_sample_count(report.stats, 32);
     set_error(report, 0.0042, 0.0040, 0.0044);
     EXPECT_EQ(cli::error_text(report), "error 0.42% (0.4% to 0.44%)");
     report.target_error = 0.0044;
@@ -109,6 +118,33 @@ TEST(RenderReport, ErrorText) {
                                        "samples, raise --spp");
     report.requested_sample_count = 64; // a signal came: more were allowed
     EXPECT_TRUE(cli::error_text(report).ends_with("0.44% is above 0.43% after 32 samples"));
+}
+
+TEST(RenderReport, PixelsWithDifferentNumbersOfSamples) {
+    cli::RenderReport report = example_render();
+    report.stats.sample_count = 16;
+    report.stats.mean_sample_count = 37.3125;
+    report.stats.max_sample_count = 64;
+    const auto json = cli::stats_json(report);
+    EXPECT_EQ(json.at("spp"), 16);
+    EXPECT_EQ(json.at("spp_mean"), 37.3125);
+    EXPECT_EQ(json.at("spp_max"), 64);
+    EXPECT_EQ(json.at("samples_per_second"), 256.0 * 128.0 * 37.3125 / 2.0);
+    EXPECT_EQ(cli::summary_text(report), "256x128, 37.3 (16 to 64) spp in 2.50 s on a device");
+    set_error(report, 0.0042, 0.0040, 0.0044);
+    report.target_error = 0.0044;
+    EXPECT_TRUE(cli::error_text(report).ends_with("target reached after 37.3 (16 to 64) samples"));
+    report.target_error = 0.0043;
+    EXPECT_TRUE(cli::error_text(report).ends_with("after 37.3 (16 to 64) samples, raise --spp"));
+}
+
+TEST(RenderReport, ACropIsToldWithItsPlace) {
+    cli::RenderReport report = example_render();
+    EXPECT_TRUE(cli::stats_json(report).at("crop").is_null());
+    report.window.part = {10, 20, 40, 30};
+    EXPECT_EQ(cli::stats_json(report).at("crop").dump(), "[10,20,40,30]");
+    EXPECT_EQ(cli::stats_json(report).at("samples_per_second"), 256.0 * 30.0 * 32.0 / 2.0); // whole rows are rendered
+    EXPECT_EQ(cli::summary_text(report), "40x30 at 10,20 of 256x128, 32 spp in 2.50 s on a device");
 }
 
 TEST(RenderReport, AnUncertainErrorIsCalledSo) {

@@ -83,9 +83,9 @@ TEST(RenderSettings, ToneMapping) {
     EXPECT_EQ(merge_settings(options, scene).exposure.stops, -3.0);
     EXPECT_EQ(merge_settings(options, scene).tone_curve, cli::ToneCurve::agx);
     EXPECT_EQ(merge_settings(options, scene).gamma, 2.2);
-    options.exposure = cli::Exposure{}; // "auto" on the command line counts
-    options.tone_curve = cli::ToneCurve::none;
-    options.gamma = 1.0;
+    options.display.exposure = cli::Exposure{}; // "auto" on the command line counts
+    options.display.tone_curve = cli::ToneCurve::none;
+    options.display.gamma = 1.0;
     EXPECT_FALSE(merge_settings(options, scene).exposure.stops);
     EXPECT_EQ(merge_settings(options, scene).tone_curve, cli::ToneCurve::none);
     EXPECT_EQ(merge_settings(options, scene).gamma, 1.0);

@@ -114,6 +114,9 @@ TEST(Warnings, TargetsThatSayNothing) {
 
 TEST(Warnings, SamplesLeftOut) {
     cli::RenderReport report{};
+    report.render.width = 1;
+    report.render.height = 4;
+    report.window = {{0, 1, 1, 2}, 1, 4}; // a crop of two rows
     report.stats.sample_count = 8;
     const std::vector<float> two_pixels(6, 0.18F);
     EXPECT_EQ(image_warnings(report, two_pixels), Texts());

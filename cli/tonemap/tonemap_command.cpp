@@ -1,0 +1,106 @@
+#include "cli/tonemap/tonemap_command.h"
+
+#include "cli/base/distinct_files.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/report_file.h"
+#include "cli/image/display_image.h"
+#include "cli/image/image_attribute_text.h"
+#include "cli/image/image_reader.h"
+#include "cli/image/image_target.h"
+#include "cli/render/render_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+namespace cli {
+namespace {
+
+void check(const TonemapOptions &options) {
+    check_image_names({&options.output, 1}, options.format);
+    if (image_target(options.output, options.format).format == ImageFormat::exr) {
+        throw Failure(ExitCode::usage, options.output + ": a tone-mapped image is a .png or .jpg");
+    }
+    require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
+}
+
+// Of a picture, or of a part of it. Another program's pixels may lie outside of the picture: then they are a picture
+// of their own.
+ImageWindow window_of(const DecodedImage &image) {
+    const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
+        return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
+    };
+    if (!inside(image.x, image.width, image.full_width) || !inside(image.y, image.height, image.full_height)) {
+        return whole_window(image.width, image.height);
+    }
+    return {{static_cast<std::uint32_t>(image.x), static_cast<std::uint32_t>(image.y), image.width, image.height},
+            image.full_width,
+            image.full_height};
+}
+
+std::vector<float> radiance_of(const DecodedImage &image) {
+    if (!image.is_float) {
+        throw Failure(ExitCode::file, "cannot read " + image.path +
+                                          ": holds whole numbers, as displays take them, not linear radiance");
+    }
+    std::vector<float> radiance = image.layer("");
+    const auto bad = std::find_if(radiance.begin(), radiance.end(), [](float value) { return !std::isfinite(value); });
+    if (bad != radiance.end()) {
+        const auto pixel = static_cast<std::size_t>(bad - radiance.begin()) / 3;
+        throw Failure(ExitCode::file, "cannot read " + image.path + ": pixel " + std::to_string(pixel % image.width) +
+                                          "," + std::to_string(pixel / image.width) + " is not finite");
+    }
+    std::transform(radiance.begin(), radiance.end(), radiance.begin(),
+                   [](float value) { return std::max(value, 0.0F); });
+    return radiance;
+}
+
+// What the file says of its rendering, and what is made of it now.
+void describe(ImageAttributes &attributes, const DecodedImage &image, const ToneMap &tone_map) {
+    attributes.add("software", "pt " + version_text());
+    for (const pt_image_attribute &each : image.attributes->attributes()) {
+        const std::string_view name = each.name;
+        if (name == "pt.quantity") {
+            attributes.add("pt.quantity", std::string("tone-mapped ") + image_attribute_text(each));
+        } else if (name.starts_with("pt.") || name == "samplesPerPixel" || name == "DateTime") {
+            attributes.add_copy(each);
+        }
+    }
+    add_tone_map(attributes, tone_map);
+}
+
+std::string exposure_line(double stops) {
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), "exposure %.2f EV (auto)\n", stops);
+    return text.data();
+}
+
+} // namespace
+
+int run_tonemap(const TonemapOptions &options) {
+    check(options);
+    const DecodedImage image = read_image(options.input);
+    const std::vector<float> radiance = radiance_of(image);
+    const ImageWindow window = window_of(image);
+    const ImageTarget target = image_target(options.output, options.format);
+    check_image_target(target, window);
+
+    const DisplayOptions &display = options.display;
+    const std::optional<double> stops = display.exposure.value_or(Exposure{}).stops;
+    const ToneMap tone_map{stops ? *stops : automatic_exposure(radiance), display.tone_curve.value_or(ToneCurve::none),
+                           display.gamma};
+    ImageAttributes attributes;
+    describe(attributes, image, tone_map);
+    ImageWriter writer;
+    write_display_image(writer, target, window, radiance, tone_map, display.png_bits, attributes.attributes());
+    if (!options.quiet) {
+        print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
+                             window_text(window) + "\n" + (stops ? "" : exposure_line(tone_map.exposure)),
+                         options.output == standard_stream);
+    }
+    return static_cast<int>(ExitCode::done);
+}
+
+} // namespace cli

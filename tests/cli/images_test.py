@@ -1,0 +1,277 @@
+"""Tests of the images that `pt render` and `pt tonemap` write: crops, 16 bits, standard output, metadata.
+
+Arguments: see command_line.py.
+"""
+
+import itertools
+import os
+import pty
+import signal
+import struct
+import subprocess
+
+from command_line import (COURSEWORK, PT, RESULT, CommandLineTest, main, parse_png, png_chunks,
+                          read_exr_attributes, read_png)
+
+WIDTH, HEIGHT = 9, 7
+SIZE = ("--size", f"{WIDTH}x{HEIGHT}")
+CROP = (2, 3, 5, 4)  # x, y, width and height
+CROP_TEXT = ",".join(map(str, CROP))
+
+
+def cut(image, rectangle):
+    """The part of the rows of a picture, three numbers to a pixel."""
+    x, y, width, height = rectangle
+    return [row[3 * x:3 * (x + width)] for row in image[y:y + height]]
+
+
+def encode_srgb(light):
+    """IEC 61966-2-1."""
+    return 12.92 * light if light <= 0.0031308 else 1.055 * light ** (1 / 2.4) - 0.055
+
+
+def texts_of(data):
+    """Keyword -> text of a PNG."""
+    return dict(body.decode("latin-1").split("\0") for kind, body in png_chunks(data) if kind == "tEXt")
+
+
+class ImagesTest(CommandLineTest):
+    def render(self, *options, code=0, error=None, **environment):
+        samples = () if "--spp" in options else ("--spp", "2")
+        self.expect(code, "render", COURSEWORK, *SIZE, *samples, *options, error=error, **environment)
+
+    def contents(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+
+class Crop(ImagesTest):
+    def test_it_is_a_part_of_the_picture(self):
+        display = ("--exposure", "-1.5")
+        self.render("-o", "whole.png", *display)
+        _, _, whole = read_png(self.path("whole.png"))
+        for crop in CROP, (0, 0, 1, 1), (8, 6, 1, 1), (0, 0, WIDTH, HEIGHT), (0, 2, WIDTH, 1), (3, 0, 1, HEIGHT):
+            for pieces in (), ("--piece-rows", "1"), ("--piece-rows", "3"):
+                with self.subTest(crop=crop, pieces=pieces):
+                    self.render("-o", "crop.png", *display, "--crop", ",".join(map(str, crop)), *pieces)
+                    width, height, image = read_png(self.path("crop.png"))
+                    self.assertEqual((width, height, image), (*crop[2:], cut(whole, crop)))
+
+    def test_an_exr_says_where_it_is(self):
+        def windows(name):
+            attributes = read_exr_attributes(self.path(name))
+            return [struct.unpack("<4i", attributes[key][1]) for key in ("dataWindow", "displayWindow")]
+
+        self.render("-o", "a.exr", "--standard-error", "e.exr", "--crop", CROP_TEXT)
+        x, y, width, height = CROP
+        for name in "a.exr", "e.exr":
+            self.assertEqual(windows(name), [(x, y, x + width - 1, y + height - 1), (0, 0, WIDTH - 1, HEIGHT - 1)])
+        self.render("-o", "b.exr", "--crop", f"0,0,{WIDTH},{HEIGHT}")
+        self.assertEqual(windows("b.exr")[0], windows("b.exr")[1])
+        self.assertIn(f"wrote b.exr: {WIDTH}x{HEIGHT}, ", self.output)
+
+    def test_no_row_more_is_rendered(self):
+        self.render("-o", "a.png", "--crop", CROP_TEXT, FAKE_PT_MAX_ROWS=CROP[3])
+        self.assertEqual(self.errors, "")
+        self.render("-o", "a.png", "--crop", CROP_TEXT, FAKE_PT_MAX_ROWS=CROP[3] - 1)
+        self.assertIn("2 pieces of up to 2 rows: ", self.errors)
+
+    def test_it_has_to_be_a_part(self):
+        for text in "0,0,10,7", "9,0,1,1", "0,7,1,1", "5,5,5,1", "0,0,0,1", "0,0,1,0", "4294967295,0,2,1":
+            self.render("-o", "a.png", "--crop", text, code=2,
+                        error=f"pt: --crop {text}: must be a part of the picture, of 9x7 pixels, with at least one",
+                        FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}")
+        for text in "1,2,3", "1,2,3,4,5", "-1,0,1,1", "", "a,0,1,1", "0,0,1,4294967296", "0 0 1 1", "1,2,3,":
+            self.render("-o", "a.png", "--crop", text, code=2, error="--crop: must be four whole numbers")
+        self.assertEqual(self.files(), [])
+
+    def test_what_is_said_of_it(self):
+        self.render("-o", "a.png", "--crop", CROP_TEXT, "--stats", "s.json")
+        self.assertIn("wrote a.png: 5x4 at 2,3 of 9x7, 2 spp in ", self.output)
+        self.assertIn('"crop": [', self.read("s.json"))
+        self.assertEqual(texts_of(self.contents("a.png"))["pt.crop"], "5x4 at 2,3 of 9x7")
+        self.render("-o", "a.png", "--stats", "s.json")
+        self.assertIn('"crop": null', self.read("s.json"))
+        self.assertNotIn("pt.crop", texts_of(self.contents("a.png")))
+
+
+class Bits(ImagesTest):
+    def test_sixteen_bits_are_the_rounded_signal(self):
+        self.render("-o", "a.png", "--png-bits", "16", "--exposure", "-1")
+        width, height, image = read_png(self.path("a.png"))
+        self.assertEqual((width, height), (WIDTH, HEIGHT))
+        for y, x in itertools.product(range(height), range(width)):
+            # What the stand-in shows, in float32, halved; blue is 2, halved.
+            shown = (x / (WIDTH - 1), y / (HEIGHT - 1), 2)
+            light = [struct.unpack("f", struct.pack("f", value))[0] / 2 for value in shown]
+            self.assertEqual(image[y][3 * x:3 * x + 3], [int(65535 * encode_srgb(value) + 0.5) for value in light])
+        self.assertGreater(max(value % 256 for row in image for value in row), 200)
+
+    def test_eight_bits_are_the_default(self):
+        self.render("-o", "a.png", "-o", "a.jpg")
+        default = self.contents("a.png")
+        self.render("-o", "a.png", "--png-bits", "8")
+        self.assertEqual(self.contents("a.png"), default)
+        jpeg = self.contents("a.jpg")
+        self.render("-o", "a.jpg", "--png-bits", "16")
+        self.assertEqual(self.contents("a.jpg"), jpeg)
+        for text in "12", "0", "":
+            self.render("-o", "a.png", "--png-bits", text, code=2, error="--png-bits: must be 8 or 16")
+
+
+class StandardOutput(ImagesTest):
+    def piped(self, *arguments, **options):
+        return subprocess.run([self.program, *arguments], cwd=self.folder, capture_output=True, check=False, **options)
+
+    def test_it_gets_what_a_file_would(self):
+        for name in "exr", "png", "jpg":
+            with self.subTest(format=name):
+                self.render("-o", f"a.{name}")
+                done = self.piped("render", COURSEWORK, *SIZE, "--spp", "2", "-o", "-", "--format", name)
+                self.assertEqual((done.returncode, done.stdout), (0, self.contents(f"a.{name}")), done.stderr)
+                self.assertIn(b"pt: wrote standard output: 9x7, 2 spp", done.stderr)
+        done = self.piped("render", COURSEWORK, *SIZE, "--spp", "2", "-o", "-", "--format", "jpeg", "-o", "b.png", "-q")
+        self.assertEqual((done.stdout, done.stderr), (self.contents("a.jpg"), b""))
+        self.assertEqual(self.contents("b.png"), self.contents("a.png"))
+        self.assertNotIn("-", self.files())
+
+    def test_it_gets_no_picture_so_far(self):
+        arguments = ("render", COURSEWORK, *SIZE, "--spp", "20", "-o", "-", "--format", "png")
+        once = self.piped(*arguments)
+        asked = self.piped(*arguments, env={**os.environ, "FAKE_PT_SAMPLE_MS": "4",
+                                            "FAKE_PT_SIGNAL": f"{int(signal.SIGUSR1)}:8"})
+        self.assertEqual((asked.returncode, asked.stdout), (0, once.stdout), asked.stderr)
+        self.render("-o", "-", "--format", "png", "--preview-every", "1", code=2,
+                    error="--preview-every: needs the name of a file")
+
+    def test_its_format_has_to_be_given(self):
+        self.render("-o", "-", code=2, error="-o -: standard output needs --format exr, png or jpg")
+        self.render("-o", "a.png", "--format", "png", code=2, error="--format: is for -o - alone")
+        self.render("-o", "-", "--format", "tiff", code=2, error='unknown format "tiff"')
+
+    def test_one_thing_goes_there(self):
+        self.render("-o", "-", "-o", "-", "--format", "png", code=2, error="is the same file as -o -")
+        self.render("-o", "-", "--format", "png", "--stats", "-", code=2, error="--stats -: is the same file as -o -")
+        self.render("-o", "-", "--format", "png", "--watch", code=2, error="-o -: --watch needs a file")
+
+    def test_a_full_one_is_told(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([self.program, "render", COURSEWORK, *SIZE, "-o", "-", "--format", "png"],
+                                  stdout=full, cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(done.returncode, 6, done.stderr)
+        self.assertEqual(done.stderr, "pt: cannot write to standard output\n")
+
+    def test_a_terminal_is_spared(self):
+        ours, theirs = pty.openpty()
+        done = subprocess.run([self.program, "render", COURSEWORK, *SIZE, "-o", "-", "--format", "png"],
+                              stdout=theirs, cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
+        os.close(theirs)
+        os.close(ours)
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "pt: -o -: standard output is a terminal; send it to a file or a program\n"))
+
+
+class Exr(ImagesTest):
+    def test_it_says_what_its_colours_are(self):
+        self.render("-o", "a.exr")
+        kind, body = read_exr_attributes(self.path("a.exr"))["chromaticities"]
+        self.assertEqual(kind, "chromaticities")
+        rec709 = (0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290)
+        self.assertEqual(body, struct.pack("<8f", *rec709))
+
+
+class Tonemap(ImagesTest):
+    DISPLAYS = [[*exposure, *curve, *gamma, *bits]
+                for exposure in ([], ["--exposure", "-2.25"], ["--exposure", "auto"])
+                for curve in ([], ["--tonemap", "reinhard"], ["--tonemap", "aces"], ["--tonemap", "agx"],
+                              ["--tonemap", "neutral"])
+                for gamma in ([], ["--gamma", "2.2"]) for bits in ([], ["--png-bits", "16"])]
+
+    def check(self, displays, *options):
+        for display in displays:
+            with self.subTest(display=display, options=options):
+                self.render("-o", "a.exr", "-o", "a.png", "-o", "a.jpg", *options, *display)
+                rendered = self.contents("a.png")
+                self.expect(0, "tonemap", "a.exr", "b.png", *display)
+                mapped = self.contents("b.png")
+                self.assertEqual(parse_png(mapped), parse_png(rendered))
+                self.assertEqual(texts_of(mapped), texts_of(rendered))
+                self.expect(0, "tonemap", "a.exr", "b.jpg", *display)
+                self.assertEqual(self.scan_of("b.jpg"), self.scan_of("a.jpg"))
+
+    def scan_of(self, name):
+        """A JPEG from its quantisation tables on: without metadata."""
+        data = self.contents(name)
+        return data[data.index(b"\xff\xdb"):]
+
+    def test_the_picture_has_the_bits_of_the_rendered_one(self):
+        self.check(self.DISPLAYS[:2] + self.DISPLAYS[5::8])
+        self.check(self.DISPLAYS[:1], "--crop", CROP_TEXT)
+
+    def test_the_options_count(self):
+        self.render("-o", "a.exr")
+        pictures = set()
+        for options in (), ("--exposure", "1"), ("--tonemap", "agx"), ("--gamma", "3"), ("--png-bits", "16"):
+            self.expect(0, "tonemap", "a.exr", "a.png", *options)
+            pictures.add(str(read_png(self.path("a.png"))))
+        self.assertEqual(len(pictures), 5)
+
+    def test_what_is_told(self):
+        self.render("-o", "a.exr", "-o", "r.png", "--crop", CROP_TEXT)
+        exposure = self.output.splitlines()[1]
+        self.expect(0, "tonemap", "a.exr", "a.png")
+        self.assertEqual(self.output, f"wrote a.png: 5x4 at 2,3 of 9x7\n{exposure}\n")
+        self.expect(0, "tonemap", "a.exr", "a.png", "--exposure", "2")
+        self.assertEqual(self.output, "wrote a.png: 5x4 at 2,3 of 9x7\n")
+        self.expect(0, "tonemap", "a.exr", "a.png", "-q")
+        self.assertEqual(self.output, "")
+        done = subprocess.run([self.program, "tonemap", "a.exr", "-", "--format", "png"], cwd=self.folder,
+                              capture_output=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (0, self.contents("a.png")), done.stderr)
+        self.assertIn(b"pt: wrote standard output: 5x4", done.stderr)
+
+    def test_what_it_refuses(self):
+        self.render("-o", "a.exr", "-o", "a.png")
+        self.write("text.exr", "no image")
+        before = self.files()
+        for code, arguments, error in ((2, ("a.exr", "b.exr"), "b.exr: a tone-mapped image is a .png or .jpg"),
+                                       (2, ("a.exr", "b.tiff"), "b.tiff: the name must end in"),
+                                       (2, ("a.exr", "-"), "needs --format"),
+                                       (2, ("a.exr", "-", "--format", "exr"), "is a .png or .jpg"),
+                                       (2, ("a.png", "./a.png"), "is the same file as the image a.png"),
+                                       (2, ("a.exr",), "output is required"),
+                                       (6, ("a.png", "b.png"), "a.png: holds whole numbers"),
+                                       (6, ("none.exr", "b.png"), "cannot read none.exr"),
+                                       (6, ("text.exr", "b.png"), "cannot read text.exr"),
+                                       (6, ("a.exr", "no/b.png"), "cannot write no/b.png")):
+            with self.subTest(arguments=arguments):
+                self.expect(code, "tonemap", *arguments, error=error)
+        self.assertEqual(self.files(), before)
+
+    def test_numbers_that_are_not_finite_are_refused(self):
+        # Of fewer than 9 samples, the second part is empty and the standard error infinite.
+        self.program = PT
+        self.render("-o", "a.png", "--standard-error", "e.exr")
+        self.expect(6, "tonemap", "e.exr", "b.png", error="cannot read e.exr: pixel 0,0 is not finite")
+        self.assertEqual(self.files(), ["a.png", "e.exr"])
+
+
+class RealDevice(ImagesTest):
+    program = PT
+
+    def test_a_crop_has_the_bits_of_the_whole(self):
+        self.render("-o", "whole.png", "--exposure", "-3", "--spp", "17")
+        self.render("-o", "crop.png", "--exposure", "-3", "--spp", "17", "--crop", CROP_TEXT)
+        whole, crop = (read_png(self.path(name))[2] for name in ("whole.png", "crop.png"))
+        self.assertEqual(crop, cut(whole, CROP))
+        self.assertNotEqual(crop, cut(whole, (1, 3, 5, 4)))  # they differ from place to place
+
+    def test_a_picture_is_mapped_again_to_the_same_bits(self):
+        display = ("--tonemap", "agx", "--png-bits", "16")
+        self.render("-o", "a.exr", "-o", "a.png", *display)
+        self.expect(0, "tonemap", "a.exr", "b.png", *display)
+        self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))
+
+
+if __name__ == "__main__":
+    main()

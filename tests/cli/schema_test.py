@@ -1,0 +1,119 @@
+"""Tests of `pt schema` against the scenes here, and against what the program reads and refuses: a scene is changed in
+each of its places, and program and schema have to agree.
+
+Arguments: see command_line.py.
+"""
+
+import copy
+import json
+import os
+import pathlib
+import sys
+
+import jsonschema
+from command_line import PT, SCENES, CommandLineTest, main
+from manual_test import SECTIONS, section_rows
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scene_file import read_scene  # noqa: E402
+
+SCENE = {
+    "camera": {"position": [0, 1, 6], "look_at": [0, 1, 0], "up": [0, 1, 0], "vertical_fov": 35, "shutter": [0, 0.5]},
+    "film": {"width": 4, "height": 2, "exposure": "auto", "tonemap": "neutral", "gamma": 2.2},
+    "render": {"max_path_length": 2, "spp": 1, "seed": 7, "sampler": "sobol", "estimator": "mis"},
+    "materials": {"a": {"diffuse": 0.5, "specular": [0.1, 0.2, 0.3], "glossiness": 10, "emission": [3, 2, 1]}},
+    "spheres": [{"center": [0, 1, 0], "radius": 0.5, "material": "a", "motion": [1, 0, 0]}],
+    "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "a"}],
+    "animation": {"camera.position": [[0, [0, 1, 6]], [10, [1, 1, 6]]], "materials.a.glossiness": [[0, 10], [5, 20]]}}
+
+OTHERS = (None, True, "zzzz", -1, 0, 0.5, 65, 200, 1e-19, 5e9, 2e18, [], {}, [1, 2], [0, 0, 0], [1, 2, -3], {"zzzz": 1})
+OTHERS_IN_ARRAYS = (None, "a", -1, 0, 1e-19, 2e18, [])
+
+# What no schema can tell, for it looks at one value at a time.
+BEYOND_SCHEMAS = ("unknown material", "must be a later frame", "as many numbers as the one before",
+                  "must be that of a key")
+
+
+def places(value, path=()):
+    """Of all values within."""
+    members = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, member in members:
+        yield (*path, key)
+        yield from places(member, (*path, key))
+
+
+def changed(place, change):
+    scene = copy.deepcopy(SCENE)
+    parent = scene
+    for key in place[:-1]:
+        parent = parent[key]
+    change(parent, place[-1])
+    return scene
+
+
+def changes():
+    """Scenes that differ from SCENE in one place."""
+    for place in places(SCENE):
+        def put(other):
+            return lambda parent, key: parent.__setitem__(key, other)  # noqa: B023
+
+        for other in OTHERS if isinstance(place[-1], str) else OTHERS_IN_ARRAYS:
+            yield changed(place, put(other))
+        yield changed(place, lambda parent, key: parent.__delitem__(key))
+        if isinstance(place[-1], str):
+            yield changed(place, lambda parent, key: parent.__setitem__(key + "x", parent.pop(key)))
+
+
+class Schema(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        self.expect(0, "schema")
+        self.schema = json.loads(self.output)
+        self.validator = jsonschema.Draft7Validator(self.schema)
+
+    def test_it_is_a_schema(self):
+        jsonschema.Draft7Validator.check_schema(self.schema)
+        self.assertEqual(self.schema["$schema"], "http://json-schema.org/draft-07/schema#")
+
+    def test_scenes_are_valid(self):
+        names = [name for name in os.listdir(SCENES) if name.endswith(".json")]
+        self.assertGreater(len(names), 10)
+        for scene in (*(read_scene(os.path.join(SCENES, name)) for name in names), SCENE, {}):
+            self.validator.validate(scene)
+
+    def test_it_has_the_keys_of_the_manual(self):
+        self.assertEqual(sorted(self.schema["properties"]), sorted([*SECTIONS, "animation"]))
+        for section in SECTIONS:
+            schema = self.schema["properties"][section]
+            element = schema.get("items") or schema["additionalProperties"] or schema
+            self.assertEqual(list(element["properties"]), [row[0].strip("`") for row in section_rows(section)])
+
+    def refused_by(self, program, scene, *options):
+        self.program = program
+        self.write("s.json", json.dumps(scene))
+        code = self.run_pt("render", "s.json", "-o", "a.png", "-q", *options)
+        self.assertIn(code, (0, 3), self.errors)
+        return code == 3
+
+    def test_it_refuses_what_the_program_refuses(self):
+        fake, counts = self.program, {"valid": 0, "reader": 0, "library": 0, "beyond": 0}
+        for scene in changes():
+            is_valid = self.validator.is_valid(scene)
+            refused = self.refused_by(fake, scene, "--size", "4x2")
+            kind = "valid" if is_valid else "reader"
+            # The stand-in for the library accepts everything: the rules of the library need a device.
+            if not refused and not is_valid:
+                refused = self.refused_by(PT, scene)
+                kind = "library"
+            if is_valid and refused:
+                self.assertTrue(any(rule in self.errors for rule in BEYOND_SCHEMAS), (scene, self.errors))
+                kind = "beyond"
+            elif not is_valid:
+                self.assertTrue(refused, scene)
+            counts[kind] += 1
+        for kind, least in (("valid", 50), ("reader", 200), ("library", 30), ("beyond", 2)):
+            self.assertGreater(counts[kind], least, counts)
+
+
+if __name__ == "__main__":
+    main()
