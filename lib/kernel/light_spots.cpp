@@ -19,7 +19,7 @@ constexpr double least_glow_diffuse = 0.35; // mean of R, G and B
 constexpr double least_image_specular = 0.45; // mean of R, G and B
 constexpr double widest_image = 0.02;
 
-double mean(const glm::vec3 &colour) {
+double mean_of_colour(const glm::vec3 &colour) {
     return (static_cast<double>(colour.r) + colour.g + colour.b) / 3.0;
 }
 
@@ -29,7 +29,7 @@ double height_above(const CurvedPlane &plane, const SeenSphere &lamp) {
 
 bool shows_image(const Material &material, const SeenSphere &lamp, double distance) {
     const double sine = lamp.radius / distance;
-    return mean(material.specular) >= least_image_specular && distance > lamp.radius &&
+    return mean_of_colour(material.specular) >= least_image_specular && distance > lamp.radius &&
            1.0 / material.glossiness + sine * sine / 4.0 <= widest_image;
 }
 
@@ -70,7 +70,7 @@ private:
             if (plane.curvature != 0.0)
                 continue;
             if (height >= least_glow_height * ball.radius && height <= largest_glow_height * farthest &&
-                mean(material.diffuse) >= least_glow_diffuse)
+                mean_of_colour(material.diffuse) >= least_glow_diffuse)
                 add(lamp, surface_of_plane(i), material.diffuse, -1.0F);
             if (shows_image(material, ball, height))
                 add(lamp, surface_of_plane(i), material.specular, material.glossiness);
@@ -78,7 +78,7 @@ private:
     }
 
     void add(std::uint32_t lamp, std::uint32_t surface, const glm::vec3 &reflectance, float glossiness) {
-        spots_.push_back({lamp, surface, static_cast<float>(mean(reflectance)), glossiness});
+        spots_.push_back({lamp, surface, static_cast<float>(mean_of_colour(reflectance)), glossiness});
     }
 
     std::uint32_t surface_of_plane(std::uint32_t plane) const {

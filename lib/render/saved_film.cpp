@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-void refuse(const std::string &field, const std::string &value, const std::string &rule) {
+void refuse_added(const std::string &field, const std::string &value, const std::string &rule) {
     Violations violations;
     violations.add({.subject = "film", .member = field, .value = value, .rule = rule});
     violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
@@ -72,9 +72,9 @@ void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const 
 void require_addable(const FilmReader &film, const SampleSet &present) {
     const FilmTile &tile = film.header().tiles.front();
     if (const auto overlap = tile.samples.overlap(present))
-        refuse("samples", text_of(tile.samples), text_of(*overlap) + " are in this context's film already");
+        refuse_added("samples", text_of(tile.samples), text_of(*overlap) + " are in this context's film already");
     if (present.count() + tile.samples.count() > UINT32_MAX)
-        refuse("samples", text_of(tile.samples), "a pixel holds at most 2^32 - 1");
+        refuse_added("samples", text_of(tile.samples), "a pixel holds at most 2^32 - 1");
 }
 
 void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to) {
@@ -106,7 +106,7 @@ void require_within(const Rectangle &film, const Rectangle &pixels) {
     const bool within = film.x >= pixels.x && film.y >= pixels.y && film.x + film.width <= pixels.x + pixels.width &&
                         film.y + film.height <= pixels.y + pixels.height;
     if (!within)
-        refuse("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
+        refuse_added("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
 }
 
 void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, vulkan::Device &device,

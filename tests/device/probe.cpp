@@ -32,10 +32,10 @@ struct SharedDevice {
     }
 };
 
-constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,     vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer,     vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eUniformBuffer,     vk::DescriptorType::eUniformTexelBuffer,
-                                 vk::DescriptorType::eUniformTexelBuffer};
+constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,      vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer,      vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eUniformBuffer,      vk::DescriptorType::eUniformTexelBuffer,
+                                 vk::DescriptorType::eUniformTexelBuffer, vk::DescriptorType::eStorageBuffer};
 
 constexpr std::size_t guard_bytes = 4096;
 constexpr std::byte guard_value{0xa5};
@@ -76,7 +76,7 @@ void Probe::run_over(std::span<const std::byte> input, std::span<std::byte> outp
     std::vector<std::byte> guard(guard_bytes, guard_value);
     out.upload(guard, output.size());
 
-    const std::array buffers = {&scene, &scene, &out, &in, &points, &nodes, &spheres};
+    const std::array buffers = {&scene, &scene, &out, &in, &points, &nodes, &spheres, &in};
     const pt::vulkan::DescriptorSet set = pipeline_.bind(buffers);
     device.submit([&](const vk::raii::CommandBuffer &commands) {
         pipeline_.dispatch(commands, set, push, (invocations + workgroup_size - 1) / workgroup_size);

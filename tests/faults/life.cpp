@@ -230,6 +230,7 @@ void Life::accumulate_to(const std::string &step, uint32_t sample_count, double 
     info.sample_count = sample_count - state().sample_count;
     info.progress = &go_on;
     info.target_error = target_error;
+    info.sampling = PT_SAMPLING_UNIFORM; // expected images are those of even samples
     const uint32_t before = state().sample_count;
     call(
         step, [&] { return info.sample_count == 0 ? PT_OK : accumulate(context_, &info); },

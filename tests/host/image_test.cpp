@@ -67,8 +67,8 @@ TEST(Image, NeedsAKnownQuantity) {
     pt_image image = valid_image();
     image.quantity = PT_QUANTITY_STANDARD_ERROR;
     EXPECT_EQ(pt::validated_image(image, width, height).layout.quantity, uint32_t{PT_QUANTITY_STANDARD_ERROR});
-    image.quantity = 2;
-    EXPECT_EQ(message(image), "image.quantity = 2: must be a PT_QUANTITY_* of pt.h");
+    image.quantity = 3;
+    EXPECT_EQ(message(image), "image.quantity = 3: must be a PT_QUANTITY_* of pt.h");
 }
 
 TEST(Image, NeedsWholeFloatsInARow) {
