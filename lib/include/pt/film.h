@@ -90,7 +90,7 @@ typedef struct pt_sample_range {
  * failure NULL is written. Any thread. PT_ERROR_INCOMPATIBLE: they are no film, damaged or cut short. */
 PT_API pt_result pt_open_film(const void *data, uint64_t size_bytes, pt_film **film);
 
-/** Frees a film. NULL is allowed. After all other calls on it; never fails. */
+/** Frees a film. NULL is allowed. One thread, after all other calls on it; never fails. */
 PT_API void pt_close_film(pt_film *film);
 
 /** Adds the samples of a film that pt_save_film or pt_write_film has written, which may be of other pixels of the image.
