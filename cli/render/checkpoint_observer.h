@@ -26,7 +26,8 @@ public:
     bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
     void stepped(const RenderState &state) override;
 
-    // Writes what the file does not have yet of these samples. Afterwards nothing is under way.
+    // Writes what the file does not have yet of these samples, which are those of a pixel on the average, as in
+    // RenderState. Afterwards nothing is under way.
     void finish(std::uint32_t sample_count);
 
     // Whether the file has all the samples that finish() was told of.

@@ -12,7 +12,7 @@ namespace cli {
 
 // After a step.
 struct RenderState {
-    std::uint32_t sample_count;
+    std::uint32_t sample_count; // of a pixel on the average, rounded
     std::chrono::steady_clock::time_point time;
     bool target_reached;
     const pt_stats *stats; // with the stated error; NULL if no observer needs it

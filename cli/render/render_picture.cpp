@@ -18,7 +18,7 @@
 #include "cli/scene/scene_setup.h"
 #include "cli/scene/warnings.h"
 
-#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <span>
@@ -63,7 +63,7 @@ Rendered render_with_progress(const Context &context, const RenderOptions &optio
     Rendered rendered{};
     rendered.image =
         render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress, observers.list());
-    observers.finish(rendered.image.stats.sample_count);
+    observers.finish(static_cast<std::uint32_t>(std::lround(rendered.image.stats.mean_sample_count)));
     rendered.timed_out = observers.is_timed_out();
     rendered.has_checkpoint = observers.has_checkpoint();
     return rendered;

@@ -115,11 +115,21 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
-        options = [*self.options(100000), "--error", "3%"]
+        options = [*self.options(100000), "--error", "3%", "--sampling", "uniform"]
         expected = self.whole(*options)
         self.expect(0, *self.options(37), "--checkpoint", "c.ptfilm")
         self.expect(0, *options, "--checkpoint", "c.ptfilm", "--resume")
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
+
+    def test_pixels_with_different_numbers_of_samples_go_on_too(self):
+        options = [*self.options(100000), "--error", "2%", "--stats", "a.json"]
+        code, runs = 75, 0
+        while code == 75:
+            code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.1", "--resume")
+            runs += 1
+        self.assertEqual(code, 0, self.errors)
+        self.assertGreater(runs, 1)
+        self.assertIn('"ended_by": "error"', self.read("a.json"))
 
 
 class Surroundings(KeptRender):
