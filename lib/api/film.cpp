@@ -64,15 +64,15 @@ std::vector<float> values_of(const Film::RowPart &part, std::uint32_t quantity) 
 }
 
 void write_image(const Film &film, const Image &image) {
-    const auto &[rectangle, quantity, format, row_bytes] = image.layout;
-    const bool with_standard_error = quantity == PT_QUANTITY_STANDARD_ERROR;
-    Rectangle pixels = rectangle; // of the image
+    const ImageLayout &layout = image.layout;
+    Rectangle pixels = layout.pixels; // of the image
     pixels.x += film.bounds().x;
     pixels.y += film.bounds().y;
     write_nothing(image);
-    film.read(pixels, with_standard_error, [&](const Film::RowPart &part) {
-        std::byte *const row = image.data + (part.y - pixels.y) * row_bytes;
-        write_pixels(values_of(part, quantity), format, row + std::size_t{part.x - pixels.x} * pixel_bytes(format));
+    film.read(pixels, layout.quantity == PT_QUANTITY_STANDARD_ERROR, [&](const Film::RowPart &part) {
+        std::byte *const row = image.data + (part.y - pixels.y) * layout.row_bytes;
+        write_pixels(values_of(part, layout.quantity), layout.format,
+                     row + std::size_t{part.x - pixels.x} * pixel_bytes(layout.format));
     });
 }
 

@@ -244,8 +244,9 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
     // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one beyond.
-    const std::uint64_t way =
-        features.spot_count > 0 ? (4 + branches) * features.spot_count + 2 * walk + lamp_trips(features) : 0;
+    const std::uint64_t way = features.spot_count > 0
+                                  ? std::uint64_t{4 + branches} * features.spot_count + 2 * walk + lamp_trips(features)
+                                  : 0;
     return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 

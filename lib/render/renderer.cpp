@@ -384,7 +384,8 @@ std::optional<pt_result> Renderer::next_tiles() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
     if (!job_->goals.empty())
         return unless_done(set_all_tiles([&](std::uint32_t tile) { return job_->goals[tile]; }));
-    if (samples_.even() && round_.number == AdaptiveRound::none)
+    const bool is_together = samples_.most() <= next_check(samples_.least());
+    if (round_.number == AdaptiveRound::none && is_together)
         return next_even_tiles();
     const auto level_after = [&](std::uint32_t tile) { return next_level(samples_.of(tile).count()); };
     if (const std::vector<std::uint32_t> unfinished = unfinished_tiles(samples_); !unfinished.empty())
@@ -393,17 +394,18 @@ std::optional<pt_result> Renderer::next_tiles() {
 }
 
 // As long as tiles are not told apart: the error is looked at as with even samples, and at each level whether it pays to.
+// Some may be on their way from one of these counts to the next.
 std::optional<pt_result> Renderer::next_even_tiles() {
-    const std::uint64_t count = samples_.of(0).count();
-    if (is_on_target(job_->wanted.target_error))
+    const std::uint64_t count = samples_.least();
+    if (samples_.even() && is_on_target(job_->wanted.target_error))
         return PT_TARGET_REACHED;
-    if (is_level(count)) {
+    if (samples_.even() && is_level(count)) {
         error();
         if (are_worth_telling_apart(tile_gains(samples_, tile_squares_)))
             return next_adaptive_tiles();
     }
     return set_all_tiles([&](std::uint32_t) { return next_check(count); }) ? std::nullopt
-                                                                           : std::optional<pt_result>(PT_OK);
+                                                                            : std::optional<pt_result>(PT_OK);
 }
 
 // The error is looked at while all tiles are at a level: the round goes on, or ends, and with the last one the samples.
@@ -518,12 +520,13 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     const SampleSet &added = film.header().tiles.front().samples;
     SampleSet all = samples_.of(0);
     all.add(added);
+    TileSamples all_samples(samples_.grid(), all); // before the film has them: this may fail
     DeviceFilm &device_film = device.film();
     if (is_in_pass() && added.overlap(device.pass()))
         device.discard_pass();
     add(film, all.hull(), device.device(), device_film);
     round_ = later_of(round_, film.header().round);
-    take_over(TileSamples(samples_.grid(), std::move(all)));
+    take_over(std::move(all_samples));
 }
 
 // By way of the host, where films are values.

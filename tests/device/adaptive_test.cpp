@@ -21,7 +21,7 @@ namespace {
 
 constexpr uint32_t uneven_width = 75; // neither is a multiple of a tile's
 constexpr uint32_t uneven_height = 44;
-constexpr double uneven_target = 0.03;
+constexpr double uneven_target = 0.015;
 constexpr uint32_t no_limit = 1U << 20;
 
 using Values = std::vector<float>;

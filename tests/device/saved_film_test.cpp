@@ -224,8 +224,8 @@ TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
     EXPECT_EQ(add(context(), late), PT_ERROR_INCOMPATIBLE);
     EXPECT_EQ(
         pt_last_error(context()),
-        std::string(
-            "film.tile = rows [3, 8), columns [0, 21): must be rows [0, 14), columns [0, 21), as in this context"));
+        std::string("film: its tiles must be whole ones of this context, squares of 8 pixels from the top left of what is "
+                    "rendered on"));
 }
 
 // Whatever differs is named, and the context has what it had.

@@ -14,7 +14,8 @@ PAGES += (ROOT / "tests").glob("*/README.md")
 def anchors(text):
     """Names that the host of a repository gives to headings: lower case, without punctuation, blanks as hyphens."""
     headings = re.findall(r"^#+ (.*)$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE)
-    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+    names = re.findall(r'<a name="([^"]+)">', text)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings} | set(names)
 
 
 def broken_links(page, text):
