@@ -60,7 +60,7 @@ void check_file_names(const RenderOptions &options) {
     for (const auto &[option, path] : {NamedFile{"--standard-error", options.standard_error},
                                        {"--film", options.film},
                                        {"--checkpoint", options.checkpoint}}) {
-        refuse_if(path == standard_stream, option + " -: is not written to standard output; give a file's name");
+        refuse_if(path == standard_stream, option + " -: goes to a file, not to standard output; give its name");
     }
     const std::string &path = options.standard_error;
     refuse_if(!path.empty() && image_format(path) != ImageFormat::exr,

@@ -115,7 +115,7 @@ class RealDevice(CommandLineTest):
 
     def test_target(self):
         arguments = ["render", COURSEWORK, "--size", "32x16", "--stats", "s.json"]
-        self.expect(0, *arguments, "-o", "a.exr", "--error", "10%", "--standard-error", "e.exr")
+        self.expect(0, *arguments, "-o", "a.exr", "--sampling", "uniform", "--error", "10%", "--standard-error", "e.exr")
         stats = json.loads(self.read("s.json"))
         self.assertTrue(stats["target_reached"])
         self.assertTrue(0 < stats["relative_rmse_low"] < stats["relative_rmse"] < stats["relative_rmse_high"] <= 0.1)
@@ -127,7 +127,9 @@ class RealDevice(CommandLineTest):
         self.assertEqual(read_exr_blocks(self.path("a.exr")), read_exr_blocks(self.path("b.exr")))
         self.assertEqual(json.loads(self.read("s.json"))["rmse"], stats["rmse"])
         step = 2 ** ((stats["spp"] - 1).bit_length() - 1) // 4
-        self.assertEqual(self.run_pt(*arguments, "-o", "b.exr", "--error", "10%", "--spp", str(stats["spp"] - step)), 7)
+        found = self.run_pt(*arguments, "-o", "b.exr", "--sampling", "uniform", "--error", "10%", "--spp",
+                            str(stats["spp"] - step))
+        self.assertEqual(found, 7)
         self.assertFalse(json.loads(self.read("s.json"))["target_reached"])
 
 
