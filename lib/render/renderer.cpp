@@ -405,7 +405,7 @@ std::optional<pt_result> Renderer::next_even_tiles() {
             return next_adaptive_tiles();
     }
     return set_all_tiles([&](std::uint32_t) { return next_check(count); }) ? std::nullopt
-                                                                            : std::optional<pt_result>(PT_OK);
+                                                                           : std::optional<pt_result>(PT_OK);
 }
 
 // The error is looked at while all tiles are at a level: the round goes on, or ends, and with the last one the samples.

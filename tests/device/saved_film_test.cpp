@@ -224,8 +224,9 @@ TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
     EXPECT_EQ(add(context(), late), PT_ERROR_INCOMPATIBLE);
     EXPECT_EQ(
         pt_last_error(context()),
-        std::string("film: its tiles must be whole ones of this context, squares of 8 pixels from the top left of what is "
-                    "rendered on"));
+        std::string(
+            "film: its tiles must be whole ones of this context, squares of 8 pixels from the top left of what is "
+            "rendered on"));
 }
 
 // Whatever differs is named, and the context has what it had.
