@@ -233,9 +233,9 @@ typedef struct pt_render {
 enum {
     PT_SAMPLING_BEST = 0,    /**< adaptive with a target error, else uniform */
     PT_SAMPLING_UNIFORM = 1, /**< to all pixels alike */
-    /** where they lessen the error most, which takes a target error: a tile of 8 x 8 pixels gets 16 samples a pixel, and as
-     * many again while what that gains for its cost exceeds a bound, which falls until the image has the target error. No
-     * pixel gets fewer than a fourth of the mean by the time the bound falls. */
+    /** where they lessen the error most, which takes a target error: as long as tiles of 8 x 8 pixels are much alike, to all
+     * pixels alike; else a tile gets as many samples again while what that gains for its cost exceeds a bound, which falls
+     * until the image has the target error. Whenever it falls, all pixels have a fourth of the mean or get it. */
     PT_SAMPLING_ADAPTIVE = 2
 };
 
@@ -256,9 +256,9 @@ typedef struct pt_accumulate_info {
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
      * PT_TARGET_REACHED, and sample_count is the most that it adds to the pixels that have most. The error is looked at when
-     * no tile wants more for the bound of the time (PT_SAMPLING_ADAPTIVE) or, with PT_SAMPLING_UNIFORM, when the image has
-     * as many samples as pt_next_check says, and at no other time: where a sequence ends does not depend on how it is split
-     * over calls, devices, or films that are saved and added again. Finite, >= 0. */
+     * all pixels have as many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants
+     * more for the bound of the time, and at no other time: where a sequence ends, and with which samples in which pixels,
+     * does not depend on how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
     uint32_t reserved; /**< 0 */
