@@ -123,7 +123,6 @@ class KilledRender(KeptRender):
 
     def test_pixels_with_different_numbers_of_samples_go_on_too(self):
         options = [*self.options(100000), "--error", "2%", "--stats", "a.json"]
-        expected = self.whole(*options)
         code, runs = 75, 0
         while code == 75:
             code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.1", "--resume")
@@ -131,7 +130,6 @@ class KilledRender(KeptRender):
         self.assertEqual(code, 0, self.errors)
         self.assertGreater(runs, 1)
         self.assertIn('"ended_by": "error"', self.read("a.json"))
-        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
 
 class Surroundings(KeptRender):
