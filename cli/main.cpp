@@ -1,15 +1,17 @@
-// The program `pt`: chooses the subcommand, and turns every exception into an exit code.
+// The program `pt`: chooses the command, and turns every exception into an exit code.
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/standard_streams.h"
-#include "cli/base/unknown_argument.h"
+#include "cli/base/usage_reason.h"
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
 #include "cli/compare/compare_command.h"
 #include "cli/film/merge_command.h"
 #include "cli/film/merge_options.h"
+#include "cli/help/help_commands.h"
+#include "cli/help/help_text.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -20,6 +22,7 @@
 #include <CLI/CLI.hpp>
 
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <new>
 #include <nlohmann/json.hpp>
@@ -33,89 +36,107 @@ int fail(cli::ExitCode code, const std::string &message) {
     return static_cast<int>(code);
 }
 
-int parse_and_run(int argument_count, char **arguments) {
-    CLI::App program("pt: an offscreen path tracer for spheres and planes on any Vulkan device", "pt");
-    program.require_subcommand(0, 1);
-    program.footer(cli::exit_code_help);
-    program.set_version_flag("--version", "pt " + cli::version_text());
+// The program with its commands, each of which says where its options go and what it runs.
+class Program {
+public:
+    Program() {
+        app_.require_subcommand(0, 1);
+        app_.formatter(cli::help_formatter());
+        app_.footer(cli::exit_code_help);
+        app_.set_version_flag("--version", "pt " + cli::version_text(), "Print the version and exit");
+        say_help(app_);
+        add_commands();
+    }
 
-    cli::RenderOptions options;
-    CLI::App *render = program.add_subcommand("render", "Render a scene file to images");
-    cli::add_render_options(*render, options);
-    render->footer(std::string(cli::render_help) + "\n" + cli::exit_code_help);
-
-    cli::TonemapOptions tonemap_options;
-    CLI::App *tonemap = program.add_subcommand("tonemap", "Make a picture of a file of radiance, without rendering");
-    cli::add_tonemap_options(*tonemap, tonemap_options);
-    tonemap->footer(std::string(cli::tonemap_help) + "\n" + cli::exit_code_help);
-
-    cli::CompareOptions compare_options;
-    CLI::App *compare = program.add_subcommand("compare", "Compare an image with a reference");
-    cli::add_compare_options(*compare, compare_options);
-    compare->footer(std::string(cli::compare_help) + "\n" + cli::exit_code_help);
-
-    cli::BenchOptions bench_options;
-    CLI::App *bench = program.add_subcommand("bench", "Measure the error and the time of samplers and estimators");
-    cli::add_bench_options(*bench, bench_options);
-    bench->footer(std::string(cli::bench_help) + "\n" + cli::exit_code_help);
-
-    cli::MergeOptions merge_options;
-    CLI::App *merge = program.add_subcommand("merge", "Add films of one picture that were rendered apart");
-    cli::add_merge_options(*merge, merge_options);
-    merge->footer(std::string(cli::merge_help) + "\n" + cli::exit_code_help);
-
-    cli::SelftestOptions selftest_options;
-    CLI::App *selftest = program.add_subcommand("selftest", "Check a device against exact answers, in a second or so");
-    cli::add_selftest_options(*selftest, selftest_options);
-    selftest->footer(std::string(cli::selftest_help) + "\n" + cli::exit_code_help);
-
-    CLI::App *schema = program.add_subcommand("schema", "Print the JSON Schema of scene files");
-
-    bool as_json = false;
-    CLI::App *devices = program.add_subcommand("devices", "List the Vulkan devices");
-    devices->add_flag("--json", as_json, "Print JSON");
-
-    try {
-        program.parse(argument_count, arguments);
-    } catch (const CLI::ParseError &error) {
-        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-            return program.exit(error); // --help and --version
+    int run(int argument_count, char **arguments) {
+        try {
+            app_.parse(argument_count, arguments);
+        } catch (const CLI::ParseError &error) {
+            if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+                return app_.exit(error); // --help and --version
+            }
+            return fail(cli::ExitCode::usage, cli::usage_reason(app_, error));
         }
-        const std::vector<CLI::App *> parsed = program.get_subcommands();
-        const CLI::App &command = parsed.empty() ? program : *parsed.front();
-        const std::string name = parsed.empty() ? "" : command.get_name() + " ";
-        return fail(cli::ExitCode::usage,
-                    cli::unknown_argument(command).value_or(error.what()) + " (see pt " + name + "--help)");
+        for (const Command &command : commands_) {
+            if (command.app->parsed()) {
+                return command.run();
+            }
+        }
+        return fail(cli::ExitCode::usage, "a command is missing: " + names() + " (see pt --help)");
     }
-    if (render->parsed()) {
-        return cli::run_render(options);
+
+private:
+    struct Command {
+        CLI::App *app;
+        std::function<int()> run;
+    };
+
+    static void say_help(CLI::App &app) { app.set_help_flag("-h,--help", "Print this help and exit"); }
+
+    CLI::App &add(const std::string &name, const std::string &description, const std::string &notes,
+                  std::function<int()> run) {
+        CLI::App *app = app_.add_subcommand(name, description);
+        app->footer(notes + (notes.empty() ? "" : "\n") + cli::exit_code_help);
+        say_help(*app);
+        commands_.push_back({app, std::move(run)});
+        return *app;
     }
-    if (tonemap->parsed()) {
-        return cli::run_tonemap(tonemap_options);
+
+    void add_commands() {
+        cli::add_render_options(add("render", "Render a scene file to images", cli::render_help,
+                                    [this] { return cli::run_render(render_); }),
+                                render_);
+        cli::add_tonemap_options(add("tonemap", "Make a picture of a file of radiance, without rendering",
+                                     cli::tonemap_help, [this] { return cli::run_tonemap(tonemap_); }),
+                                 tonemap_);
+        cli::add_compare_options(add("compare", "Compare an image with a reference", cli::compare_help,
+                                     [this] { return cli::run_compare(compare_); }),
+                                 compare_);
+        cli::add_bench_options(add("bench", "Measure the error and the time of samplers and estimators",
+                                   cli::bench_help, [this] { return cli::run_bench(bench_); }),
+                               bench_);
+        cli::add_merge_options(add("merge", "Add films of one picture that were rendered apart", cli::merge_help,
+                                   [this] { return cli::run_merge(merge_); }),
+                               merge_);
+        cli::add_selftest_options(add("selftest", "Check a device against exact answers, in a second or so",
+                                      cli::selftest_help, [this] { return cli::run_selftest(selftest_); }),
+                                  selftest_);
+        add("schema", "Print the JSON Schema of scene files", "", [] {
+            std::cout << cli::json_text(cli::scene_schema());
+            return static_cast<int>(cli::ExitCode::done);
+        });
+        add("devices", "List the Vulkan devices", "", [this] {
+            return cli::run_devices(devices_as_json_);
+        }).add_flag("--json", devices_as_json_, "Print JSON");
+        cli::add_completion_options(add("completion", "Print a script by which a shell completes command lines",
+                                        cli::completion_help,
+                                        [this] { return cli::run_completion(completion_, app_); }),
+                                    completion_);
+        cli::add_man_options(
+            add("man", "Print a manual page", cli::man_help, [this] { return cli::run_man(man_, app_); }), app_, man_);
     }
-    if (compare->parsed()) {
-        return cli::run_compare(compare_options);
+
+    std::string names() const {
+        std::string text;
+        for (const Command &command : commands_) {
+            const bool is_last = &command == &commands_.back();
+            text += (text.empty() ? "" : is_last ? " or " : ", ") + command.app->get_name();
+        }
+        return text;
     }
-    if (bench->parsed()) {
-        return cli::run_bench(bench_options);
-    }
-    if (merge->parsed()) {
-        return cli::run_merge(merge_options);
-    }
-    if (selftest->parsed()) {
-        return cli::run_selftest(selftest_options);
-    }
-    if (schema->parsed()) {
-        std::cout << cli::json_text(cli::scene_schema());
-        return static_cast<int>(cli::ExitCode::done);
-    }
-    if (devices->parsed()) {
-        return cli::run_devices(as_json);
-    }
-    return fail(cli::ExitCode::usage,
-                "a subcommand is missing: render, tonemap, compare, bench, merge, selftest, schema or devices (see pt "
-                "--help)");
-}
+
+    CLI::App app_{"An offscreen path tracer for spheres and planes on any Vulkan device", "pt"};
+    std::vector<Command> commands_;
+    cli::RenderOptions render_;
+    cli::TonemapOptions tonemap_;
+    cli::CompareOptions compare_;
+    cli::BenchOptions bench_;
+    cli::MergeOptions merge_;
+    cli::SelftestOptions selftest_;
+    cli::CompletionOptions completion_;
+    cli::ManOptions man_;
+    bool devices_as_json_ = false;
+};
 
 } // namespace
 
@@ -123,7 +144,7 @@ int main(int argument_count, char **arguments) {
     cli::occupy_closed_streams();
     int code = 0;
     try {
-        code = parse_and_run(argument_count, arguments);
+        code = Program().run(argument_count, arguments);
     } catch (const cli::Failure &failure) {
         return fail(failure.code(), failure.what());
     } catch (const std::bad_alloc &) {

@@ -5,6 +5,12 @@
 #include "gpu_layout.h"
 #include "scene.glsl"
 
+struct CameraRay {
+    vec3 origin;
+    vec3 direction;
+    float time; // from 0 (shutter opens) to 1 (shutter closes)
+};
+
 // How far a place in [0, 1)^2 of the pixel (column, row), counted from the top left, lies from the image's middle: in
 // pixels to the right and downwards. The pixel's part of it is a multiple of 1/2 and exact, however wide the image is.
 vec2 image_place(FrameConstants frame, uvec2 pixel, vec2 place)

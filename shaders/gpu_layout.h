@@ -129,9 +129,11 @@ PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_TREE_NODES = 5;
 PT_CONSTANT BINDING_TREE_SPHERES = 6;
 PT_CONSTANT BINDING_TILES = 7;
-// Of resolve.comp and estimate.comp, beside BINDING_FILM.
+// Of resolve.comp and estimate.comp, beside BINDING_FILM; of first_hit.comp, beside the scene's and the tree's.
 PT_CONSTANT BINDING_RESOLVED = 3;
 PT_CONSTANT BINDING_FINDINGS = 4;
+// Of coverage.comp, beside the scene's, the tree's and that of the points.
+PT_CONSTANT BINDING_COVERED = 3;
 // Of estimate.comp.
 PT_CONSTANT BINDING_TILE_COUNTS = 4;
 PT_CONSTANT BINDING_TILE_SQUARES = 5;
@@ -142,11 +144,17 @@ PT_CONSTANT BINDING_ADDED = 3;
 PT_CONSTANT QUANTITY_RADIANCE = 0;
 PT_CONSTANT QUANTITY_STANDARD_ERROR = 1;
 PT_CONSTANT QUANTITY_SAMPLE_COUNT = 2;
+// What first_hit.comp is asked for, likewise.
+PT_CONSTANT QUANTITY_DEPTH = 3;
+PT_CONSTANT QUANTITY_NORMAL = 4;
+PT_CONSTANT QUANTITY_ALBEDO = 5;
+PT_CONSTANT QUANTITY_OBJECT = 6;
 
-// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h.
+// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h. What first_hit.comp writes.
 PT_CONSTANT FORMAT_RGB32F = 0;
 PT_CONSTANT FORMAT_RGBA32F = 1;
 PT_CONSTANT FORMAT_RGBA16F = 2;
+PT_CONSTANT FORMAT_R32UI = 3; // of first_hit.comp alone
 
 // Invocations of a workgroup, one pixel each: a multiple of every vector width of software Vulkan and of GPU subgroups.
 PT_CONSTANT WORKGROUP_SIZE = 64;
@@ -334,6 +342,43 @@ struct ResolveConstants {
     uint row_words;   // from a row to the next
 };
 
+// Of first_hit.comp. Pixels are counted row by row over the image.
+struct FirstHitConstants {
+    vec3 camera_right;    // as in FrameConstants, like all that has its name
+    float start_scale;
+    vec3 camera_up;
+    float start_distance; // of the scene's origin from the pinhole, along the view
+    vec3 camera_forward;
+    uint quantity;        // PT_QUANTITY_* of pt.h
+    uint width;
+    uint height;
+    uint format;          // PT_FORMAT_* of pt.h
+    uint first_pixel;     // of a rectangle
+    uint rectangle_width;
+    uint first_of_rectangle; // of the pixels that are looked at, counted row by row over the rectangle
+    uint pixel_count;
+};
+// Rays of a pixel whose mean is taken: they divide a workgroup.
+PT_CONSTANT FILTER_RAYS = 16;
+
+// Of coverage.comp, likewise. The samples are a range, of which each tile may have a part.
+struct CoverageConstants {
+    vec3 camera_right;
+    float start_scale;
+    vec3 camera_up;
+    uint width;
+    vec3 camera_forward;
+    uint height;
+    uvec2 seed;
+    uint first_row; // of the film, in the image: tiles count from there
+    uint first_pixel;
+    uint rectangle_width;
+    uint first_of_rectangle;
+    uint pixel_count;
+    uint first_sample;
+    uint last_sample;
+};
+
 // Of estimate.comp, for a strip of whole rows.
 struct EstimateConstants {
     uvec2 sample_counts; // that each pixel must have in the older and in the newer part, if all have as many
@@ -365,6 +410,9 @@ static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(Fram
 static_assert(offsetof(FrameConstants, start_scale) == 88);
 static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
+static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);
+static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
+static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
 static_assert(sizeof(AddConstants) == 28 && offsetof(AddConstants, added_stride) == 24);
 } // namespace pt::gpu

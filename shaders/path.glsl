@@ -333,35 +333,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     return radiance;
 }
 
-// A ray from the camera, spread over the pixel's square (box filter).
-struct CameraRay {
-    vec3 origin;
-    vec3 direction;
-    float time;
-};
-
-CameraRay camera_ray(FrameConstants frame, uvec2 pixel, SampleKey key)
-{
-    vec3 numbers = camera_numbers(key);
-    vec2 from_middle = image_place(frame, pixel, numbers.xy);
-    return CameraRay(camera_origin(frame, from_middle), camera_direction(frame, from_middle), numbers.z);
-}
-
-Walk walk_from_camera(CameraRay ray)
-{
-    Hit hit = closest_hit(ray.origin, ray.direction, ray.time);
-    Start start = Start(ray.origin, NO_SURFACE, false);
-    return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, hit, false);
-}
-
-// Where it has met something.
-Arrival arrival_of(CameraRay ray, Hit hit)
-{
-    vec3 point = hit.distance * ray.direction;
-    if (STARTS_AHEAD == 1)
-        point += ray.origin;
-    return Arrival(point, ray.direction, hit.surface);
-}
+#include "camera_ray.glsl"
+#include "camera_walk.glsl"
 
 vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).rgb : vec3(0.0); }
 

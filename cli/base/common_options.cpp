@@ -1,5 +1,7 @@
 #include "cli/base/common_options.h"
 
+#include "cli/help/value_words.h"
+
 #include <pt/pt.h>
 
 #include <algorithm>
@@ -9,6 +11,14 @@ namespace cli {
 
 void refuse_option(const std::string &option, const std::string &rule, const std::string &text) {
     throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");
+}
+
+double read_target_error(const std::string &option, const std::string &text) {
+    const std::optional<double> share = parse_share(text);
+    if (!share || *share <= 0.0) {
+        refuse_option(option, "must be a number above 0 like 0.005 or 0.5%", text);
+    }
+    return *share;
 }
 
 CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size) {
@@ -37,13 +47,12 @@ CLI::Option *add_seed(CLI::App &command, std::optional<std::uint64_t> &seed) {
 CLI::Option *add_device(CLI::App &command, std::string &device) {
     return command
         .add_option("--device", device,
-                    "Index or UUID from `pt devices`, or several (0,1), part of a name, gpu, cpu or all (default: the "
-                    "best one)")
-        ->type_name("D");
+                    "Index or UUID from `pt devices`, or several (0,1), or part of a name (default: the best one)")
+        ->type_name("INDEX|UUID|NAME|gpu|cpu|all");
 }
 
 void add_reporting(CLI::App &command, std::string &progress, bool &quiet) {
-    const std::string group = "Reporting";
+    const std::string group = "Messages";
     static constexpr std::array<std::string_view, 3> styles{"auto", "json", "none"};
     command
         .add_option_function<std::string>(
@@ -55,7 +64,7 @@ void add_reporting(CLI::App &command, std::string &progress, bool &quiet) {
                 progress = text;
             },
             "On stderr: auto (a line if it is a terminal; the default), json (an object a line), none")
-        ->type_name("STYLE")
+        ->type_name(alternatives(styles))
         ->group(group);
     command.add_flag("-q,--quiet", quiet, "Print errors only")->group(group);
 }

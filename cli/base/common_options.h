@@ -3,6 +3,7 @@
 
 #include "cli/base/number.h"
 #include "cli/base/suggestion.h"
+#include "cli/help/value_words.h"
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +30,9 @@ Number read_option_number(const std::string &option, const std::string &text, Nu
     }
     return *number;
 }
+
+// A relative error, as a number or in per cent.
+double read_target_error(const std::string &option, const std::string &text);
 
 template <typename Number, typename Target>
 CLI::Option *add_whole_number(CLI::App &command, const std::string &name, Target &target, Number smallest,
@@ -72,7 +76,7 @@ CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target
     const auto read = [&target, find, name, kind, known](const std::string &text) {
         target = read_name(name, text, find, kind, known);
     };
-    return command.add_option_function<std::string>(name, read, help)->type_name("NAME");
+    return command.add_option_function<std::string>(name, read, help)->type_name(alternatives(known));
 }
 
 CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size);

@@ -79,6 +79,20 @@ public:
         require(pt_readback(context_, &image));
     }
 
+    // The numbers of the objects in them.
+    void read_objects(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t *numbers) const {
+        pt_image image{};
+        image.struct_size = sizeof(pt_image);
+        image.quantity = PT_QUANTITY_OBJECT;
+        image.format = PT_FORMAT_R32UI;
+        image.data = numbers;
+        image.size_bytes = std::uint64_t{count} * rows * sizeof(std::uint32_t);
+        image.x = first;
+        image.width = count;
+        image.height = rows;
+        require(pt_readback(context_, &image));
+    }
+
 private:
     // Shaders of --shader-dir are the user's to mend, like a scene file.
     ExitCode code_of(pt_result result) const {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace cli {
@@ -38,15 +37,6 @@ public:
     // Throws std::out_of_range for a value that the table lacks.
     constexpr std::string_view name(std::uint32_t value) const {
         return names_.at(index(std::find(values_.begin(), values_.end(), value) - values_.begin()));
-    }
-
-    // "best, random, halton", for help texts.
-    std::string list() const {
-        std::string text;
-        for (const std::string_view name : names_) {
-            text.append(text.empty() ? "" : ", ").append(name);
-        }
-        return text;
     }
 
 private:

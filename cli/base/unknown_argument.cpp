@@ -45,7 +45,7 @@ std::optional<std::string> unknown_argument(const CLI::App &command) {
         return unknown("option", first.substr(0, first.find('=')), option_names(command));
     }
     const std::vector<std::string> subcommands = subcommand_names(command);
-    return subcommands.empty() ? "unexpected argument \"" + first + "\"" : unknown("subcommand", first, subcommands);
+    return subcommands.empty() ? "unexpected argument \"" + first + "\"" : unknown("command", first, subcommands);
 }
 
 } // namespace cli

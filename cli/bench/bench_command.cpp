@@ -37,10 +37,14 @@ RenderSettings bench_settings(const BenchOptions &options, const SceneFile &file
 // Its error is then an eighth of the smallest error measured, if the error's square falls with 1 / N.
 std::uint32_t reference_sample_count(const BenchOptions &options) {
     constexpr std::uint32_t factor = 64;
-    const std::uint32_t largest = options.sample_counts.back();
     if (options.reference_sample_count) {
         return *options.reference_sample_count;
     }
+    if (!options.target_errors.empty()) {
+        throw Failure(ExitCode::usage, "--errors: needs --reference or --reference-spp, since it is not known how many "
+                                       "samples they take");
+    }
+    const std::uint32_t largest = options.sample_counts.back();
     if (largest > std::numeric_limits<std::uint32_t>::max() / factor) {
         throw Failure(ExitCode::usage, "--spp " + std::to_string(largest) +
                                            ": 64 times as many for the reference are too many; give --reference-spp");
@@ -67,8 +71,13 @@ std::vector<BenchCell> make_cells(const BenchOptions &options) {
     std::vector<BenchCell> cells;
     for (const std::uint32_t sampler : options.samplers) {
         for (const std::uint32_t estimator : options.estimators) {
-            for (const std::uint32_t sample_count : options.sample_counts) {
-                cells.push_back({sampler, estimator, sample_count, {}});
+            if (options.target_errors.empty()) {
+                for (const std::uint32_t sample_count : options.sample_counts) {
+                    cells.push_back({sampler, estimator, sample_count, 0.0, {}});
+                }
+            }
+            for (const double target_error : options.target_errors) {
+                cells.push_back({sampler, estimator, default_most_samples, target_error, {}});
             }
         }
     }
@@ -78,7 +87,7 @@ std::vector<BenchCell> make_cells(const BenchOptions &options) {
 std::uint64_t total_sample_count(const BenchReport &report) {
     std::uint64_t total = 0;
     for (const BenchCell &cell : report.cells) {
-        total += std::uint64_t{cell.sample_count} * report.requested_round_count;
+        total += std::uint64_t{expected_sample_count(cell)} * report.requested_round_count;
     }
     return total + report.reference.sample_count;
 }

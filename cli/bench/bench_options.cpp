@@ -31,10 +31,11 @@ CLI::Option *add_methods(CLI::App &command, const std::string &name, std::vector
             }
         });
     };
-    return command.add_option_function<std::string>(name, read, "Of " + methods.list() + help)->type_name("A,B,...");
+    return command.add_option_function<std::string>(name, read, help)
+        ->type_name(alternatives(methods.names()) + ",...");
 }
 
-void add_sample_counts(CLI::App &command, std::vector<std::uint32_t> &target) {
+CLI::Option *add_sample_counts(CLI::App &command, std::vector<std::uint32_t> &target) {
     const auto read = [&target](const std::string &text) {
         target.clear();
         for_each_part(text, [&](const std::string &part) {
@@ -43,8 +44,23 @@ void add_sample_counts(CLI::App &command, std::vector<std::uint32_t> &target) {
         std::sort(target.begin(), target.end());
         target.erase(std::unique(target.begin(), target.end()), target.end());
     };
-    command.add_option_function<std::string>("--spp", read, "Samples per pixel (default: 16,64,256,1024)")
-        ->type_name("A,B,...");
+    return command.add_option_function<std::string>("--spp", read, "Samples per pixel (default: 16,64,256,1024)")
+        ->type_name("N,...");
+}
+
+CLI::Option *add_target_errors(CLI::App &command, std::vector<double> &target) {
+    const auto read = [&target](const std::string &text) {
+        target.clear();
+        for_each_part(text, [&](const std::string &part) { target.push_back(read_target_error("--errors", part)); });
+        std::sort(target.begin(), target.end(), std::greater());
+        target.erase(std::unique(target.begin(), target.end()), target.end());
+    };
+    return command
+        .add_option_function<std::string>(
+            "--errors", read,
+            "In place of --spp: until the stated error is at or below these, like 4%,1%, with samples where they "
+            "lessen it most")
+        ->type_name("E,...");
 }
 
 } // namespace
@@ -67,31 +83,34 @@ BenchOptions::BenchOptions() : estimators{PT_ESTIMATOR_BEST} {
 }
 
 void add_bench_options(CLI::App &command, BenchOptions &options) {
-    command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
+    command.add_option("SCENE", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
     add_size(command, options.size);
     add_max_path_length(command, options.max_path_length);
-    add_methods(command, "--samplers", options.samplers, "sampler", samplers, " (default: all but best)");
-    add_methods(command, "--estimators", options.estimators, "estimator", estimators, " (default: best)");
-    add_sample_counts(command, options.sample_counts);
+    add_methods(command, "--samplers", options.samplers, "sampler", samplers,
+                "Samplers to compare (default: all but best)");
+    add_methods(command, "--estimators", options.estimators, "estimator", estimators,
+                "Estimators to compare (default: best)");
+    CLI::Option *sample_counts = add_sample_counts(command, options.sample_counts);
+    add_target_errors(command, options.target_errors)->excludes(sample_counts);
     add_whole_number<std::uint32_t>(command, "--rounds", options.round_count, 1, "Repetitions (default: 3)");
     add_seed(command, options.seed);
     add_device(command, options.device);
     CLI::Option *reference = command.add_option("--reference", options.reference,
                                                 "Image (.exr) of the same size to compare with (default: rendered "
                                                 "first)");
-    reference->type_name("FILE");
+    reference->type_name("EXR");
     add_whole_number<std::uint32_t>(command, "--reference-spp", options.reference_sample_count, 2,
                                     "Samples per pixel of the reference that is rendered (default: 64 times the "
                                     "largest of --spp)")
         ->excludes(reference);
     command.add_option("--csv", options.csv, "Write the table as CSV; - is standard output, as with --json")
-        ->type_name("FILE");
+        ->type_name("CSV");
     command
         .add_option("--json", options.json,
                     "Write the table and all conditions as JSON; - is standard output, the table then goes to stderr")
-        ->type_name("FILE");
+        ->type_name("JSON");
     add_reporting(command, options.progress, options.quiet);
 }
 

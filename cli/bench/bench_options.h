@@ -25,6 +25,7 @@ struct BenchOptions {
     std::vector<std::uint32_t> samplers;
     std::vector<std::uint32_t> estimators;
     std::vector<std::uint32_t> sample_counts{16, 64, 256, 1024};
+    std::vector<double> target_errors; // falling; if there are any, in place of sample counts
     std::uint32_t round_count = 3;
 
     std::string reference; // path; empty: rendered first

@@ -40,7 +40,8 @@ BenchRow sum_up(const BenchCell &cell, const std::optional<ImageError> &noise) {
     BenchRow row{};
     row.sampler = samplers.name(cell.sampler);
     row.estimator = estimators.name(cell.estimator);
-    row.sample_count = cell.sample_count;
+    row.target_error = cell.target_error > 0.0 ? std::optional(cell.target_error) : std::nullopt;
+    row.sample_count = median(collect(cell.runs, &BenchRun::mean_sample_count));
     row.round_count = cell.runs.size();
     row.seconds = median(collect(cell.runs, &BenchRun::seconds));
     row.processor_seconds = median(collect(cell.runs, &BenchRun::processor_seconds));
@@ -61,7 +62,7 @@ std::string optional_text(const char *format, const std::optional<double> &value
 
 std::string table_line(const BenchRow &row) {
     std::array<char, 192> text{};
-    std::snprintf(text.data(), text.size(), "%-10s %-10s %8u %10.4f %10.4f %11.3e %11.3e%s %10s %7s\n",
+    std::snprintf(text.data(), text.size(), "%-10s %-10s %8.6g %10.4f %10.4f %11.3e %11.3e%s %10s %7s\n",
                   std::string(row.sampler).c_str(), std::string(row.estimator).c_str(), row.sample_count, row.seconds,
                   row.processor_seconds, row.error.mse, row.error.relative_mse, row.near_reference_noise ? "*" : " ",
                   optional_text("%.3g", row.efficiency).c_str(), optional_text("%.2f", row.slope).c_str());
@@ -93,10 +94,17 @@ nlohmann::ordered_json optional_json(const std::optional<double> &value) {
     return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
+// Whole without a target error.
+nlohmann::ordered_json spp_json(const BenchRow &row) {
+    return row.target_error ? nlohmann::ordered_json(row.sample_count)
+                            : nlohmann::ordered_json(static_cast<std::uint32_t>(row.sample_count));
+}
+
 nlohmann::ordered_json row_json(const BenchRow &row) {
     return {{"sampler", row.sampler},
             {"estimator", row.estimator},
-            {"spp", row.sample_count},
+            {"target_error", optional_json(row.target_error)},
+            {"spp", spp_json(row)},
             {"rounds", row.round_count},
             {"seconds", row.seconds},
             {"processor_seconds", row.processor_seconds},
@@ -144,13 +152,13 @@ std::string bench_table(const BenchReport &report) {
 std::string bench_csv(const BenchReport &report) {
     std::ostringstream text;
     text.precision(9);
-    text << "sampler,estimator,spp,rounds,seconds,processor_seconds,mse,rel_mse,efficiency,slope,"
+    text << "sampler,estimator,target_error,spp,rounds,seconds,processor_seconds,mse,rel_mse,efficiency,slope,"
             "near_reference_noise\n";
     for (const BenchRow &row : bench_rows(report)) {
-        text << row.sampler << ',' << row.estimator << ',' << row.sample_count << ',' << row.round_count << ','
-             << row.seconds << ',' << row.processor_seconds << ',' << row.error.mse << ',' << row.error.relative_mse
-             << ',' << optional_text("%.9g", row.efficiency) << ',' << optional_text("%.9g", row.slope) << ','
-             << (row.near_reference_noise ? "1" : "0") << '\n';
+        text << row.sampler << ',' << row.estimator << ',' << optional_text("%.9g", row.target_error) << ','
+             << row.sample_count << ',' << row.round_count << ',' << row.seconds << ',' << row.processor_seconds << ','
+             << row.error.mse << ',' << row.error.relative_mse << ',' << optional_text("%.9g", row.efficiency) << ','
+             << optional_text("%.9g", row.slope) << ',' << (row.near_reference_noise ? "1" : "0") << '\n';
     }
     return text.str();
 }

@@ -17,6 +17,7 @@
 namespace cli {
 
 struct BenchRun {
+    double mean_sample_count; // of a pixel
     double seconds;           // wall clock
     double processor_seconds; // of all threads of this process
     ImageError error;
@@ -25,7 +26,8 @@ struct BenchRun {
 struct BenchCell {
     std::uint32_t sampler;
     std::uint32_t estimator;
-    std::uint32_t sample_count;
+    std::uint32_t sample_count; // of a pixel, or with a target error at most
+    double target_error;        // 0: none
     std::vector<BenchRun> runs; // one for each round that was finished
 };
 
@@ -42,14 +44,15 @@ struct BenchReport {
     pt_device_info device;
     std::uint32_t requested_round_count;
     BenchReference reference;
-    std::vector<BenchCell> cells; // cells of one sampler and estimator stand together, by ascending sample count
+    std::vector<BenchCell> cells; // those of one sampler and estimator together, by ascending cost
 };
 
 // A cell that was finished at least once, summed up.
 struct BenchRow {
     std::string_view sampler;
     std::string_view estimator;
-    std::uint32_t sample_count;
+    std::optional<double> target_error;
+    double sample_count; // of a pixel: the mean, and of the rounds the median
     std::size_t round_count;
     double seconds;
     double processor_seconds;

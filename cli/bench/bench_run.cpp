@@ -3,6 +3,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/scene/scene_setup.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -38,6 +39,14 @@ struct Share {
 
 } // namespace
 
+std::uint32_t expected_sample_count(const BenchCell &cell) {
+    if (cell.target_error == 0.0) {
+        return cell.sample_count;
+    }
+    const double count = std::clamp(0.16 / (cell.target_error * cell.target_error), 1.0, 1.0 * cell.sample_count);
+    return static_cast<std::uint32_t>(count);
+}
+
 BenchRunner::BenchRunner(const Context &context, const SceneFile &file, const RenderSettings &settings,
                          Progress &progress, std::uint64_t total_sample_count) :
     context_(context),
@@ -54,26 +63,32 @@ void BenchRunner::set_render(const BenchCell &cell, std::uint64_t seed) {
     context_.require(pt_set_render(context_.get(), &render));
 }
 
-// Builds the kernel that is fastest for the scene, so that the measurement does not include that, and takes one sample.
-bool BenchRunner::warm_up() {
+// Builds the kernels that are fastest for the scene, so that the measurement does not include that, and takes one
+// sample, or with a target error the fewest of which an error is known.
+bool BenchRunner::warm_up(const BenchCell &cell) {
     require_render(context_, file_, settings_, pt_prepare(context_.get()));
     pt_accumulate_info info{};
     info.struct_size = sizeof(pt_accumulate_info);
-    info.sample_count = 1;
+    info.sample_count = cell.target_error > 0.0 ? pt_next_check(0) : 1;
+    info.target_error = cell.target_error;
     info.progress = &Share::receive_silently;
     take(info);
     return interrupt_signal() == 0;
 }
 
-bool BenchRunner::accumulate(std::uint32_t sample_count) {
-    Share share{progress_, done_sample_count_ / total_sample_count_, sample_count / total_sample_count_};
+bool BenchRunner::accumulate(const BenchCell &cell) {
+    const std::uint32_t expected = expected_sample_count(cell);
+    // With a target error the library's share is that of the samples at most, which says nothing.
+    Share share{progress_, done_sample_count_ / total_sample_count_,
+                cell.target_error > 0.0 ? 0.0 : expected / total_sample_count_};
     pt_accumulate_info info{};
     info.struct_size = sizeof(pt_accumulate_info);
-    info.sample_count = sample_count;
+    info.sample_count = cell.sample_count;
+    info.target_error = cell.target_error;
     info.progress = &Share::receive;
     info.progress_user = &share;
     const pt_result result = take(info);
-    done_sample_count_ += sample_count;
+    done_sample_count_ += expected;
     return result != PT_CANCELLED;
 }
 
@@ -85,12 +100,14 @@ pt_result BenchRunner::take(const pt_accumulate_info &info) const {
 
 std::optional<std::vector<float>> BenchRunner::render_reference(std::uint32_t sample_count, ImageError &noise) {
     const std::uint32_t half = sample_count / 2;
-    set_render({PT_SAMPLER_BEST, PT_ESTIMATOR_BEST, sample_count, {}}, settings_.render.seed);
-    if (!accumulate(half)) {
+    BenchCell cell{PT_SAMPLER_BEST, PT_ESTIMATOR_BEST, half, 0.0, {}};
+    set_render(cell, settings_.render.seed);
+    if (!accumulate(cell)) {
         return std::nullopt;
     }
     const std::vector<float> first = context_.read_image(settings_.render);
-    if (!accumulate(sample_count - half)) {
+    cell.sample_count = sample_count - half;
+    if (!accumulate(cell)) {
         return std::nullopt;
     }
     std::vector<float> whole = context_.read_image(settings_.render);
@@ -101,17 +118,18 @@ std::optional<std::vector<float>> BenchRunner::render_reference(std::uint32_t sa
 std::optional<BenchRun> BenchRunner::measure(const BenchCell &cell, std::uint64_t seed,
                                              std::span<const float> reference) {
     set_render(cell, seed);
-    if (!warm_up()) {
+    if (!warm_up(cell)) {
         return std::nullopt;
     }
     set_render(cell, seed); // discards the sample
     const Stopwatch stopwatch;
-    if (!accumulate(cell.sample_count)) {
+    if (!accumulate(cell)) {
         return std::nullopt;
     }
     BenchRun run{};
     run.seconds = stopwatch.seconds();
     run.processor_seconds = stopwatch.processor_seconds();
+    run.mean_sample_count = cell.target_error > 0.0 ? context_.read_stats().mean_sample_count : cell.sample_count;
     run.error = image_error(context_.read_image(settings_.render), reference);
     return run;
 }

@@ -14,6 +14,9 @@
 
 namespace cli {
 
+// For the progress. With a target error it is a guess: an error of 40% with one sample, which falls with their root.
+std::uint32_t expected_sample_count(const BenchCell &cell);
+
 // On a context that has its scene and camera. Every function returns nothing once a signal has come.
 class BenchRunner {
 public:
@@ -29,8 +32,8 @@ public:
 
 private:
     void set_render(const BenchCell &cell, std::uint64_t seed);
-    bool warm_up();
-    bool accumulate(std::uint32_t sample_count);
+    bool warm_up(const BenchCell &cell);
+    bool accumulate(const BenchCell &cell);
     pt_result take(const pt_accumulate_info &info) const;
 
     const Context &context_;

@@ -24,18 +24,18 @@ const char *const compare_help =
     "the colour map viridis; pixels that are not finite are white.\n";
 
 void add_compare_options(CLI::App &command, CompareOptions &options) {
-    command.add_option("image", options.image, "Image (.exr, .png, .jpg)")->required()->type_name("IMAGE");
-    command.add_option("reference", options.reference, "What it is compared with, of the same size and kind")
+    command.add_option("IMAGE", options.image, "Image (.exr, .png, .jpg)")->required()->type_name("IMAGE");
+    command.add_option("REFERENCE", options.reference, "What it is compared with, of the same size and kind")
         ->required()
         ->type_name("REFERENCE");
     command.add_option("--layer", options.layer, "Compare this layer of both files (default: the channels R, G and B)")
         ->type_name("NAME");
     command.add_option("--difference", options.difference, "Write a picture of where they differ (.png)")
-        ->type_name("FILE");
+        ->type_name("PNG");
     add_limit(command, "--max-mse", options.mse, "mse");
     add_limit(command, "--max-relative-mse", options.relative_mse, "relative_mse");
     add_limit(command, "--max-difference", options.maximum, "maximum");
-    command.add_option("--json", options.json, "Write the figures as JSON; - is standard output")->type_name("FILE");
+    command.add_option("--json", options.json, "Write the figures as JSON; - is standard output")->type_name("JSON");
     command.add_flag("-q,--quiet", options.quiet, "Print errors only");
 }
 

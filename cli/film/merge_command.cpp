@@ -70,7 +70,7 @@ bool write_outputs(const FilmHandle &film, const RenderOptions &options, MergeRe
     report.picture.tone_map = tone_map_of(options, radiance);
     report.picture.automatic_exposure = report.picture.tone_map && !options.display.exposure.value_or(Exposure{}).stops;
     ImageWriter writer;
-    const std::size_t written = write_images(writer, options, report.picture, radiance, standard_error).size();
+    const std::size_t written = write_images(writer, options, report.picture, {radiance, standard_error, {}}).size();
     const bool has_film = options.film.empty() || write_film([&] { return film.bytes(); }, options.film);
     write_report_file(options.stats, json_text(stats_json(report)));
     return has_film && written == output_count(options);

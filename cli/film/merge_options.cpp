@@ -6,7 +6,8 @@ namespace cli {
 namespace {
 
 void add_file_options(CLI::App &command, MergeOptions &options) {
-    command.add_option("parts", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
+    const std::string group = "Output";
+    command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
     command
@@ -15,17 +16,22 @@ void add_file_options(CLI::App &command, MergeOptions &options) {
                     "- is standard output")
         ->expected(1)
         ->take_all()
-        ->type_name("FILE");
-    add_format(command, options.output.format);
+        ->type_name("IMAGE")
+        ->group(group);
+    add_format(command, options.output.format, image_format_names)->group(group);
     command
         .add_option("--standard-error", options.output.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
-        ->type_name("FILE");
-    command.add_option("--film", options.output.film, "Write the sum of the films (.ptfilm)")->type_name("FILE");
+        ->type_name("EXR")
+        ->group(group);
+    command.add_option("--film", options.output.film, "Write the sum of the films (.ptfilm)")
+        ->type_name("FILM")
+        ->group(group);
     command
         .add_option("--stats", options.output.stats,
                     "Write what the films have as JSON; - is standard output, the summary then goes to stderr")
-        ->type_name("FILE");
+        ->type_name("JSON")
+        ->group(group);
 }
 
 } // namespace
@@ -39,12 +45,14 @@ const char *const merge_help =
 void add_merge_options(CLI::App &command, MergeOptions &options) {
     add_file_options(command, options);
     add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
-                                    "First of the samples that there should be (default: the first there is)");
+                                    "First of the samples that there should be (default: the first there is)")
+        ->group("Samples");
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
                                     "How many there should be from there on; those missing are told, with exit code 7 "
-                                    "(default: up to the last there is)");
+                                    "(default: up to the last there is)")
+        ->group("Samples");
     add_display_options(command, options.output.display, "");
-    command.add_flag("-q,--quiet", options.output.quiet, "Print errors only")->group("Reporting");
+    command.add_flag("-q,--quiet", options.output.quiet, "Print errors only")->group("Messages");
 }
 
 } // namespace cli

@@ -14,11 +14,11 @@ void add_display_options(CLI::App &command, DisplayOptions &options, const std::
     };
     command
         .add_option_function<std::string>("--exposure", read_exposure,
-                                          "Brighten by EV stops, or auto, see below (default: " + otherwise + "auto)")
-        ->type_name("EV")
+                                          "Brighten by EV stops; auto: see below (default: " + otherwise + "auto)")
+        ->type_name("EV|auto")
         ->group(group);
     add_name(command, "--tonemap", options.tone_curve, &find_tone_curve, "tone map", tone_curve_names,
-             "none (clamp), reinhard, aces, agx, neutral (default: " + otherwise + "none)")
+             "Tone curve; none cuts off at white (default: " + otherwise + "none)")
         ->group(group);
     add_real_number(command, "--gamma", options.gamma, least_gamma, largest_gamma,
                     "Encode with the power 1/G in place of the sRGB curve (default: " + otherwise + "the sRGB curve)")
@@ -30,15 +30,15 @@ void add_display_options(CLI::App &command, DisplayOptions &options, const std::
         }
         options.png_bits = text == "8" ? 8 : 16;
     };
-    command
-        .add_option_function<std::string>("--png-bits", read_bits, "Bits of a channel in .png, 8 or 16 (default: 8)")
-        ->type_name("N")
+    command.add_option_function<std::string>("--png-bits", read_bits, "Bits of a channel in .png (default: 8)")
+        ->type_name("8|16")
         ->group(group);
 }
 
-void add_format(CLI::App &command, std::optional<ImageFormat> &format) {
-    add_name(command, "--format", format, &find_image_format, "format", image_format_names,
-             "exr, png or jpg: of the image that goes to standard output");
+CLI::Option *add_format(CLI::App &command, std::optional<ImageFormat> &format,
+                        std::span<const std::string_view> names) {
+    return add_name(command, "--format", format, &find_image_format, "format", names,
+                    "Format of the image that goes to standard output");
 }
 
 } // namespace cli

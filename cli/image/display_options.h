@@ -7,11 +7,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace CLI {
 class App;
-}
+class Option;
+} // namespace CLI
 
 namespace cli {
 
@@ -27,7 +30,7 @@ struct DisplayOptions {
 // The options write into `options` when the command line is parsed.
 void add_display_options(CLI::App &command, DisplayOptions &options, const std::string &otherwise);
 
-// The option --format, of an image that goes to standard output.
-void add_format(CLI::App &command, std::optional<ImageFormat> &format);
+// The option --format, of an image that goes to standard output. names: of the formats that the command can write.
+CLI::Option *add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
 
 } // namespace cli

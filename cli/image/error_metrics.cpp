@@ -35,12 +35,11 @@ ImageError noise_of_halves(std::span<const float> first, std::uint32_t first_cou
     return {error.mse * factor, error.relative_mse * factor};
 }
 
-std::optional<double> convergence_slope(double error_before, std::uint32_t count_before, double error,
-                                        std::uint32_t count) {
-    if (!(error_before > 0.0 && error > 0.0)) {
+std::optional<double> convergence_slope(double error_before, double count_before, double error, double count) {
+    if (!(error_before > 0.0 && error > 0.0) || count == count_before) {
         return std::nullopt;
     }
-    return std::log(error / error_before) / std::log(static_cast<double>(count) / count_before);
+    return std::log(error / error_before) / std::log(count / count_before);
 }
 
 std::optional<double> efficiency(double relative_mse, double seconds) {

@@ -22,8 +22,7 @@ ImageError noise_of_halves(std::span<const float> first, std::uint32_t first_cou
                            std::uint32_t count);
 
 // Exponent p of error ~ N^p between two sample counts; nothing where an error is 0.
-std::optional<double> convergence_slope(double error_before, std::uint32_t count_before, double error,
-                                        std::uint32_t count);
+std::optional<double> convergence_slope(double error_before, double count_before, double error, double count);
 
 // 1 / (error * seconds): twice as efficient reaches the same error in half the time, if the error falls with 1 / N.
 std::optional<double> efficiency(double relative_mse, double seconds);

@@ -93,6 +93,7 @@ void ImageWriter::write_signal(const ImageTarget &target, const ImageWindow &win
                                std::optional<double> gamma) {
     pt_image_data image{};
     image.bytes = bytes.data();
+    image.has_alpha = bytes.size() == 4 * window.part.pixel_count() ? 1 : 0;
     image.gamma = gamma.value_or(0.0);
     write(target, window, image, attributes);
 }
@@ -102,6 +103,7 @@ void ImageWriter::write_signal(const ImageTarget &target, const ImageWindow &win
                                std::optional<double> gamma) {
     pt_image_data image{};
     image.words = words.data();
+    image.has_alpha = words.size() == 4 * window.part.pixel_count() ? 1 : 0;
     image.gamma = gamma.value_or(0.0);
     write(target, window, image, attributes);
 }

@@ -25,6 +25,7 @@ std::optional<ImageFormat> image_format(const std::string &path);
 // "exr", "png" or "jpg", as in an extension.
 std::optional<ImageFormat> find_image_format(std::string_view name);
 inline constexpr std::array<std::string_view, 4> image_format_names{"exr", "png", "jpg", "jpeg"};
+inline constexpr std::array<std::string_view, 3> picture_format_names{"png", "jpg", "jpeg"}; // that are tone-mapped
 
 // The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
 // ends the whole process if it is asked for more.
@@ -54,7 +55,8 @@ public:
     // All throw Failure(ExitCode::file) and leave an existing file as it was. Values are those of the window's part.
     void write_radiance(const ImageTarget &target, const ImageWindow &window, std::span<const pt_image_layer> layers,
                         std::span<const pt_image_attribute> attributes);
-    // Three components to a pixel, of 8 bits, or of 16 for PNG. gamma: of their encoding; nothing: it is that of sRGB.
+    // Three components to a pixel, for PNG also four with alpha, of 8 bits, or of 16 for PNG. gamma: of their encoding;
+    // nothing: it is that of sRGB.
     void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint8_t> bytes,
                       std::span<const pt_image_attribute> attributes, std::optional<double> gamma = std::nullopt);
     void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint16_t> words,

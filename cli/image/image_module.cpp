@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <exception>
@@ -37,7 +38,7 @@ std::string description(std::span<const pt_image_attribute> attributes) {
     return text;
 }
 
-// "R", "G" and "B" of the main layer, "layer.R" of others, and the name alone of a layer of one channel.
+// "R", "G" and "B" of the main layer, "layer.R" or "layer.X" of others, and the name alone of a layer of one channel.
 std::vector<std::string> channel_names(std::span<const pt_image_layer> layers) {
     std::vector<std::string> names;
     for (const pt_image_layer &layer : layers) {
@@ -46,11 +47,22 @@ std::vector<std::string> channel_names(std::span<const pt_image_layer> layers) {
             names.push_back(name);
             continue;
         }
-        for (const char *channel : {"R", "G", "B"}) {
-            names.push_back(name.empty() ? channel : name + "." + channel);
+        for (const char channel : std::string_view(layer.kind == PT_LAYER_VECTOR ? "XYZ" : "RGB")) {
+            names.push_back((name.empty() ? "" : name + ".") + channel);
         }
     }
     return names;
+}
+
+// Of each channel; none where all are of floats.
+std::vector<OIIO::TypeDesc> channel_types(std::span<const pt_image_layer> layers) {
+    std::vector<OIIO::TypeDesc> types;
+    for (const pt_image_layer &layer : layers) {
+        const bool is_whole = layer.kind == PT_LAYER_NUMBERS;
+        types.insert(types.end(), layer.channel_count, is_whole ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::FLOAT);
+    }
+    const bool has_numbers = std::find(types.begin(), types.end(), OIIO::TypeDesc::UINT32) != types.end();
+    return has_numbers ? types : std::vector<OIIO::TypeDesc>();
 }
 
 // The primaries and the white point of Rec. 709 (ITU-R BT.709-6, table 1), those of the radiance.
@@ -63,6 +75,9 @@ OIIO::ImageSpec describe_radiance(const pt_image_data &image) {
     OIIO::ImageSpec spec(static_cast<int>(image.width), static_cast<int>(image.height), 1, OIIO::TypeDesc::FLOAT);
     spec.channelnames = channel_names({image.layers, image.layer_count});
     spec.nchannels = static_cast<int>(spec.channelnames.size());
+    spec.channelformats = channel_types({image.layers, image.layer_count});
+    const auto alpha = std::find(spec.channelnames.begin(), spec.channelnames.end(), "A");
+    spec.alpha_channel = alpha == spec.channelnames.end() ? -1 : static_cast<int>(alpha - spec.channelnames.begin());
     spec.x = static_cast<int>(image.x);
     spec.y = static_cast<int>(image.y);
     spec.full_width = static_cast<int>(image.full_width);
@@ -90,24 +105,31 @@ void add_attributes(OIIO::ImageSpec &spec, std::span<const pt_image_attribute> a
     }
 }
 
-// One row of the file, in which the channels of all layers stand side by side.
-void interleave_row(const pt_image_data &image, std::uint32_t y, std::span<float> row) {
+// One row of the file, in which the channels of all layers stand side by side: floats and whole numbers by their bits.
+void interleave_row(const pt_image_data &image, std::uint32_t y, std::span<std::uint32_t> row) {
     const std::size_t stride = row.size() / image.width;
     std::size_t offset = 0;
     for (const pt_image_layer &layer : std::span(image.layers, image.layer_count)) {
-        const float *value = layer.values + std::size_t{y} * image.width * layer.channel_count;
-        for (std::size_t x = 0; x < image.width; ++x, value += layer.channel_count) {
-            std::copy_n(value, layer.channel_count, row.begin() + static_cast<std::ptrdiff_t>(x * stride + offset));
+        const std::size_t first = std::size_t{y} * image.width * layer.channel_count;
+        for (std::size_t x = 0; x < image.width; ++x) {
+            for (std::size_t channel = 0; channel < layer.channel_count; ++channel) {
+                const std::size_t index = first + x * layer.channel_count + channel;
+                row[x * stride + offset + channel] = layer.kind == PT_LAYER_NUMBERS
+                                                         ? layer.numbers[index]
+                                                         : std::bit_cast<std::uint32_t>(layer.values[index]);
+            }
         }
         offset += layer.channel_count;
     }
 }
 
 bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const pt_image_data &image) {
-    std::vector<float> row(std::size_t{image.width} * static_cast<std::size_t>(spec.nchannels));
+    std::vector<std::uint32_t> row(std::size_t{image.width} * static_cast<std::size_t>(spec.nchannels));
+    const OIIO::TypeDesc type =
+        spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // its own
     for (std::uint32_t y = 0; y < image.height; ++y) {
         interleave_row(image, y, row);
-        if (!output.write_scanline(spec.y + static_cast<int>(y), 0, OIIO::TypeDesc::FLOAT, row.data())) {
+        if (!output.write_scanline(spec.y + static_cast<int>(y), 0, type, row.data())) {
             return false;
         }
     }

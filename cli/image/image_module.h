@@ -16,12 +16,20 @@ struct pt_image_attribute {
     int32_t reserved;
 };
 
+// What the channels of a layer are.
+enum : uint32_t {
+    PT_LAYER_COLOUR = 0,  // R, G and B; or one number, for which the layer is the channel
+    PT_LAYER_VECTOR = 1,  // X, Y and Z
+    PT_LAYER_NUMBERS = 2, // one whole number
+};
+
 // Channels of an image whose values stand together.
 struct pt_image_layer {
-    const char *name;       // empty for the main one
-    uint32_t channel_count; // 3: R, G and B; 1: the layer is the channel
-    uint32_t reserved;
-    const float *values; // pixel by pixel, row by row from the top
+    const char *name;                  // empty for the main one
+    uint32_t channel_count;            // 3 or 1
+    uint32_t kind;                     // PT_LAYER_*
+    const float *values;               // pixel by pixel, row by row from the top
+    const uint32_t *numbers = nullptr; // in place of values, of PT_LAYER_NUMBERS
 };
 
 struct pt_image_data {
@@ -36,6 +44,7 @@ struct pt_image_data {
     size_t layer_count;
     const uint8_t *bytes;  // R, G, B triples for the others, else NULL
     const uint16_t *words; // for PNG in place of bytes: 16 bits to a channel
+    uint32_t has_alpha;    // 1: for PNG, R, G, B, A in place of triples, colours not multiplied by A
     double gamma;          // light is the byte / 255 to this power; 0: by the sRGB curve. For PNG
     const pt_image_attribute *attributes;
     size_t attribute_count;

@@ -66,6 +66,7 @@ std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::str
     const std::string prefix = layer.empty() ? "" : layer + ".";
     for (std::size_t i = 0; i < 3; ++i) {
         auto found = find_channel(image, prefix + "RGB"[i]);
+        found = found || layer.empty() ? found : find_channel(image, prefix + "XYZ"[i]);
         found = found || layer.empty() ? found : find_channel(image, layer);
         if (!found) {
             throw Failure(ExitCode::file,

@@ -85,7 +85,8 @@ void set_colour_space(const Encoding &encoding, double gamma) {
 
 std::vector<png_bytep> rows_of(const pt_image_data &image) {
     const auto *first = image.words != nullptr ? reinterpret_cast<const std::uint8_t *>(image.words) : image.bytes;
-    const std::size_t pixel_bytes = image.words != nullptr ? 6 : 3;
+    const std::size_t pixel_bytes =
+        (image.has_alpha != 0 ? 4 : 3) * (image.words != nullptr ? sizeof(std::uint16_t) : 1);
     std::vector<png_bytep> rows(image.height);
     for (std::size_t y = 0; y < rows.size(); ++y) {
         rows[y] = const_cast<png_bytep>(first + y * pixel_bytes * image.width); // only read
@@ -105,7 +106,8 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
         return false;
     }
     png_set_IHDR(encoding.png, encoding.info, image.width, image.height, image.words != nullptr ? 16 : 8,
-                 PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+                 image.has_alpha != 0 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_colour_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as large
     // as the best of all filters and zlib's default do, in a third of the time or less.

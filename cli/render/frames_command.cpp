@@ -54,9 +54,10 @@ bool is_done(const RenderOptions &frame) {
 
 class FramesRender {
 public:
-    FramesRender(const RenderOptions &options, ValidationLog &log) :
+    FramesRender(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) :
         options_(options),
         log_(log),
+        viewer_(viewer),
         text_(read_scene_text(options.scene)),
         scene_(parse_scene(text_.text, text_.path, options.overrides)) {
         if (scene_.animation.empty()) {
@@ -105,11 +106,13 @@ private:
             choose_vector_width(file.surface_count());
             context_ = std::make_unique<Context>(render_create_info(options_, log_));
         }
-        return render_picture(*context_, options, file, settings, times, [] { return interrupt_signal() != 0; });
+        return render_picture(
+            *context_, options, file, settings, times, [] { return interrupt_signal() != 0; }, viewer_);
     }
 
     const RenderOptions &options_;
     ValidationLog &log_;
+    TevViewer *viewer_;
     SceneText text_; // read once, so that all frames are of one scene
     SceneFile scene_;
     std::unique_ptr<Context> context_; // for all frames: kernels are kept
@@ -118,8 +121,8 @@ private:
 
 } // namespace
 
-int render_frames(const RenderOptions &options, ValidationLog &log) {
-    return FramesRender(options, log).run();
+int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
+    return FramesRender(options, log, viewer).run();
 }
 
 } // namespace cli

@@ -16,7 +16,7 @@ enum class Outcome {
 struct Ending {
     bool has_target;
     bool target_reached;
-    bool timed_out; // before all samples were taken or the target was reached
+    bool timed_out; // before it ended by itself, though the target may be reached as it happens
     bool has_checkpoint;
     bool all_written;
 };

@@ -71,6 +71,9 @@ bool add_piece(const Context &context, std::uint32_t rows, PiecewiseImage &image
     if (!image.standard_error.empty()) {
         read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
     }
+    for (PictureLayer &layer : image.layers) {
+        layer.read(context, image.part, image.rows_done, rows);
+    }
     image.rows_done += rows;
     return true;
 }
@@ -100,13 +103,16 @@ PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before
 }
 
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
+                             std::uint32_t rows, const WantedImages &wanted, const Stop &stop, Progress &progress,
                              std::span<PieceObserver *const> others) {
     const Rectangle &part = settings.window.part;
     PiecewiseImage image{};
     image.part = part;
     image.radiance.resize(3 * part.pixel_count());
-    image.standard_error.resize(with_standard_error ? image.radiance.size() : 0);
+    image.standard_error.resize(wanted.standard_error ? image.radiance.size() : 0);
+    for (const std::uint32_t layer : wanted.layers) {
+        image.layers.emplace_back(layer, part.pixel_count());
+    }
     while (image.rows_done < part.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
         const pt_render piece = piece_of(settings, first_row, rows);

@@ -4,6 +4,7 @@
 
 #include "cli/base/context.h"
 #include "cli/base/progress.h"
+#include "cli/render/picture_layer.h"
 #include "cli/render/stop_observer.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
@@ -14,10 +15,17 @@
 
 namespace cli {
 
+// What is read beside the radiance.
+struct WantedImages {
+    bool standard_error;
+    std::span<const std::uint32_t> layers; // PT_QUANTITY_*
+};
+
 struct PiecewiseImage {
     Rectangle part;                    // of the picture: the settings' window
     std::vector<float> radiance;       // of this part; black below rows_done
     std::vector<float> standard_error; // empty if it was not asked for
+    std::vector<PictureLayer> layers;  // likewise
     std::uint32_t rows_done;           // of it, with samples
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
 };
@@ -42,7 +50,7 @@ PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before
 // Ends early, between or within pieces, once it is to stop. The samples that the context has are the first ones of the
 // first piece.
 PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, bool with_standard_error, const Stop &stop, Progress &progress,
+                             std::uint32_t rows, const WantedImages &wanted, const Stop &stop, Progress &progress,
                              std::span<PieceObserver *const> others);
 
 } // namespace cli

@@ -45,7 +45,7 @@ public:
             next_look_ = state.time + std::chrono::duration_cast<Progress::Clock::duration>(wait);
             progress_.show_error(state.stats->relative_rmse);
         }
-        if (state.target_reached) {
+        if (state.has_ended && state.sample_count < most_) {
             progress_.expect(state.sample_count);
             progress_.update_samples(state.sample_count, state.time);
         } else if (has_target() && state.sample_count < most_) {

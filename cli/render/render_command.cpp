@@ -2,6 +2,7 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
+#include "cli/base/message.h"
 #include "cli/base/vector_width.h"
 #include "cli/render/frames_command.h"
 #include "cli/render/render_context.h"
@@ -12,11 +13,12 @@
 #include "cli/scene/scene_file.h"
 
 #include <chrono>
+#include <optional>
 
 namespace cli {
 namespace {
 
-int render_once(const RenderOptions &options, ValidationLog &log) {
+int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
     check_names(options);
@@ -29,7 +31,8 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
 
     times.create_start = std::chrono::steady_clock::now();
     const Context context(render_create_info(options, log));
-    const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
+    const Outcome outcome = render_picture(
+        context, options, file, settings, times, [] { return false; }, viewer);
     return exit_code_of(outcome, interrupt_signal());
 }
 
@@ -37,9 +40,18 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
 
 int run_render(const RenderOptions &options) {
     ValidationLog log;
-    const int code = options.watch    ? watch(options, log)
-                     : options.frames ? render_frames(options, log)
-                                      : render_once(options, log);
+    std::optional<TevViewer> viewer;
+    if (options.tev) {
+        viewer.emplace(*options.tev);
+    }
+    TevViewer *const shown_in = viewer ? &*viewer : nullptr;
+    const int code = options.watch    ? watch(options, log, shown_in)
+                     : options.frames ? render_frames(options, log, shown_in)
+                                      : render_once(options, log, shown_in);
+    if (viewer) {
+        viewer->finish();
+        print_message(viewer->take_complaint());
+    }
     // Only now, for the layer reports leaks when the context goes.
     return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }

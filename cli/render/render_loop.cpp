@@ -34,15 +34,16 @@ double seconds_between(Clock::time_point start, Clock::time_point end) {
 // What the library's progress callback needs.
 struct Step {
     Observers observers;
-    double before; // samples of a pixel, on the average
-    std::uint32_t length;
+    double before;        // samples of a pixel, on the average
+    std::uint32_t length; // 0: those that pixels lack of the most that one has
 
     static std::int32_t receive(void *user, double fraction) {
         const auto *step = static_cast<const Step *>(user);
+        const double taken = fraction * std::max(step->length, 1U);
         for (RenderObserver *observer : step->observers) {
-            observer->submitted(step->before + fraction * step->length, Clock::now());
+            observer->submitted(step->before + taken, Clock::now());
         }
-        const bool has_sample = fraction * step->length >= 1.0; // else there is nothing new to be seen
+        const bool has_sample = taken >= 1.0; // else there is nothing new to be seen
         return any_stops(step->observers) || (has_sample && any_pauses(step->observers)) ? 1 : 0;
     }
 };
@@ -62,21 +63,39 @@ pt_result take(const Context &context, const SceneFile &file, const RenderSettin
 
 // Samples that are done.
 struct Done {
-    double mean;        // of the pixels
-    std::uint32_t most; // of a pixel
+    double mean;         // of the pixels
+    std::uint32_t least; // of a pixel
+    std::uint32_t most;
 };
 
-Done tell(const Context &context, Observers observers, bool target_reached) {
+Done done_of(const pt_stats &stats) {
+    return {stats.mean_sample_count, stats.sample_count, stats.max_sample_count};
+}
+
+// Where pixels may have different numbers of samples, those that have fewest may still lack some.
+Done done_of(const Context &context, const RenderSettings &settings) {
+    if (settings.target_error > 0.0) {
+        return done_of(context.read_stats());
+    }
+    const std::uint32_t count = context.sample_count();
+    return {static_cast<double>(count), count, count};
+}
+
+// Whether all is done after a call that was not stopped.
+bool has_ended(pt_result result, const Done &done, const RenderSettings &settings) {
+    return result == PT_TARGET_REACHED || (result == PT_OK && done.most >= settings.sample_count);
+}
+
+Done tell(const Context &context, const RenderSettings &settings, Observers observers, pt_result result) {
     std::optional<pt_stats> stats;
     const Clock::time_point start = Clock::now();
     if (any_needs_error(observers)) {
         stats = context.read_stats();
     }
     const Clock::time_point now = Clock::now();
-    const std::uint32_t least = stats ? stats->sample_count : context.sample_count();
-    const Done done{stats ? stats->mean_sample_count : least, stats ? stats->max_sample_count : least};
+    const Done done = stats ? done_of(*stats) : done_of(context, settings);
     for (RenderObserver *observer : observers) {
-        observer->stepped({static_cast<std::uint32_t>(std::lround(done.mean)), now, target_reached,
+        observer->stepped({static_cast<std::uint32_t>(std::lround(done.mean)), now, has_ended(result, done, settings),
                            stats ? &*stats : nullptr, seconds_between(start, now)});
     }
     return done;
@@ -86,14 +105,11 @@ Done tell(const Context &context, Observers observers, bool target_reached) {
 
 void run_render_loop(const Context &context, const SceneFile &file, const RenderSettings &settings,
                      Observers observers) {
-    Done done{static_cast<double>(context.sample_count()), context.sample_count()};
-    if (settings.target_error > 0.0) {
-        const pt_stats stats = context.read_stats();
-        done = {stats.mean_sample_count, stats.max_sample_count};
-    }
+    Done done = done_of(context, settings);
     Step step{observers, done.mean, 0};
     std::uint32_t wanted = first_step_length;
-    while (done.most < settings.sample_count && !any_stops(observers)) {
+    bool ended = done.least >= settings.sample_count;
+    while (!ended && !any_stops(observers)) {
         step.length = std::min(wanted, settings.sample_count - done.most);
         for (const RenderObserver *observer : observers) {
             step.length = std::min(step.length, observer->next_end(done.most) - done.most);
@@ -102,14 +118,12 @@ void run_render_loop(const Context &context, const SceneFile &file, const Render
         const pt_result result = take(context, file, settings, step);
         const double seconds = seconds_between(start, Clock::now());
         const std::uint32_t before = done.most;
-        done = tell(context, observers, result == PT_TARGET_REACHED);
+        done = tell(context, settings, observers, result);
         step.before = done.mean;
         if (done.most > before) { // else it was ended within a sample, and says nothing
             wanted = next_step_length(done.most - before, seconds);
         }
-        if (result == PT_TARGET_REACHED) {
-            return;
-        }
+        ended = has_ended(result, done, settings);
     }
 }
 

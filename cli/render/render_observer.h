@@ -14,7 +14,7 @@ namespace cli {
 struct RenderState {
     std::uint32_t sample_count; // of a pixel on the average, rounded
     std::chrono::steady_clock::time_point time;
-    bool target_reached;
+    bool has_ended;        // with the target error, or with all samples
     const pt_stats *stats; // with the stated error; NULL if no observer needs it
     double stats_seconds;  // what reading them took
 };

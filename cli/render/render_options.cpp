@@ -2,6 +2,8 @@
 
 #include "cli/base/common_options.h"
 #include "cli/base/method_names.h"
+#include "cli/help/value_words.h"
+#include "cli/render/picture_layer.h"
 
 #include <algorithm>
 #include <iterator>
@@ -9,13 +11,11 @@
 namespace cli {
 namespace {
 
+constexpr double least_seconds = 0.01;
+constexpr double most_seconds = 1e9; // thirty years
+
 CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_error) {
-    const auto read = [&target_error](const std::string &text) {
-        target_error = parse_share(text);
-        if (!target_error || *target_error <= 0.0) {
-            refuse_option("--error", "must be a number above 0 like 0.005 or 0.5%", text);
-        }
-    };
+    const auto read = [&target_error](const std::string &text) { target_error = read_target_error("--error", text); };
     return command
         .add_option_function<std::string>(
             "--error", read,
@@ -25,26 +25,35 @@ CLI::Option *add_target_error(CLI::App &command, std::optional<double> &target_e
 }
 
 void add_output_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Output";
     command
         .add_option("-o,--output", options.outputs,
                     "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
                     "- is standard output")
         ->expected(1)
         ->take_all()
-        ->type_name("FILE");
-    add_format(command, options.format);
+        ->type_name("IMAGE")
+        ->group(group);
+    add_format(command, options.format, image_format_names)->group(group);
     command
         .add_option("--standard-error", options.standard_error,
                     "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
-        ->type_name("FILE");
+        ->type_name("EXR")
+        ->group(group);
+    const auto read_layers = [&options](const std::string &text) { options.layers = parse_layers(text); };
     command
-        .add_option("--film", options.film,
-                    "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then")
-        ->type_name("FILE");
+        .add_option_function<std::string>("--layers", read_layers, "Layers of .exr beside the mean, like depth,albedo")
+        ->type_name(alternatives(layer_names.names()) + ",...")
+        ->group(group);
+    command
+        .add_flag("--alpha", options.alpha,
+                  "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface")
+        ->group(group);
     command
         .add_option("--stats", options.stats,
                     "Write the facts of the rendering as JSON; - is standard output, the summary then goes to stderr")
-        ->type_name("FILE");
+        ->type_name("JSON")
+        ->group(group);
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
@@ -64,7 +73,7 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Sampling";
+    const std::string group = "Samples";
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1,
                                     "Samples per pixel; with --error or --time the most (default: the scene's, else "
                                     "64, with either 65536)")
@@ -72,38 +81,31 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
     add_target_error(command, options.target_error)->group(group);
     const auto find_sampling = [](std::string_view name) { return samplings.find(name); };
     add_name(command, "--sampling", options.sampling, find_sampling, "way to sample", samplings.names(),
-             samplings.list() +
-                 "; adaptive, which is best with --error, takes more samples where they lessen the error "
-                 "most (default: best)")
+             "Which pixels get more samples: adaptive, which is best with --error, those where they lessen the error "
+             "most; uniform none (default: best)")
         ->group(group);
     add_seed(command, options.seed)->group(group);
-    add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
-                                    "Index of the first sample, to continue a sequence (default: 0)")
-        ->group(group);
     add_max_path_length(command, options.max_path_length)->group(group);
     const auto find_sampler = [](std::string_view name) { return samplers.find(name); };
     add_name(command, "--sampler", options.sampler, find_sampler, "sampler", samplers.names(),
-             samplers.list() + "; they differ in noise alone (default: the scene's, else best)")
+             "Where the points of samples come from; they differ in noise alone (default: the scene's, else best)")
         ->group(group);
     const auto find_estimator = [](std::string_view name) { return estimators.find(name); };
     add_name(command, "--estimator", options.estimator, find_estimator, "estimator", estimators.names(),
-             estimators.list() + "; they differ in noise alone (default: the scene's, else best)")
+             "How light is looked for; they differ in noise alone (default: the scene's, else best)")
         ->group(group);
-}
-
-constexpr double least_seconds = 0.01;
-constexpr double most_seconds = 1e9; // thirty years
-
-void add_lasting_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Long renderings";
     add_real_number(command, "--time", options.time_limit, least_seconds, most_seconds,
                     "Stop after S seconds of taking samples, one sample at the least (default: take all samples)")
         ->type_name("S")
         ->group(group);
+}
+
+void add_lasting_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Checkpoints and parts";
     command
         .add_option("--checkpoint", options.checkpoint,
-                    "Keep the samples so far in FILE, a film (.ptfilm), from which --resume goes on")
-        ->type_name("FILE")
+                    "Keep the samples so far in FILM (.ptfilm), from which --resume goes on")
+        ->type_name("FILM")
         ->group(group);
     add_real_number(command, "--checkpoint-every", options.checkpoint_seconds, least_seconds, most_seconds,
                     "Write the checkpoint every S seconds, and at the end (default: 30)")
@@ -113,9 +115,13 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
         .add_flag("--resume", options.resume,
                   "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet")
         ->group(group);
-    add_real_number(command, "--preview-every", options.preview_seconds, least_seconds, most_seconds,
-                    "Write the picture so far every S seconds (default: only on SIGUSR1)")
-        ->type_name("S")
+    command
+        .add_option("--film", options.film,
+                    "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then")
+        ->type_name("FILM")
+        ->group(group);
+    add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
+                                    "Index of the first sample: parts have samples of one sequence (default: 0)")
         ->group(group);
 }
 
@@ -136,8 +142,26 @@ void add_device_options(CLI::App &command, RenderOptions &options) {
         ->group(group);
 }
 
-void add_editing_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Editing";
+void add_live_options(CLI::App &command, RenderOptions &options) {
+    const std::string group = "Live view and editing";
+    add_real_number(command, "--preview-every", options.preview_seconds, least_seconds, most_seconds,
+                    "Write the picture so far every S seconds (default: only on SIGUSR1)")
+        ->type_name("S")
+        ->group(group);
+    const auto read_address = [&options](const std::string &text) {
+        options.tev = text.empty() ? TevAddress{} : parse_tev_address(text);
+        if (!options.tev) {
+            refuse_option("--tev", "must be HOST:PORT like 127.0.0.1:14158, or stand last or before another option",
+                          text);
+        }
+    };
+    command
+        .add_option_function<std::string>("--tev", read_address,
+                                          "Show the picture so far, and at the end, in the image viewer tev that "
+                                          "listens there (default: 127.0.0.1:14158)")
+        ->expected(0, 1)
+        ->type_name("HOST:PORT")
+        ->group(group);
     command
         .add_flag("--watch", options.watch,
                   "Render again whenever the scene or a shader of --shader-dir changes, until Ctrl-C")
@@ -190,9 +214,10 @@ const char *const render_help =
     "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
-    command.add_option("scene", options.scene, "Scene file (JSON); - is standard input")
+    command.add_option("SCENE", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
+    add_output_options(command, options);
     const auto read_overrides = [&options](const std::vector<std::string> &texts) {
         options.overrides.clear();
         std::transform(texts.begin(), texts.end(), std::back_inserter(options.overrides), &parse_override);
@@ -203,14 +228,14 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
             "A value in place of the scene's, like camera.vertical_fov=30 or spheres[0].radius=2; may be given again")
         ->expected(1)
         ->take_all()
-        ->type_name("PATH=VALUE");
-    add_output_options(command, options);
+        ->type_name("PATH=VALUE")
+        ->group("Picture");
     add_picture_options(command, options);
     add_sampling_options(command, options);
     add_lasting_options(command, options);
     add_animation_options(command, options);
     add_device_options(command, options);
-    add_editing_options(command, options);
+    add_live_options(command, options);
     add_reporting(command, options.progress, options.quiet);
 }
 

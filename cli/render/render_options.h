@@ -6,6 +6,7 @@
 #include "cli/image/image_file.h"
 #include "cli/render/frame_range.h"
 #include "cli/scene/scene_override.h"
+#include "cli/tev/tev_address.h"
 
 #include <cstdint>
 #include <optional>
@@ -24,12 +25,15 @@ struct RenderOptions {
     std::vector<std::string> outputs;
     std::optional<ImageFormat> format; // of an output that is standard output
     std::string standard_error;        // path of the image of standard errors; empty: none
+    std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
+    bool alpha = false;
     std::string stats;
     std::string film;       // path of the film; empty: none
     std::string checkpoint; // likewise
     bool resume = false;
     std::optional<double> checkpoint_seconds;
     std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks
+    std::optional<TevAddress> tev;         // nothing: no viewer
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;

@@ -14,28 +14,52 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace cli {
 namespace {
 
 void write_image(ImageWriter &writer, const ImageTarget &target, const RenderOptions &options,
-                 const RenderReport &report, std::span<const float> values, std::uint32_t quantity) {
+                 const RenderReport &report, std::span<const float> values, std::uint32_t quantity,
+                 std::span<const PictureLayer> others) {
     if (target.format == ImageFormat::exr) {
         const ImageMetadata metadata(report, quantity, nullptr);
-        const pt_image_layer layer{"", 3, 0, values.data()};
-        writer.write_radiance(target, report.window, {&layer, 1}, metadata.attributes());
+        std::vector<pt_image_layer> layers{{"", 3, PT_LAYER_COLOUR, values.data()}};
+        std::transform(others.begin(), others.end(), std::back_inserter(layers),
+                       [](const PictureLayer &other) { return other.in_file(); });
+        writer.write_radiance(target, report.window, layers, metadata.attributes());
     } else {
         const ToneMap &tone_map = report.tone_map.value();
         const ImageMetadata metadata(report, quantity, &tone_map);
+        const auto alpha = std::find_if(others.begin(), others.end(), [](const PictureLayer &other) {
+            return other.quantity == PT_QUANTITY_COVERAGE;
+        });
         write_display_image(writer, target, report.window, values, tone_map, options.display.png_bits,
-                            metadata.attributes());
+                            metadata.attributes(), alpha == others.end() ? std::span<const float>() : alpha->values);
     }
+}
+
+// The first image of a format, or none.
+std::optional<std::string> image_of(const RenderOptions &options, ImageFormat format) {
+    const auto found = std::find_if(options.outputs.begin(), options.outputs.end(), [&](const std::string &path) {
+        return (path == standard_stream ? options.format : image_format(path)) == format;
+    });
+    return found == options.outputs.end() ? std::nullopt : std::optional(*found);
 }
 
 void refuse_if(bool is_refused, const std::string &message) {
     if (is_refused) {
         throw Failure(ExitCode::usage, message);
     }
+}
+
+void check_channels(const RenderOptions &options) {
+    refuse_if(!options.layers.empty() && !image_of(options, ImageFormat::exr),
+              "--layers: needs -o FILE.exr, as no other format has layers");
+    const std::optional<std::string> jpeg = image_of(options, ImageFormat::jpeg);
+    refuse_if(options.alpha && jpeg, "--alpha: -o " + jpeg.value_or("") + ": JPEG has no alpha; .exr and .png have");
+    refuse_if(options.alpha && options.outputs.empty(),
+              "--alpha: needs -o FILE.exr or FILE.png, which have the channel");
 }
 
 // What only makes sense with something else, or without it.
@@ -45,6 +69,7 @@ void check_combinations(const RenderOptions &options) {
     refuse_if(options.sampling == PT_SAMPLING_ADAPTIVE && !options.target_error, "--sampling adaptive: needs --error");
     refuse_if(options.resume && !has_checkpoint, "--resume: needs --checkpoint, the file to go on from");
     refuse_if(options.checkpoint_seconds && !has_checkpoint, "--checkpoint-every: needs --checkpoint");
+    check_channels(options);
     refuse_if(options.watch && has_checkpoint, "--checkpoint: a picture under --watch has none");
     refuse_if(options.watch && !options.film.empty(), "--film: a picture under --watch has none");
     refuse_if(options.frames && has_checkpoint,
@@ -139,9 +164,21 @@ void check_files(const RenderOptions &options, const ImageWindow &window) {
 }
 
 void check_outputs(const RenderOptions &options, const RenderSettings &settings) {
-    require_host_memory(settings, options.scene, options.standard_error.empty() ? 1 : 2);
+    require_host_memory(settings, options.scene, image_count(options));
     check_files(options, settings.window);
     check_checkpoint(options);
+}
+
+std::uint32_t image_count(const RenderOptions &options) {
+    return 1 + (options.standard_error.empty() ? 0 : 1) + static_cast<std::uint32_t>(wanted_layers(options).size());
+}
+
+std::vector<std::uint32_t> wanted_layers(const RenderOptions &options) {
+    std::vector<std::uint32_t> layers = options.layers;
+    if (options.alpha) {
+        layers.push_back(PT_QUANTITY_COVERAGE);
+    }
+    return layers;
 }
 
 RenderOptions without_standard_output(RenderOptions options) {
@@ -163,23 +200,29 @@ bool write_film(const std::function<std::vector<std::byte>()> &film, const std::
 }
 
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
-                                      std::span<const float> radiance, std::span<const float> standard_error) {
+                                      const PictureImages &images) {
     std::vector<std::string> written;
-    const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity) {
+    const auto write = [&](const std::string &path, std::span<const float> values, std::uint32_t quantity,
+                           std::span<const PictureLayer> layers) {
         try {
-            write_image(writer, image_target(path, options.format), options, report, values, quantity);
+            write_image(writer, image_target(path, options.format), options, report, values, quantity, layers);
             written.push_back(path == standard_stream ? "standard output" : path);
         } catch (const Failure &failure) {
             print_message(failure.what());
         }
     };
     for (const std::string &path : options.outputs) {
-        write(path, radiance, PT_QUANTITY_RADIANCE);
+        write(path, images.radiance, PT_QUANTITY_RADIANCE, images.layers);
     }
     if (!options.standard_error.empty()) {
-        write(options.standard_error, standard_error, PT_QUANTITY_STANDARD_ERROR);
+        write(options.standard_error, images.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
     }
     return written;
+}
+
+std::string picture_name(const RenderOptions &options) {
+    const bool has_file = !options.outputs.empty() && options.outputs.front() != standard_stream;
+    return "pt: " + (has_file ? options.outputs.front() : !options.film.empty() ? options.film : options.scene);
 }
 
 bool needs_module(const RenderOptions &options) {

@@ -3,6 +3,7 @@
 
 #include "cli/base/distinct_files.h"
 #include "cli/image/image_file.h"
+#include "cli/render/picture_layer.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
 #include "cli/scene/render_settings.h"
@@ -31,13 +32,28 @@ void check_files(const RenderOptions &options, const ImageWindow &window);
 // These files, and all else that can go wrong with the outputs and can be known before an hour of rendering.
 void check_outputs(const RenderOptions &options, const RenderSettings &settings);
 
-// Writes every image that can be written even if another cannot, and says on stderr which could not. standard_error may
-// be empty if no file of it is wanted. Returns the paths of those written, output_count() if all were.
+// What the files are made of.
+struct PictureImages {
+    std::span<const float> radiance;
+    std::span<const float> standard_error; // may be empty if no file of it is wanted
+    std::span<const PictureLayer> layers;  // that each .exr of radiance has too; .png takes the alpha of them
+};
+
+// How many there are.
+std::uint32_t image_count(const RenderOptions &options);
+
+// The layers that have to be read, that of alpha among them: PT_QUANTITY_*.
+std::vector<std::uint32_t> wanted_layers(const RenderOptions &options);
+
+// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
-                                      std::span<const float> radiance, std::span<const float> standard_error);
+                                      const PictureImages &images);
 
 // Writes a film. False if that is not possible, which is said on stderr.
 bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path);
+
+// How a live view calls the picture: by its first file.
+std::string picture_name(const RenderOptions &options);
 
 // Whether any output is in a format that the image module encodes.
 bool needs_module(const RenderOptions &options);

@@ -55,14 +55,15 @@ struct Rendered {
 
 Rendered render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                               const RenderSettings &settings, std::uint32_t rows, const Stop &stop,
-                              const std::function<bool(const PiecewiseImage &)> &write_preview) {
+                              const std::function<bool(const PiecewiseImage &)> &write_preview, TevViewer *viewer) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.window.part.height;
     Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
     progress.begin_at(context.sample_count());
-    PictureObservers observers(context, options, progress, write_preview);
+    PictureObservers observers(context, options, settings.window, progress, write_preview, viewer);
     Rendered rendered{};
-    rendered.image =
-        render_pieces(context, file, settings, rows, !options.standard_error.empty(), stop, progress, observers.list());
+    const std::vector<std::uint32_t> layers = wanted_layers(options);
+    const WantedImages wanted{!options.standard_error.empty(), layers};
+    rendered.image = render_pieces(context, file, settings, rows, wanted, stop, progress, observers.list());
     observers.finish(static_cast<std::uint32_t>(std::lround(rendered.image.stats.mean_sample_count)));
     rendered.timed_out = observers.is_timed_out();
     rendered.has_checkpoint = observers.has_checkpoint();
@@ -94,19 +95,20 @@ void resume_if_asked(const Context &context, const RenderOptions &options, const
     }
 }
 
-const char *ending_of(const RenderReport &report, bool interrupted) {
+// An image that time has ended may have the target error as it is, and more samples to come for others to have it too.
+const char *ending_of(const RenderReport &report, bool interrupted, bool timed_out) {
     if (interrupted) {
         return "signal";
     }
-    if (report.target_reached()) {
-        return "error";
+    if (timed_out) {
+        return "time";
     }
-    return report.stats.sample_count < report.requested_sample_count ? "time" : "samples";
+    return report.target_reached() ? "error" : "samples";
 }
 
 // What an image in pieces takes of memory, before it is rendered.
 void print_pieces(const Context &context, const RenderOptions &options, const ImageWindow &window, std::uint32_t rows) {
-    const std::uint64_t host_bytes = image_bytes(window, options.standard_error.empty() ? 1 : 2);
+    const std::uint64_t host_bytes = image_bytes(window, image_count(options));
     print_message(std::to_string((window.part.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
                   " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
                   memory_text(host_bytes) + " for the image");
@@ -122,6 +124,10 @@ void print_summary(const RenderOptions &options, const RenderReport &report, con
                      takes_standard_output(options));
 }
 
+PictureImages images_of(const PiecewiseImage &image) {
+    return {image.radiance, image.standard_error, image.layers};
+}
+
 // Whether all images, and the film, could be written.
 bool write_outputs(ImageWriter &writer, const Context &context, const RenderOptions &options, RenderReport &report,
                    const PiecewiseImage &image, Clock::time_point start) {
@@ -130,7 +136,7 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderOpti
     if (!options.quiet) {
         print_warnings(warnings);
     }
-    std::vector<std::string> written = write_images(writer, options, report, image.radiance, image.standard_error);
+    std::vector<std::string> written = write_images(writer, options, report, images_of(image));
     if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film)) {
         written.push_back(options.film);
     }
@@ -168,7 +174,8 @@ void print_interruption(const RenderSettings &settings, std::uint32_t done, std:
 } // namespace
 
 Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
-                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded) {
+                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded,
+                       TevViewer *viewer) {
     RenderReport report{};
     report.scene = file.path;
     report.date = source_date();
@@ -178,6 +185,9 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.target_error = settings.target_error;
 
     context.require(pt_get_context_device(context.get(), &report.device));
+    if (viewer != nullptr) {
+        viewer->look(Clock::now());
+    }
     if (!take_scene(context, options, file, superseded)) {
         if (superseded()) {
             return Outcome::superseded;
@@ -208,18 +218,18 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         so_far.tone_map = tone_map_of(options, settings, image.radiance);
         writer.wait();
         const RenderOptions files = without_standard_output(options); // a stream takes one image
-        return write_images(writer, files, so_far, image.radiance, image.standard_error).size() == output_count(files);
+        return write_images(writer, files, so_far, images_of(image)).size() == output_count(files);
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview);
+    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview, viewer);
     const PiecewiseImage &image = rendered.image;
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
-    report.ended_by = ending_of(report, interrupted);
+    report.ended_by = ending_of(report, interrupted, rendered.timed_out);
     report.checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
         print_interruption(settings, report.stats.sample_count, image.rows_done, report.checkpoint);
@@ -229,6 +239,9 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     } else if (superseded()) {
         return Outcome::superseded;
     }
+    if (viewer != nullptr && viewer->may_show()) {
+        viewer->show(tev_picture(picture_name(options), settings.window, image));
+    }
     report.tone_map = tone_map_of(options, settings, image.radiance);
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
@@ -236,8 +249,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     if (interrupted && all_written) {
         return Outcome::interrupted;
     }
-    return outcome_of({report.target_error > 0.0, report.target_reached(),
-                       rendered.timed_out && report.ended_by == "time", rendered.has_checkpoint, all_written});
+    return outcome_of(
+        {report.target_error > 0.0, report.target_reached(), rendered.timed_out, rendered.has_checkpoint, all_written});
 }
 
 } // namespace cli

@@ -24,7 +24,7 @@ public:
     bool pauses() const override { return Clock::now() >= end_; }
 
     void stepped(const RenderState &state) override {
-        is_over_ = state.sample_count > 0 && state.time >= end_;
+        is_over_ = !state.has_ended && state.sample_count > 0 && state.time >= end_;
         has_ended_piece_ = has_ended_piece_ || is_over_;
     }
 

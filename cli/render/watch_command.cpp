@@ -48,9 +48,10 @@ void require_files(const RenderOptions &options) {
 
 class WatchedRender {
 public:
-    WatchedRender(const RenderOptions &options, ValidationLog &log) :
+    WatchedRender(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) :
         options_(options),
         log_(log),
+        viewer_(viewer),
         sources_(options.scene, options.shader_dir) {}
 
     // Returns the exit code.
@@ -107,7 +108,7 @@ private:
         }
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
         rendered_scene_.reset();
-        outcome_ = render_picture(*context_, options_, file, settings, times, superseded);
+        outcome_ = render_picture(*context_, options_, file, settings, times, superseded, viewer_);
         if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
             rendered_outcome_ = *outcome_;
             rendered_scene_ = sources_.scene_text();
@@ -153,6 +154,7 @@ private:
 
     const RenderOptions &options_;
     ValidationLog &log_;
+    TevViewer *viewer_;
     SourceWatch sources_;
     std::unique_ptr<Context> context_;
     std::optional<std::string> rendered_scene_; // text of the scene that the files show; nothing if they show none
@@ -164,11 +166,11 @@ private:
 
 } // namespace
 
-int watch(const RenderOptions &options, ValidationLog &log) {
+int watch(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
     require_files(options);
     catch_interrupts();
     catch_picture_requests();
-    return WatchedRender(options, log).run();
+    return WatchedRender(options, log, viewer).run();
 }
 
 } // namespace cli

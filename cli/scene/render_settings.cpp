@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::uint32_t default_side = 512;
 constexpr std::uint32_t default_sample_count = 64;
-constexpr std::uint32_t default_most_samples = 65536; // where a target error or a time says when to stop
 
 template <typename Value>
 Value first_given(const std::optional<Value> &option, const std::optional<Value> &scene, Value otherwise) {

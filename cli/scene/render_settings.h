@@ -17,6 +17,9 @@
 
 namespace cli {
 
+// Of a pixel, where a target error or a time says when to stop.
+inline constexpr std::uint32_t default_most_samples = 65536;
+
 struct RenderSettings {
     pt_render render;           // of the whole picture
     ImageWindow window;         // the part of it that is wanted

@@ -22,7 +22,7 @@ void add_selftest_options(CLI::App &command, SelftestOptions &options) {
     command
         .add_option("--json", options.json,
                     "Write the same as JSON; - is standard output, the text then goes to stderr")
-        ->type_name("FILE");
+        ->type_name("JSON");
 }
 
 int run_selftest(const SelftestOptions &options) {

@@ -11,11 +11,11 @@ const char *const tonemap_help = "IN is an OpenEXR file, of `pt render` or anoth
                                  "is not finite is an error. --exposure auto is explained in `pt render --help`.\n";
 
 void add_tonemap_options(CLI::App &command, TonemapOptions &options) {
-    command.add_option("input", options.input, "Linear radiance (.exr)")->required()->type_name("IN");
-    command.add_option("output", options.output, "Image to write (.png, .jpg); - is standard output")
+    command.add_option("IN", options.input, "Linear radiance (.exr)")->required()->type_name("IN");
+    command.add_option("OUT", options.output, "Image to write (.png, .jpg); - is standard output")
         ->required()
         ->type_name("OUT");
-    add_format(command, options.format);
+    add_format(command, options.format, picture_format_names);
     add_display_options(command, options.display, "");
     command.add_flag("-q,--quiet", options.quiet, "Print errors only");
 }

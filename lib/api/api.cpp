@@ -75,7 +75,8 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     const pt_accumulate_info accumulate = copy_in(info, "accumulate");
     Violations violations;
     const Subject subject(violations, "accumulate");
-    subject.require(accumulate.sample_count >= 1, "sample_count", accumulate.sample_count, "must be >= 1");
+    subject.require(accumulate.sample_count >= 1 || accumulate.target_error > 0.0, "sample_count",
+                    accumulate.sample_count, "must be >= 1 without a target_error");
     subject.require(std::isfinite(accumulate.target_error) && accumulate.target_error >= 0.0, "target_error",
                     accumulate.target_error, "must be finite and >= 0");
     subject.require(accumulate.sampling <= PT_SAMPLING_ADAPTIVE, "sampling", accumulate.sampling,
@@ -264,7 +265,9 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         const pt_image target = pt::copy_in(image, "image");
         // Before pt_set_render there is no size to check against; the renderer refuses then.
         const bool sized = renderer.width() > 0;
-        renderer.readback(sized ? pt::validated_image(target, renderer.width(), renderer.row_count()) : pt::Image{});
+        renderer.readback(
+            sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)
+                  : pt::Image{});
     });
 }
 

@@ -84,13 +84,7 @@ pt_stats stats_of(const Film &film, bool with_error) {
     stats.mean_sample_count =
         static_cast<double>(film.total_samples()) / static_cast<double>(film.bounds().pixel_count());
     stats.rejected_samples = film.rejected_samples();
-    stats.rmse = error.rmse.estimate;
-    stats.rmse_low = error.rmse.low;
-    stats.rmse_high = error.rmse.high;
-    stats.relative_rmse = error.relative_rmse.estimate;
-    stats.relative_rmse_low = error.relative_rmse.low;
-    stats.relative_rmse_high = error.relative_rmse.high;
-    stats.uncertain = error.uncertain;
+    set_error(stats, error);
     return stats;
 }
 
@@ -154,7 +148,7 @@ pt_result pt_read_film(const pt_film *film, const pt_image *image) {
         pt::require_not_null(film, "film");
         const pt_image target = pt::copy_in(image, "image");
         const pt::Rectangle &bounds = film->film.bounds();
-        pt::write_image(film->film, pt::validated_image(target, bounds.width, bounds.height));
+        pt::write_image(film->film, pt::validated_image(target, bounds.width, bounds.height, pt::ImageSource::Samples));
     });
 }
 

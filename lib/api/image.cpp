@@ -31,16 +31,28 @@ bool check_extent(const Subject &image, const char *name, std::uint32_t extent, 
     return within && extent >= 1;
 }
 
+// Numbers of objects are not floats, and nothing else is a whole number.
+void check_quantity(const Subject &image, std::uint32_t quantity, std::uint32_t format, ImageSource of) {
+    const bool is_known = quantity <= PT_QUANTITY_COVERAGE;
+    image.require(is_known, "quantity", quantity, "must be a PT_QUANTITY_* of pt.h");
+    image.require(!is_known || of == ImageSource::Context || quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", quantity,
+                  "must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or PT_QUANTITY_SAMPLE_COUNT here: what "
+                  "camera rays meet is read by pt_readback alone");
+    image.require(format < format_count, "format", format, "must be a PT_FORMAT_* of pt.h");
+    image.require(format >= format_count || (format == PT_FORMAT_R32UI) == (quantity == PT_QUANTITY_OBJECT), "format",
+                  format,
+                  quantity == PT_QUANTITY_OBJECT ? "must be PT_FORMAT_R32UI, as the quantity is PT_QUANTITY_OBJECT"
+                                                 : "PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
+}
+
 // The rules that images have in common, whatever the memory. alignment: of rows, in bytes. offset: of the image in its
 // memory.
 template <typename Source>
 ImageLayout checked_layout(const Subject &image, const Source &source, std::uint32_t alignment, std::uint64_t offset,
-                           std::uint32_t width, std::uint32_t height) {
+                           std::uint32_t width, std::uint32_t height, ImageSource of) {
     const ImageLayout layout{rectangle_of(source, width, height), source.quantity, source.format, source.row_bytes};
     const Rectangle &pixels = layout.pixels;
-    image.require(source.quantity <= PT_QUANTITY_SAMPLE_COUNT, "quantity", source.quantity,
-                  "must be a PT_QUANTITY_* of pt.h");
-    image.require(source.format < format_count, "format", source.format, "must be a PT_FORMAT_* of pt.h");
+    check_quantity(image, source.quantity, source.format, of);
     image.require(source.reserved == 0, "reserved", source.reserved, "must be 0");
     const bool columns_fit = check_extent(image, "width", pixels.width, {"x", "+ width"}, pixels.x, width);
     const bool rows_fit = check_extent(image, "height", pixels.height, {"y", "+ height"}, pixels.y, height);
@@ -68,7 +80,7 @@ ImageLayout checked_layout(const Subject &image, const Source &source, std::uint
 
 } // namespace
 
-Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height) {
+Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of) {
     Violations violations;
     const Subject image(violations, "image");
     const std::uint32_t alignment = component_bytes(source.format);
@@ -77,7 +89,7 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
     image.require(reinterpret_cast<std::uintptr_t>(source.data) % alignment == 0, "data",
                   std::uint64_t{reinterpret_cast<std::uintptr_t>(source.data)},
                   "must be a multiple of " + number_text(alignment));
-    const ImageLayout layout = checked_layout(image, source, alignment, 0, width, height);
+    const ImageLayout layout = checked_layout(image, source, alignment, 0, width, height, of);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {layout, static_cast<std::byte *>(source.data)};
 }
@@ -89,7 +101,8 @@ BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, 
         image.refuse("buffer", "0", "must be a VkBuffer");
     image.require(source.offset_bytes % buffer_word_bytes == 0, "offset_bytes", source.offset_bytes,
                   "must be a multiple of 4");
-    const ImageLayout layout = checked_layout(image, source, buffer_word_bytes, source.offset_bytes, width, height);
+    const ImageLayout layout =
+        checked_layout(image, source, buffer_word_bytes, source.offset_bytes, width, height, ImageSource::Samples);
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return {layout, source.buffer, source.offset_bytes, source.wait_semaphore, source.signal_semaphore};
 }

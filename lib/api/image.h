@@ -32,9 +32,12 @@ struct BufferImage {
     std::uint64_t signal_semaphore; // likewise
 };
 
+// Whose quantities there are: a context knows all of its scene, films and lent buffers those of samples.
+enum class ImageSource { Context, Samples };
+
 // Checks an image whose struct_size is settled, of width x height pixels that are rendered, both >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
-Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height);
+Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
 } // namespace pt

@@ -61,6 +61,16 @@ ErrorEstimate unknown_error() {
     return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}, 0};
 }
 
+void set_error(pt_stats &stats, const ErrorEstimate &error) {
+    stats.rmse = error.rmse.estimate;
+    stats.rmse_low = error.rmse.low;
+    stats.rmse_high = error.rmse.high;
+    stats.relative_rmse = error.relative_rmse.estimate;
+    stats.relative_rmse_low = error.relative_rmse.low;
+    stats.relative_rmse_high = error.relative_rmse.high;
+    stats.uncertain = error.uncertain;
+}
+
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {
     return rejected_samples > samples >> 20;
 }
@@ -104,8 +114,7 @@ void ErrorEstimator::add(const PixelEstimates &pixels) {
 void ErrorEstimator::finish_band() {
     const std::size_t height = radiance_.size() / (std::size_t{3} * conditions_.width);
     for (std::size_t left = 0; left < conditions_.width; left += region_size)
-        add(region_errors(region_of_band(left, std::min<std::size_t>(region_size, conditions_.width - left), height),
-                          nullptr));
+        add(region_errors(region_of_band(left, std::min<std::size_t>(region_size, conditions_.width - left), height)));
     radiance_.clear();
     standard_error_.clear();
     lesser_.clear();

@@ -4,6 +4,8 @@
 
 #include "lib/film/region_errors.h"
 
+#include <pt/stats.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -28,6 +30,9 @@ inline constexpr std::uint32_t min_estimate_samples = 16;
 
 // What is known without samples.
 ErrorEstimate unknown_error();
+
+// Sets what it says of the error.
+void set_error(pt_stats &stats, const ErrorEstimate &error);
 
 // Whether so many of an image's samples were left out that its error is unknown. Of those that were too bright each may
 // have carried more than 2^20 times the brightest emission (gpu_layout.h, FILM_MAX_EXPONENT): from one in 2^20 on, they

@@ -93,15 +93,11 @@ Neighbourhood neighbourhood(const RegionChannel &channel, std::size_t x, std::si
     return neighbourhood_of_rows(row(y - 1), row(y), row(y + 1));
 }
 
-// Of the pixels of its tile that touch a pixel, and itself.
-double largest_in_tile(const RegionChannel &channel, std::size_t x, std::size_t y) {
-    const auto first = [](std::size_t place) { return place % tile_size == 0 ? place : place - 1; };
-    const auto last = [](std::size_t place, std::size_t size) {
-        return place % tile_size == tile_size - 1 ? place : std::min(place + 1, size - 1);
-    };
+// Of the pixels of the channel that touch a pixel, and itself.
+double largest_beside(const RegionChannel &channel, std::size_t x, std::size_t y) {
     double largest = 0.0;
-    for (std::size_t row = first(y); row <= last(y, channel.height); ++row)
-        for (std::size_t column = first(x); column <= last(x, channel.width); ++column)
+    for (std::size_t row = y - (y > 0 ? 1 : 0); row <= y + 1 && row < channel.height; ++row)
+        for (std::size_t column = x - (x > 0 ? 1 : 0); column <= x + 1 && column < channel.width; ++column)
             largest = std::max(largest, channel.mean[row * channel.width + column]);
     return largest;
 }
@@ -141,8 +137,7 @@ double unseen_square(double mean, double largest_beside, double sample_count) {
 
 } // namespace
 
-std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts,
-                                     bool with_own_squares) {
+std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts) {
     const std::size_t tile_columns = (channel.width + tile_size - 1) / tile_size;
     const std::size_t tile_rows = (channel.height + tile_size - 1) / tile_size;
     const auto tile_of = [&](std::size_t x, std::size_t y) { return y / tile_size * tile_columns + x / tile_size; };
@@ -165,17 +160,26 @@ std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<con
             const auto [median, largest] = neighbourhood(channel, x, y);
             const ValueSet &tile = tiles[tile_of(x, y)];
             const double around = std::max(median, level_about(mean, tile, region));
-            const auto relative_about = [&](double level) {
-                return relative_square(channel.standard_error[i], mean, channel.lesser[i], level);
-            };
-            const double sample_count = sample_counts[tile_of(x, y)];
-            ValueError error{square, relative_about(around), unseen_square(mean, largest, sample_count), 0.0};
-            if (with_own_squares)
-                error.own_square = relative_about(tile.mean_besides_and_without_largest(mean)) +
-                                   unseen_square(mean, largest_in_tile(channel, x, y), sample_count);
-            errors.push_back(error);
+            errors.push_back({square, relative_square(channel.standard_error[i], mean, channel.lesser[i], around),
+                              unseen_square(mean, largest, sample_counts[tile_of(x, y)])});
         }
     return errors;
+}
+
+double own_square(const RegionChannel &tile, double sample_count) {
+    ValueSet values;
+    for (const double mean : tile.mean)
+        values.add(mean);
+    double sum = 0.0;
+    for (std::size_t y = 0; y < tile.height; ++y)
+        for (std::size_t x = 0; x < tile.width; ++x) {
+            const std::size_t i = y * tile.width + x;
+            const double mean = tile.mean[i];
+            sum += relative_square(tile.standard_error[i], mean, tile.lesser[i],
+                                   values.mean_besides_and_without_largest(mean)) +
+                   unseen_square(mean, largest_beside(tile, x, y), sample_count);
+        }
+    return sum;
 }
 
 } // namespace pt

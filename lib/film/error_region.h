@@ -34,12 +34,14 @@ struct RegionChannel {
 struct ValueError {
     double square;          // of (x - r)^2
     double relative_square; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell
-    double unseen;     // the same of light beside the pixel that may be in it too, but that none of its samples met
-    double own_square; // relative_square and unseen by what its tile alone knows; 0 if that was not asked for
+    double unseen; // the same of light beside the pixel that may be in it too, but that none of its samples met
 };
 
 // Of each value of the channel. sample_counts: of a pixel, for each tile of the region, row by row.
-std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts,
-                                     bool with_own_squares);
+std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts);
+
+// The sum of relative_square and unseen over the values of a channel of a tile, by what that tile alone knows; infinite if
+// it is unknown.
+double own_square(const RegionChannel &tile, double sample_count);
 
 } // namespace pt

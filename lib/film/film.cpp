@@ -215,9 +215,10 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
     ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps});
     if (tiles && !tiles->even()) {
         UnevenErrors errors;
-        errors.update(*tiles, std::ldexp(1.0, facts_.unit_exponent),
-                      [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); });
-        for (const RegionErrors &region : errors.regions())
+        const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) {
+            return rows(first_row, row_count);
+        };
+        for (const RegionErrors &region : errors.regions(*tiles, std::ldexp(1.0, facts_.unit_exponent), read_rows))
             estimator.add(region);
     } else {
         read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });

@@ -10,21 +10,22 @@
 
 namespace pt {
 
-constexpr std::uint32_t format_count = PT_FORMAT_RGBA16F + 1;
+constexpr std::uint32_t format_count = PT_FORMAT_R32UI + 1;
 
 constexpr std::uint32_t component_bytes(std::uint32_t format) {
     return format == PT_FORMAT_RGBA16F ? 2 : 4;
 }
 
 constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
-    return (format == PT_FORMAT_RGB32F ? 3 : 4) * component_bytes(format);
+    const std::uint32_t components = format == PT_FORMAT_R32UI ? 1 : format == PT_FORMAT_RGB32F ? 3 : 4;
+    return components * component_bytes(format);
 }
 
 // The float16 that is nearest to a number >= 0, of two the even one; infinity from 65520 on. By whole numbers, as in
 // shaders/half.glsl.
 std::uint16_t half_bits(float value);
 
-// Writes pixels, of which R, G and B are given.
+// Writes pixels, of which R, G and B are given, in a format that has them.
 void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to);
 
 } // namespace pt

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace pt {
@@ -120,6 +121,7 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
     estimates.radiance.reserve(3 * pixel_count_);
     for (auto *const values : {&estimates.standard_error, &estimates.lesser})
         values->reserve(with_standard_error ? 3 * pixel_count_ : 0);
+    std::optional<PartWeights> weights; // of the pixel before: most have the same
     for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
         const PartPixel a(*this, older_part, pixel);
         const PartPixel b(*this, newer_part, pixel);
@@ -127,6 +129,8 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
         const bool knows_error =
             a.done() + b.done() >= gpu::FILM_MIN_ERROR_SAMPLES && a.accepted() > 0 && b.accepted() > 0;
         estimates.rejected += a.done() + b.done() - accepted;
+        if (with_standard_error && knows_error && !(weights && weights->are_of(a.accepted(), b.accepted())))
+            weights.emplace(a.accepted(), b.accepted());
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const WideSum sum_a = a.sum(channel);
             const WideSum sum_b = b.sum(channel);
@@ -138,7 +142,7 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
                 estimates.lesser.push_back(0.0F);
                 continue;
             }
-            const PartDifference parts = part_difference(sum_a, a.accepted(), sum_b, b.accepted(), exponent);
+            const PartDifference parts = weights->difference(sum_a, sum_b, exponent);
             estimates.standard_error.push_back(parts.standard_error);
             estimates.lesser.push_back(parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent)
                                                            : mean_of(sum_b, b.accepted(), exponent));

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <optional>
 
 namespace pt {
 
@@ -23,7 +25,7 @@ Number product(WideSum sum, std::uint32_t count) {
     return {(sum >> 32) * count + (low >> 32), static_cast<std::uint32_t>(low)};
 }
 
-Number difference(const Number &a, const Number &b) {
+Number difference_of(const Number &a, const Number &b) {
     return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};
 }
 
@@ -104,43 +106,67 @@ std::uint32_t square_root(std::uint64_t square) {
     return static_cast<std::uint32_t>(root);
 }
 
-} // namespace
-
-// In double first: three roundings and a power of two put that within 2^-51 of itself. Where this cannot change to which
-// float it is rounded, which is nearly always, that is the answer (Ziv 1991, Fast evaluation of elementary mathematical
-// functions with correctly rounded last bit).
-float mean_of(WideSum sum, std::uint32_t count, int exponent) {
-    if (sum == 0 || count == 0)
-        return 0.0F;
-    const double approximate = (static_cast<double>(static_cast<std::uint64_t>(sum >> 64)) * 0x1p64 +
-                                static_cast<double>(static_cast<std::uint64_t>(sum))) /
-                               count * power_of_two(exponent);
+// The float that a number is rounded to which is within 2^-50 of itself from this one, where all those are rounded to the
+// same, which is nearly always (Ziv 1991, Fast evaluation of elementary mathematical functions with correctly rounded last
+// bit).
+std::optional<float> rounded_alike(double approximate) {
     constexpr std::uint64_t tie = std::uint64_t{1} << 28; // of the 29 bits that a float does not have
     const std::uint64_t below_float = std::bit_cast<std::uint64_t>(approximate) % (2 * tie);
     const bool decided = below_float + 8 < tie || below_float > tie + 8;
     if (decided && approximate >= 0x1p-126 && approximate < 0x1p127)
         return static_cast<float>(approximate);
+    return std::nullopt;
+}
+
+// Within 2^-52 of itself: of its halves the upper one is rounded, and so is their sum.
+double nearly(WideSum number) {
+    return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 +
+           static_cast<double>(static_cast<std::uint64_t>(number));
+}
+
+} // namespace
+
+// In double first, with three roundings.
+float mean_of(WideSum sum, std::uint32_t count, int exponent) {
+    if (sum == 0 || count == 0)
+        return 0.0F;
+    if (const std::optional<float> mean = rounded_alike(nearly(sum) / count * power_of_two(exponent)))
+        return *mean;
     return quotient(leading_bits(sum), count, exponent);
 }
 
-// The numerator |A b - B a| is exact; the root is cut to 32 bits and so is the denominator (a + b) sqrt(a b), each by
-// less than a 2^31th.
-PartDifference part_difference(WideSum sum_a, std::uint32_t a, WideSum sum_b, std::uint32_t b, int exponent) {
-    const Number product_a = product(sum_a, b);
-    const Number product_b = product(sum_b, a);
-    if (product_a == product_b)
-        return {0.0F, false};
-    const bool first_is_less = product_a < product_b;
-    const Number numerator = first_is_less ? difference(product_b, product_a) : difference(product_a, product_b);
-
+// The root is cut to 32 bits and so is the divisor (a + b) sqrt(a b), each by less than a 2^31th.
+PartWeights::PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b) {
     const std::uint64_t square = std::uint64_t{a} * b;
     const int shift = std::countl_zero(square) / 2;
     const std::uint32_t root = square_root(square << (2 * shift)); // times 2^shift
-    const std::uint64_t denominator = (std::uint64_t{a} + b) * root;
-    const int dropped = 32 - std::countl_zero(denominator);
-    return {quotient(leading_bits(numerator), static_cast<std::uint32_t>(denominator >> dropped),
-                     exponent + shift - dropped),
-            first_is_less};
+    const std::uint64_t divisor = (std::uint64_t{a} + b) * root;
+    const int dropped = 32 - std::countl_zero(divisor);
+    divisor_ = static_cast<std::uint32_t>(divisor >> dropped);
+    exponent_ = shift - dropped;
+}
+
+// The numerator |A b - B a| is exact. Of sums below 2^96 the products have 128 bits, and the quotient is found in double as
+// a rule; a power of two that a double has not is left to whole numbers.
+PartDifference PartWeights::difference(WideSum sum_a, WideSum sum_b, int exponent) const {
+    exponent += exponent_;
+    if ((sum_a | sum_b) >> 96 == 0 && std::abs(exponent) <= 1022) {
+        const WideSum product_a = sum_a * b_;
+        const WideSum product_b = sum_b * a_;
+        const bool first_is_less = product_a < product_b;
+        const WideSum numerator = first_is_less ? product_b - product_a : product_a - product_b;
+        if (numerator == 0)
+            return {0.0F, false};
+        if (const auto error = rounded_alike(nearly(numerator) / divisor_ * power_of_two(exponent)))
+            return {*error, first_is_less};
+    }
+    const Number product_a = product(sum_a, b_);
+    const Number product_b = product(sum_b, a_);
+    if (product_a == product_b)
+        return {0.0F, false};
+    const bool first_is_less = product_a < product_b;
+    const Number numerator = first_is_less ? difference_of(product_b, product_a) : difference_of(product_a, product_b);
+    return {quotient(leading_bits(numerator), divisor_, exponent), first_is_less};
 }
 
 } // namespace pt

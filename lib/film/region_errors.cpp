@@ -26,16 +26,14 @@ RegionChannel channel_of(const RegionPixels &region, std::size_t channel) {
 }
 
 // Of each pixel, summed over channels.
-std::vector<ValueError> pixel_errors(const RegionPixels &region, bool with_own_squares) {
+std::vector<ValueError> pixel_errors(const RegionPixels &region) {
     std::vector<ValueError> pixels(region.width * region.height);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        const std::vector<ValueError> values =
-            value_errors(channel_of(region, channel), region.sample_counts, with_own_squares);
+        const std::vector<ValueError> values = value_errors(channel_of(region, channel), region.sample_counts);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             pixels[i].square += values[i].square;
             pixels[i].relative_square += values[i].relative_square;
             pixels[i].unseen += values[i].unseen;
-            pixels[i].own_square += values[i].own_square;
         }
     }
     return pixels;
@@ -43,8 +41,8 @@ std::vector<ValueError> pixel_errors(const RegionPixels &region, bool with_own_s
 
 } // namespace
 
-RegionErrors region_errors(const RegionPixels &region, std::vector<double> *own_squares) {
-    const std::vector<ValueError> pixels = pixel_errors(region, own_squares != nullptr);
+RegionErrors region_errors(const RegionPixels &region) {
+    const std::vector<ValueError> pixels = pixel_errors(region);
     RegionErrors errors;
     errors.rejected = region.estimates.rejected;
     for (std::size_t top = 0; top < region.height; top += tile_size)
@@ -54,25 +52,28 @@ RegionErrors region_errors(const RegionPixels &region, std::vector<double> *own_
             const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
             double square = 0.0;
             double relative_square = 0.0;
-            double own_square = 0.0;
             for (std::size_t y = top; y < bottom; ++y)
                 for (std::size_t x = first; x < last; ++x) {
                     const ValueError &pixel = pixels[y * region.width + x];
                     square += pixel.square;
                     relative_square += pixel.relative_square;
-                    own_square += pixel.own_square;
                     errors.square.of_pixels += squared(pixel.square);
                     errors.relative_square.of_pixels += squared(pixel.relative_square);
                     errors.unseen += pixel.unseen;
                 }
-            if (own_squares)
-                own_squares->push_back(own_square);
             errors.value_count += value_count;
             errors.squares_of_tile_sizes += squared(value_count);
             add_tile(errors.square, square, value_count);
             add_tile(errors.relative_square, relative_square, value_count);
         }
     return errors;
+}
+
+double own_square_of(const RegionPixels &tile) {
+    double sum = 0.0;
+    for (std::size_t channel = 0; channel < 3; ++channel)
+        sum += own_square(channel_of(tile, channel), tile.sample_counts.front());
+    return sum;
 }
 
 } // namespace pt

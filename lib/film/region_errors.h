@@ -37,8 +37,10 @@ struct RegionPixels {
     std::vector<double> sample_counts; // of a pixel, for each tile of the region, row by row
 };
 
-// own_squares: if it is not NULL, receives for each tile what is expected of the sum of its values' relative errors
-// squared, unseen light among them, as far as the samples of that tile alone tell; infinite where that is unknown.
-RegionErrors region_errors(const RegionPixels &region, std::vector<double> *own_squares);
+RegionErrors region_errors(const RegionPixels &region);
+
+// Of the pixels of one tile: what is expected of the sum of its values' relative errors squared, unseen
+// light among them, as far as its samples alone tell; infinite where that is unknown.
+double own_square_of(const RegionPixels &tile);
 
 } // namespace pt

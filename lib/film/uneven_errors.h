@@ -1,5 +1,5 @@
-// What the regions of a film whose tiles have different samples say about its error, on the host. Kept from look to look: a
-// region is looked at again when one of its tiles has other samples than before.
+// What tiles and regions of a film whose tiles have different samples say about its error, on the host. Kept from look to
+// look: a tile is looked at again when it has other samples than before, and a region when one of its tiles has.
 #pragma once
 
 #include "lib/film/region_errors.h"
@@ -17,25 +17,29 @@ public:
     // Gives the sums of consecutive rows of the film.
     using ReadRows = std::function<PixelSums(std::uint32_t first_row, std::uint32_t row_count)>;
 
-    // Brings it up to date with a film of this unit that has these samples.
-    void update(const TileSamples &samples, double unit, const ReadRows &read);
+    // Of a film of this unit that has these samples, by tile (own_square_of in region_errors.h).
+    std::span<const double> tile_squares(const TileSamples &samples, double unit, const ReadRows &read);
 
     // Row by row.
-    const std::vector<RegionErrors> &regions() const { return regions_; }
-
-    // By tiles of the film (region_errors.h).
-    std::span<const double> tile_squares() const { return tile_squares_; }
+    std::span<const RegionErrors> regions(const TileSamples &samples, double unit, const ReadRows &read);
 
     // The film is another one.
-    void forget() noexcept { regions_.clear(); }
+    void forget() noexcept;
 
 private:
-    bool has_changed(const TileSamples &samples, const Rectangle &region) const;
-    RegionErrors look_at(const TileSamples &samples, double unit, const Rectangle &region, const PixelSums &rows);
+    // What is known of rectangles of a film, each of one size but at its edges: tiles, or regions.
+    template <typename Fact>
+    struct Known {
+        TileSamples samples; // of the last look
+        std::vector<Fact> facts;
+    };
 
-    TileSamples samples_; // of the last look
-    std::vector<RegionErrors> regions_;
-    std::vector<double> tile_squares_;
+    template <typename Fact, typename LookAt>
+    static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const ReadRows &read,
+                       const LookAt &look_at);
+
+    Known<double> squares_;
+    Known<RegionErrors> regions_;
 };
 
 } // namespace pt

@@ -203,23 +203,42 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     return constants;
 }
 
-} // namespace
+// The scene without twins, seen from where camera rays start.
+struct FromStart {
+    DistinctScene distinct;
+    Camera start;
+};
 
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+FromStart from_start(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
     SeenScene seen = seen_scene(scene.scene, camera);
     require_held_motions(seen, scene.scene);
     const Camera start = starting_ahead(with_tree_as_ball(seen, scene, camera), camera, settings);
     if (start.start_distance > 0.0)
         seen = seen_scene(scene.scene, start);
-    return gpu_scene(without_twins(std::move(seen), scene.sphere_order), scene, start, settings);
+    return {without_twins(std::move(seen), scene.sphere_order), start};
+}
+
+} // namespace
+
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+    const auto [distinct, start] = from_start(scene, camera, settings);
+    return gpu_scene(distinct, scene, start, settings);
+}
+
+KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+    return kernel_surfaces(from_start(scene, camera, settings).distinct.seen);
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen);
     const Features features = features_of(distinct, surfaces, scene, start, settings);
-    return {features, words_of(surfaces, scene, start, features), frame_constants(start, settings, scene.film_unit),
-            scene.film_unit, scene.tree};
+    return {features,
+            words_of(surfaces, scene, start, features),
+            frame_constants(start, settings, scene.film_unit),
+            scene.film_unit,
+            scene.tree,
+            start.start_distance};
 }
 
 } // namespace pt

@@ -21,10 +21,14 @@ struct GpuScene {
     gpu::FrameConstants frame; // what does not change from slice to slice
     double film_unit;
     std::shared_ptr<const SphereTree> tree; // NULL without
+    double start_distance;                  // of the coordinates' origin from the pinhole, along the view (ray_start.h)
 };
 
 // Throws PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for it.
 GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
+
+// What the words are of, in the order in which kernels number it; what is in a tree follows.
+KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
 // The same of what is left of the scene without twins, seen from where camera rays start.
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,

@@ -111,8 +111,7 @@ PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::v
     PreparedScene prepared(owned_scene_of(checked, left_out));
     std::vector<bool> used = is_used(prepared.scene);
     progress.enter(share_of_materials, static_cast<double>(checked.spheres.size()));
-    checked.spheres.for_each(
-        progress, [&](std::size_t, const Sphere &sphere, const glm::vec3 &) { used[sphere.material] = true; });
+    checked.spheres.mark_materials(used, progress);
     prepared.note_materials(used);
     std::vector<TreeMaterial> materials;
     for (std::size_t i = 0; i < used.size(); ++i)

@@ -18,6 +18,14 @@
 
 namespace pt {
 
+// Trips of a walk over the surfaces, and over the tree for two rays. Where invocations go in step it takes as many as
+// any of them: in scenes of 10^6 spheres about 100 on average. Those that take more in all are lost, which is told
+// (tree_walk.glsl).
+std::uint64_t loop_trips_per_walk(const Features &features) {
+    constexpr std::uint64_t tree_trips = 200;
+    return features.surface_count() + (features.tree ? tree_trips : 0);
+}
+
 namespace {
 
 // From so many on paths branch less. (Error and time of 4 branches against 2, on scenes of 60 to 30,000 spheres with three
@@ -55,14 +63,6 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
-// Trips of a walk over the surfaces, and over the tree for two rays. Where invocations go in step it takes as many as
-// any of them: in scenes of 10^6 spheres about 100 on average. Those that take more in all are lost, which is told
-// (tree_walk.glsl).
-std::uint64_t trips_per_walk(const Features &features) {
-    constexpr std::uint64_t tree_trips = 200;
-    return features.surface_count() + (features.tree ? tree_trips : 0);
-}
-
 bool samples_lamps(const RenderSettings &render) {
     return (render.estimator == PT_ESTIMATOR_MIS || render.estimator == PT_ESTIMATOR_LIGHT) &&
            render.max_path_length > 1;
@@ -77,7 +77,7 @@ std::uint64_t lamp_trips(const Features &features) {
 
 // Loop trips of one branch: at each vertex one of a loop, those for the lamps and a walk over the surfaces.
 std::uint64_t loop_trips_per_branch(const Features &features) {
-    const std::uint64_t vertex = 1 + lamp_trips(features) + trips_per_walk(features);
+    const std::uint64_t vertex = 1 + lamp_trips(features) + loop_trips_per_walk(features);
     return (features.max_path_length - 1) * vertex;
 }
 
@@ -240,7 +240,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 std::uint64_t loop_trips_per_sample(const Features &features) {
     // One trip of the sample loop, a walk over the surfaces for the camera ray and one for each further lamp of the
     // first vertex, what it takes to choose among the lamps there, and the branches.
-    const std::uint64_t walk = trips_per_walk(features);
+    const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
     // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one beyond.
@@ -250,15 +250,21 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
-double surface_tests_per_path(const Features &features, const SphereTree *tree) {
-    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
-    // and one to a lamp; an empty scene still costs something.
-    const std::uint32_t branches = branch_count(features);
-    const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
+// An empty scene still costs something.
+double surface_tests_per_ray(const Features &features, const SphereTree *tree) {
     constexpr double tests_of_node = 4.0; // one for each child, about
     const double tests = features.surface_count() + (tree ? tests_of_node * tree->cost() : 0.0);
+    return std::max(1.0, tests);
+}
+
+double surface_tests_per_path(const Features &features, const SphereTree *tree) {
+    // The camera ray, those to further lamps from the first vertex, then from each vertex of a branch the next ray
+    // and one to a lamp.
+    const std::uint32_t branches = branch_count(features);
+    const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
     const std::uint32_t by_spot = features.spot_count > 0 ? 3 : 0; // the ray to it, and two from there
-    return std::max(1.0, tests) * static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
+    return surface_tests_per_ray(features, tree) *
+           static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

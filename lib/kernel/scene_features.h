@@ -86,8 +86,14 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
 // Upper bound of the loop trips that the kernel needs for one sample, with no loop unrolled.
 std::uint64_t loop_trips_per_sample(const Features &features);
 
+// The same of a walk over the surfaces, for one ray or for two that leave a vertex.
+std::uint64_t loop_trips_per_walk(const Features &features);
+
 // Ray-surface tests of a path of full length: its cost, to within a small factor. tree: NULL if there is none.
 double surface_tests_per_path(const Features &features, const SphereTree *tree);
+
+// The same of one ray. tree: likewise.
+double surface_tests_per_ray(const Features &features, const SphereTree *tree);
 
 // PT_FEATURE_* bits.
 std::uint32_t feature_bits(const Features &features);

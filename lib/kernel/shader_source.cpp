@@ -4,7 +4,9 @@
 #include "accuracy.spv.h"
 #include "add.spv.h"
 #include "commit.spv.h"
+#include "coverage.spv.h"
 #include "estimate.spv.h"
+#include "first_hit.spv.h"
 #include "fold.spv.h"
 #include "lib/base/digest.h"
 #include "lib/base/error.h"
@@ -94,12 +96,13 @@ bool KernelCode::operator==(const KernelCode &other) const {
     return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
            std::ranges::equal(fold, other.fold) && std::ranges::equal(add, other.add) &&
            std::ranges::equal(resolve, other.resolve) && std::ranges::equal(estimate, other.estimate) &&
-           std::ranges::equal(accuracy, other.accuracy);
+           std::ranges::equal(accuracy, other.accuracy) && std::ranges::equal(first_hit, other.first_hit) &&
+           std::ranges::equal(coverage, other.coverage);
 }
 
 KernelCode embedded_code() {
-    return {pathtrace_spirv, commit_spirv,   fold_spirv,     add_spirv,
-            resolve_spirv,   estimate_spirv, accuracy_spirv, nullptr};
+    return {pathtrace_spirv, commit_spirv,   fold_spirv,      add_spirv,      resolve_spirv,
+            estimate_spirv,  accuracy_spirv, first_hit_spirv, coverage_spirv, nullptr};
 }
 
 std::string digest_of(const KernelCode &code) {
@@ -114,11 +117,11 @@ KernelCode ShaderSource::read() const {
         return embedded_code();
     const pt_compile_glsl_fn compiler = load_compiler();
     auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
-    for (const char *const name :
-         {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp", "estimate.comp", "accuracy.comp"})
+    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp",
+                                   "estimate.comp", "accuracy.comp", "first_hit.comp", "coverage.comp"})
         compiled->push_back(compile(compiler, directory_, name));
-    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3],
-            (*compiled)[4], (*compiled)[5], (*compiled)[6], compiled};
+    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4],
+            (*compiled)[5], (*compiled)[6], (*compiled)[7], (*compiled)[8], compiled};
 }
 
 } // namespace pt

@@ -19,6 +19,8 @@ struct KernelCode {
     std::span<const std::uint32_t> resolve;
     std::span<const std::uint32_t> estimate;
     std::span<const std::uint32_t> accuracy;
+    std::span<const std::uint32_t> first_hit;
+    std::span<const std::uint32_t> coverage;
     std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> compiled; // what these refer to; empty if embedded
 
     // The same words, wherever they are.
@@ -32,8 +34,8 @@ std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp and what they
-    // include; empty: the embedded code.
+    // A folder with pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp,
+    // first_hit.comp, coverage.comp and what they include; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 
     bool is_embedded() const { return directory_.empty(); }

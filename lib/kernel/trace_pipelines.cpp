@@ -39,6 +39,12 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
     return constants;
 }
 
+// Those by which one kernel for ranges of pixels and one for lists of tiles are told apart do not count.
+bool are_of_one_scene(std::vector<std::uint32_t> a, const std::vector<std::uint32_t> &b) {
+    a[gpu::ID_SHARERS] = b[gpu::ID_SHARERS];
+    return a == b;
+}
+
 } // namespace
 
 TracePipelines::TracePipelines(vulkan::Device &device, KernelCode code) :
@@ -79,7 +85,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;
-    if (own_->constants == constants) {
+    if (are_of_one_scene(own_->constants, constants)) {
         own_->used_seconds += std::max(seconds - own_->last_seconds, 0.0);
         own_->last_seconds = seconds;
     } else {
@@ -93,9 +99,11 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
     std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
     if (device_.policy().scene_in_constants && features.scene_in_uniform && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
-        note_own(own, seconds);
+        note_own(own, seconds); // own_ is this scene's afterwards, or nobody's
         if (const vulkan::ComputePipeline *const kept = find(own))
             return *kept;
+        if (own_) // has one already, for other pixels
+            return build(std::move(own));
         if (kept_.empty() || ahead_ || clock_.is_time(seconds)) {
             OwnKernel next{own, seconds, 0.0};
             const vulkan::ComputePipeline &built = build(std::move(own));

@@ -37,9 +37,10 @@ public:
 
     // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
     // The first scene gets one of its own at once, as it has to wait for some kernel anyway; others do once they have
-    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. sharers:
-    // invocations to a pixel, or of_tile_list; words: the scene buffer; seconds: for which this scene has been rendered so far with
-    // nothing about it changed, the camera neither. The reference holds until the next call.
+    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. Whether pixels
+    // are a range or those of a list makes no other scene. sharers: invocations to a pixel, or of_tile_list; words: the scene
+    // buffer; seconds: for which this scene has been rendered so far with nothing about it changed, the camera neither. The
+    // reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
                                          std::span<const glm::vec4> words, double seconds);
 

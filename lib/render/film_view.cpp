@@ -130,25 +130,31 @@ void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSample
 
 void FilmView::estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
                               std::vector<double> &tile_squares) {
-    tile_squares.resize(samples.grid().count());
-    const ErrorQuery query{unit, {}, &samples, tile_squares};
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (reads_on_device()) {
+        tile_squares.resize(samples.grid().count());
+        const ErrorQuery query{unit, {}, &samples, tile_squares};
         if (is_one_film(samples))
             home().uneven_error_reader().read(query, add);
         else
             estimate_bands(query, samples, add);
         return;
     }
-    const std::uint32_t width = samples.grid().width;
-    uneven_errors_.update(samples, unit, [&](std::uint32_t first_row, std::uint32_t row_count) {
+    std::ranges::for_each(uneven_errors_.regions(samples, unit, reader_of(samples)), add);
+}
+
+std::span<const double> FilmView::tile_squares(double unit, const TileSamples &samples) {
+    return uneven_errors_.tile_squares(samples, unit, reader_of(samples));
+}
+
+UnevenErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
+    return [this, &samples](std::uint32_t first_row, std::uint32_t row_count) {
+        const std::uint32_t width = samples.grid().width;
         PixelSums rows;
         read_films(films(devices_), samples, {first_row * width, row_count * width}, row_count * width,
                    [&](const PixelSums &sums) { rows = sums; });
         return rows;
-    });
-    std::ranges::for_each(uneven_errors_.regions(), add);
-    std::ranges::copy(uneven_errors_.tile_squares(), tile_squares.begin());
+    };
 }
 
 // Each band is a film of its own, with tiles of its own.

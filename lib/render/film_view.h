@@ -36,9 +36,14 @@ public:
     // there already, of a submission that took the samples on the only device. Throws likewise.
     void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded);
 
-    // Of films with any samples, and what is expected of each of their tiles (region_errors.h).
+    // Of films with any samples. tile_squares: receives what is expected of each of their tiles (region_errors.h), where a
+    // kernel finds both at once.
     void estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
                         std::vector<double> &tile_squares);
+
+    // Whether the host finds what is expected of tiles, without the error of the image: it takes less time.
+    bool finds_tile_squares_alone() const { return !reads_on_device(); }
+    std::span<const double> tile_squares(double unit, const TileSamples &samples);
 
     // What was known of the films' samples is void.
     void forget_samples() noexcept { uneven_errors_.forget(); }
@@ -75,6 +80,7 @@ private:
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
     void estimate_bands(const ErrorQuery &query, const TileSamples &samples, const ErrorReader::Receive &receive);
+    UnevenErrors::ReadRows reader_of(const TileSamples &samples) const;
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const Devices &devices_;

@@ -97,6 +97,8 @@ void RenderDevice::drop_bound() noexcept {
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
     drop_bound(); // it uses the old ones
+    first_hits_.reset();
+    coverage_.reset();
     resolve_.reset();
     estimate_.reset();
     uneven_estimate_.reset();
@@ -190,6 +192,25 @@ BufferWriter &RenderDevice::buffer_writer() {
     if (!buffer_writer_)
         buffer_writer_.emplace(device_, resolve_pipelines(), film, BufferWriter::piece_limits(device_.limits()));
     return *buffer_writer_;
+}
+
+// The kernel of paths is made ready too, as what it refuses is beyond the device, and the tree is planted for both.
+void RenderDevice::read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
+                                   const FirstHitQuery &query, const FirstHits::Receive &receive) {
+    prepare(scene, settings);
+    if (!first_hits_)
+        first_hits_.emplace(device_, code_.first_hit);
+    first_hits_->show(scene, tree_buffer_ ? &*tree_buffer_ : nullptr);
+    first_hits_->read(query, target_seconds_ * tests_per_second_, receive);
+}
+
+void RenderDevice::read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
+                                 const Coverage::Receive &receive) {
+    prepare(scene, query.settings);
+    if (!coverage_)
+        coverage_.emplace(device_, code_.coverage);
+    coverage_->show(scene, tree_buffer_ ? &*tree_buffer_ : nullptr);
+    coverage_->read(query, target_seconds_ * tests_per_second_, receive);
 }
 
 ResolvePipelines &RenderDevice::resolve_pipelines() {

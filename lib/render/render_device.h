@@ -4,8 +4,10 @@
 
 #include "lib/film/device_film.h"
 #include "lib/kernel/buffer_writer.h"
+#include "lib/kernel/coverage.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
+#include "lib/kernel/first_hits.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/kernel.h"
@@ -59,6 +61,14 @@ public:
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
     ErrorReader &uneven_error_reader(); // of tiles that may have different samples
+
+    // Pixels of what camera rays meet first, of the image; see FirstHits::read(). Idle.
+    void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
+                         const FirstHitQuery &query, const FirstHits::Receive &receive);
+
+    // Of pixels of the film's samples how many meet something; see Coverage::read(). Idle.
+    void read_coverage(const std::shared_ptr<const GpuScene> &scene, const CoverageQuery &query,
+                       const Coverage::Receive &receive);
 
     // Kernels for other films than this device's own.
     ResolvePipelines &resolve_pipelines();
@@ -183,6 +193,8 @@ private:
     std::optional<ErrorReader> uneven_error_reader_;
     std::shared_ptr<const SphereTree> tree_; // that is in the buffer
     std::optional<vulkan::Buffer> tree_buffer_;
+    std::optional<FirstHits> first_hits_; // of the code, once they were asked for
+    std::optional<Coverage> coverage_;    // likewise
     std::optional<Kernel> kernel_;
     std::optional<Schedule> schedule_;      // of the kernel
     std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path

@@ -155,6 +155,7 @@ private:
     FilmIdentity identity() const;
     Rectangle pixels() const;
     const ErrorEstimate &error();
+    std::span<const double> tile_squares();
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
     std::uint64_t adaptive_from() const;
@@ -167,10 +168,6 @@ private:
     pt_result advance_evenly(SampleDealing::Clock::time_point until);
     pt_result advance_tiles(SampleDealing::Clock::time_point until);
     std::optional<pt_result> next_tiles();
-    std::optional<pt_result> next_adaptive_tiles();
-    std::optional<pt_result> next_even_tiles();
-    bool set_tiles(const std::vector<std::uint32_t> &tiles, const std::function<std::uint64_t(std::uint32_t)> &goal);
-    bool set_all_tiles(const std::function<std::uint64_t(std::uint32_t)> &goal);
     TileSamples samples_of_job();
     void take_over(TileSamples samples) noexcept;
     void forget_error() noexcept;
@@ -190,7 +187,7 @@ private:
     AdaptiveRound round_;                           // that they have come to
     std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_; // likewise
-    std::vector<double> tile_squares_;              // likewise, if they are uneven or may come to be
+    std::vector<double> tile_squares_; // likewise, if they are uneven or may come to be, and a kernel finds them
     DeviceWork work_;
     std::optional<Job> job_; // while samples are under way
 };

@@ -26,36 +26,51 @@ pt_sphere_array columns_of(std::span<const pt_sphere> spheres) {
     return columns;
 }
 
-void read_columns(const pt_sphere_array &columns, std::size_t first, std::span<Sphere> spheres) {
+// at(i) is the row of the i-th sphere, here and below.
+template <typename At>
+void read_columns(const pt_sphere_array &columns, At at, std::span<Sphere> spheres) {
     with_vectors(columns.center, [&](auto center) {
         for (std::size_t i = 0; i < spheres.size(); ++i)
-            spheres[i].center = center(first + i);
+            spheres[i].center = center(at(i));
     });
     with_numbers(columns.radius, [&](auto radius) {
         for (std::size_t i = 0; i < spheres.size(); ++i)
-            spheres[i].radius = radius(first + i);
+            spheres[i].radius = radius(at(i));
     });
     if (is_there(columns.motion))
         with_vectors(columns.motion, [&](auto motion) {
             for (std::size_t i = 0; i < spheres.size(); ++i)
-                spheres[i].motion = motion(first + i);
+                spheres[i].motion = motion(at(i));
         });
     else
         for (Sphere &sphere : spheres)
             sphere.motion = glm::dvec3(0.0);
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-        spheres[i].material = is_there(columns.material) ? element<std::uint32_t>(columns.material, first + i) : 0;
+    if (is_there(columns.material))
+        for (std::size_t i = 0; i < spheres.size(); ++i)
+            spheres[i].material = element<std::uint32_t>(columns.material, at(i));
+    else
+        for (Sphere &sphere : spheres)
+            sphere.material = 0;
 }
 
-void read_color_column(const pt_column &column, std::size_t first, std::span<glm::vec3> colors) {
+template <typename At>
+void read_color_column(const pt_column &column, At at, std::span<glm::vec3> colors) {
     if (is_there(column))
         with_colors(column, [&](auto color) {
             for (std::size_t i = 0; i < colors.size(); ++i)
-                colors[i] = color(first + i);
+                colors[i] = color(at(i));
         });
     else
         std::ranges::fill(colors, glm::vec3(1.0F));
 }
+
+const auto read_spheres = [](const pt_sphere_array &columns, auto at, std::span<Sphere> spheres) {
+    read_columns(columns, at, spheres);
+};
+
+const auto read_own_colors = [](const pt_sphere_array &columns, auto at, std::span<glm::vec3> colors) {
+    read_color_column(columns.color, at, colors);
+};
 
 } // namespace
 
@@ -83,14 +98,32 @@ glm::vec3 SphereSource::color(std::size_t index) const {
     return color;
 }
 
+void SphereSource::mark_materials(std::vector<bool> &used, WorkProgress &progress) const {
+    for (const pt_sphere_array &part : parts_) {
+        const pt_column &column = part.material;
+        const bool is_one_for_all = !is_there(column) || column.stride_bytes == 0;
+        const std::uint32_t rows = is_one_for_all ? std::min(part.count, 1U) : part.count;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+            used[is_there(column) ? element<std::uint32_t>(column, i) : 0] = true;
+            progress.add(1);
+        }
+    }
+}
+
 void SphereSource::read(std::size_t first, std::span<Sphere> spheres) const {
-    read_parts(first, spheres, read_columns);
+    read_parts(first, spheres, read_spheres);
 }
 
 void SphereSource::read_colors(std::size_t first, std::span<glm::vec3> colors) const {
-    read_parts(first, colors, [](const pt_sphere_array &columns, std::size_t from, std::span<glm::vec3> part) {
-        read_color_column(columns.color, from, part);
-    });
+    read_parts(first, colors, read_own_colors);
+}
+
+void SphereSource::read(std::span<const std::uint32_t> indices, std::span<Sphere> spheres) const {
+    read_parts(indices, spheres, read_spheres);
+}
+
+void SphereSource::read_colors(std::span<const std::uint32_t> indices, std::span<glm::vec3> colors) const {
+    read_parts(indices, colors, read_own_colors);
 }
 
 // The last that begins there or before: of empty ones and the part behind them, which begin alike, that part.
@@ -103,10 +136,28 @@ template <typename Element, typename Read>
 void SphereSource::read_parts(std::size_t first, std::span<Element> elements, Read read_part) const {
     for (std::size_t part = part_of(first); !elements.empty(); ++part) {
         const std::size_t count = std::min<std::size_t>(elements.size(), starts_[part + 1] - first);
+        const std::size_t first_row = first - starts_[part];
         if (count > 0)
-            read_part(parts_[part], first - starts_[part], elements.first(count));
+            read_part(
+                parts_[part], [=](std::size_t i) { return first_row + i; }, elements.first(count));
         elements = elements.subspan(count);
         first += count;
+    }
+}
+
+template <typename Element, typename Read>
+void SphereSource::read_parts(std::span<const std::uint32_t> indices, std::span<Element> elements,
+                              Read read_part) const {
+    while (!indices.empty()) {
+        const std::size_t part = part_of(indices.front());
+        const std::uint32_t start = starts_[part];
+        const std::uint32_t size = starts_[part + 1] - start;
+        const auto is_elsewhere = [=](std::uint32_t index) { return index - start >= size; };
+        const auto count = static_cast<std::size_t>(std::ranges::find_if(indices, is_elsewhere) - indices.begin());
+        read_part(
+            parts_[part], [=](std::size_t i) { return std::size_t{indices[i] - start}; }, elements.first(count));
+        indices = indices.subspan(count);
+        elements = elements.subspan(count);
     }
 }
 

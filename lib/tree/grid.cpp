@@ -2,6 +2,7 @@
 #include "lib/tree/grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace pt {
@@ -15,14 +16,22 @@ double step_for(double distance) {
     return std::ldexp(1.0, std::clamp(exponent, -120, 120));
 }
 
+// To a number of this magnitude, whose last bit counts ones, the next whole number is added exactly, ties to even.
+int nearest(double number) {
+    constexpr double ones_are_last = 0x1.8p52;
+    return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));
+}
+
 } // namespace
 
-Grid::Grid(const glm::dvec3 &middle_of, double distance) : middle(middle_of), step(step_for(distance)) {}
+Grid::Grid(const glm::dvec3 &middle_of, double distance) :
+    middle(middle_of),
+    step(step_for(distance)),
+    steps_per_unit(1.0 / step) {}
 
 glm::ivec3 Grid::place(const glm::dvec3 &point) const {
-    const glm::dvec3 steps = (point - middle) / step;
-    return {static_cast<int>(std::nearbyint(steps.x)), static_cast<int>(std::nearbyint(steps.y)),
-            static_cast<int>(std::nearbyint(steps.z))};
+    const glm::dvec3 steps = (point - middle) * steps_per_unit;
+    return {nearest(steps.x), nearest(steps.y), nearest(steps.z)};
 }
 
 } // namespace pt

@@ -17,6 +17,7 @@ struct Grid {
 
     glm::dvec3 middle; // of the grid, in the scene's units
     double step;       // a power of two, in the scene's units
+    double steps_per_unit;
 
     // The finest grid that reaches a distance from its middle, along each axis.
     Grid(const glm::dvec3 &middle_of, double distance);

@@ -1,9 +1,10 @@
 // Divides spheres, top down; see sphere_order.h.
 #include "lib/tree/sphere_order.h"
 
+#include "lib/tree/binned_cut.h"
+#include "lib/tree/swept_cut.h"
+
 #include <algorithm>
-#include <bit>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -12,173 +13,14 @@ namespace pt {
 
 namespace {
 
-using Items = std::span<TreeItem>;
-using Vector = float __attribute__((vector_size(16))); // three coordinates and one that is not used, in one register
-
 // From here on nodes are halved: another log4(2^26) = 13 levels hold all the spheres that a scene may have.
 constexpr std::uint32_t free_depth = 14;
 
-// Of large parts the longest axis alone is looked at: the others are nearly never better there, and cost as much again.
-constexpr std::size_t one_axis_from = 64;
-
-constexpr int most_bins = 16;
-
-// More bins for fewer spheres change nothing but the time.
-int bins_for(std::size_t spheres) {
-    return spheres > 64 ? most_bins : 8;
-}
-
-Vector vector_of(const TreeItem &item) {
-    return std::bit_cast<Vector>(item.centre_radius);
-}
-
-struct Box {
-    static constexpr float none = std::numeric_limits<float>::infinity();
-    Vector low{none, none, none, none};
-    Vector high{-none, -none, -none, -none};
-
-    void add(const Vector &from, const Vector &to) {
-        low = from < low ? from : low;
-        high = to > high ? to : high;
-    }
-
-    void add(const Box &other) { add(other.low, other.high); }
-
-    void add_centre(const TreeItem &item) {
-        const Vector centre = vector_of(item);
-        add(centre, centre);
-    }
-
-    void add_ball(const TreeItem &item) {
-        const Vector centre = vector_of(item);
-        add(centre - centre[3], centre + centre[3]);
-    }
-
-    float extent(std::size_t axis) const { return high[axis] - low[axis]; }
-    bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
-
-    // Half of it; of no box, what is not less than any number.
-    float surface() const { return extent(0) * extent(1) + extent(1) * extent(2) + extent(2) * extent(0); }
-
-    std::size_t longest_axis() const {
-        const std::size_t axis = extent(1) > extent(0) ? 1 : 0;
-        return extent(2) > extent(axis) ? 2 : axis;
-    }
-};
-
-// Spheres that are still together, and the box of their centres.
-struct Part {
-    Items items;
-    Box centres;
-    float surface = 0.0F; // of the box about the spheres
-};
-
-Box centres_of(Items items) {
-    Box box;
-    for (const TreeItem &item : items)
-        box.add_centre(item);
-    return box;
-}
-
 Part part_of(Items items) {
-    Box balls;
-    for (const TreeItem &item : items)
-        balls.add_ball(item);
-    return {items, centres_of(items), balls.surface()};
+    return {items, centres_of(items), balls_of(items).surface()};
 }
 
-// Divides centres along an axis into bins of equal width.
-class Bins {
-public:
-    Bins(const Part &part, std::size_t axis) :
-        axis_(axis),
-        count_(bins_for(part.items.size())),
-        low_(part.centres.low[axis]),
-        scale_(static_cast<float>(count_) / part.centres.extent(axis)) {}
-
-    int count() const { return count_; }
-
-    int bin_of(const TreeItem &item) const {
-        return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
-    }
-
-private:
-    std::size_t axis_;
-    int count_;
-    float low_;
-    float scale_;
-};
-
-// Where to divide a part: before a bin of an axis.
-struct Cut {
-    float cost = std::numeric_limits<float>::infinity(); // none, then
-    std::size_t axis = 0;
-    int bin = 0;
-    float first_surface = 0.0F;
-    float second_surface = 0.0F;
-};
-
-// Nodes of the lowest level for so many spheres.
-float nodes_for(std::size_t count) {
-    return static_cast<float>((count + tree_width - 1) / tree_width);
-}
-
-// Looks for a better cut between the bins of an axis.
-void improve(Cut &best, const Part &part, std::size_t axis) {
-    const Bins bins(part, axis);
-    std::array<Box, most_bins> boxes;
-    std::array<std::size_t, most_bins> counts{};
-    for (const TreeItem &item : part.items) {
-        const auto bin = static_cast<std::size_t>(bins.bin_of(item));
-        boxes[bin].add_ball(item);
-        ++counts[bin];
-    }
-    std::array<float, most_bins> surfaces_from{}; // of the balls in a bin and those after it
-    Box after;
-    for (int bin = bins.count() - 1; bin > 0; --bin) {
-        after.add(boxes[static_cast<std::size_t>(bin)]);
-        surfaces_from[static_cast<std::size_t>(bin)] = after.surface();
-    }
-    Box before;
-    std::size_t count = 0;
-    for (int bin = 1; bin < bins.count(); ++bin) {
-        const auto i = static_cast<std::size_t>(bin);
-        before.add(boxes[i - 1]);
-        count += counts[i - 1];
-        if (count == 0 || count == part.items.size())
-            continue;
-        const float first = before.surface();
-        const float cost = first * nodes_for(count) + surfaces_from[i] * nodes_for(part.items.size() - count);
-        if (cost < best.cost)
-            best = {cost, axis, bin, first, surfaces_from[i]};
-    }
-}
-
-Cut best_cut(const Part &part) {
-    Cut best;
-    const std::size_t longest = part.centres.longest_axis();
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (part.centres.extent(axis) > 0.0F && (axis == longest || part.items.size() < one_axis_from))
-            improve(best, part, axis);
-    return best;
-}
-
-// Without branches, of which every other would be mispredicted.
-std::pair<Part, Part> divided_at(const Part &part, const Cut &cut) {
-    const Bins bins(part, cut.axis);
-    std::size_t count = 0; // on the first side so far; up to the item that is looked at, the others are on the second
-    for (TreeItem &item : part.items) {
-        const TreeItem looked_at = item;
-        item = part.items[count];
-        part.items[count] = looked_at;
-        count += bins.bin_of(looked_at) < cut.bin ? 1 : 0;
-    }
-    const Items first = part.items.first(count);
-    const Items second = part.items.subspan(count);
-    return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
-}
-
-std::pair<Part, Part> halved(const Part &part) {
+Halves halved(const Part &part) {
     const std::size_t axis = part.centres.longest_axis();
     const auto order = [axis](const TreeItem &item) { return std::tuple(item.centre_radius[axis], item.sphere); };
     const std::size_t half = part.items.size() / 2;
@@ -186,13 +28,10 @@ std::pair<Part, Part> halved(const Part &part) {
     return {part_of(part.items.first(half)), part_of(part.items.subspan(half))};
 }
 
-std::pair<Part, Part> divided(const Part &part, std::uint32_t depth) {
-    if (depth < free_depth) {
-        const Cut cut = best_cut(part);
-        if (cut.bin > 0)
-            return divided_at(part, cut);
-    }
-    return halved(part);
+Halves divided(const Part &part, std::uint32_t depth) {
+    if (depth >= free_depth || part.centres.is_point())
+        return halved(part);
+    return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
 // How the tree is made, beside the spheres: what twins are, and who is told.
@@ -201,8 +40,19 @@ struct Making {
     WorkProgress &progress;
 };
 
+// Whether any two of few spheres may be twins.
+bool have_equals(Items items) {
+    for (std::size_t i = 0; i < items.size(); ++i)
+        for (std::size_t other = 0; other < i; ++other)
+            if (items[i].centre_radius == items[other].centre_radius)
+                return true;
+    return false;
+}
+
 Part without_twins(Part part, const Making &making) {
     const std::size_t count = part.items.size();
+    if (count <= tree_width && !have_equals(part.items))
+        return part;
     std::ranges::sort(part.items, [&](const TreeItem &a, const TreeItem &b) {
         making.progress.add(0.0, 1);
         if (a.centre_radius != b.centre_radius)
@@ -284,6 +134,7 @@ TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, Work
         std::uint32_t depth;
     };
     TreeShape shape{{TreeLinks{}}, {}, 0};
+    shape.nodes.reserve(items.size() / 2); // nearly always enough
     shape.spheres.reserve(items.size());
     std::vector<Task> tasks{{part_of(items), 0, 1}};
     while (!tasks.empty()) {

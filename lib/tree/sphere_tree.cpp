@@ -2,6 +2,8 @@
 #include "lib/tree/sphere_tree.h"
 
 #include "lib/tree/equal_words.h"
+#include "lib/tree/scene_numbers.h"
+#include "lib/tree/sphere_words.h"
 #include "lib/tree/tree_node.h"
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
-#include <limits>
 
 namespace pt {
 
@@ -18,127 +19,41 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // a place that there is not
 
-// A shape is kept while the cost of the tree is within this factor of what it was when the shape was made; below, too, as
-// something else than places has changed then. On lavapipe, with 10^3 to 10^6 spheres that went astray: at 1.04 rays take 2%
-// longer, at 1.12 7%, at 1.25 an eighth to a seventh, at 1.5 a quarter, at 2.7 twice and at 6.4 four times as long. A new
-// tree takes two or three times as long as one whose shape is kept.
+// A shape is kept while the cost of the tree is within this factor of what it was when the shape was made; below, too,
+// as something else than places has changed then. On lavapipe, with 10^3 to 10^6 spheres that went astray: at 1.04 rays
+// take 2% longer, at 1.12 7%, at 1.25 an eighth to a seventh, at 1.5 a quarter, at 2.7 twice and at 6.4 four times as
+// long. A new tree takes twice as long as one whose shape is kept.
 constexpr double most_growth = 1.25;
 
 // Of what is left of the work when a stage begins, as measured with a million spheres.
-constexpr double share_of_extent = 0.06;
 constexpr double share_of_items = 0.1;
-constexpr double share_of_shape = 0.75;
+constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;
 constexpr double share_of_nodes = 0.9;
 constexpr double share_of_alike = 0.5;
 constexpr double share_of_close_lamps = 0.5;
 
-// Of the spheres that are in the tree: calls use(index, sphere, color) for each, in order.
-template <typename Use>
-void for_each_of(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
-                 Use &&use) {
-    spheres.for_each(progress, [&](std::size_t index, const Sphere &sphere, const glm::vec3 &color) {
-        if (!left_out.empty() && left_out.front() == index)
-            left_out = left_out.subspan(1);
-        else
-            use(static_cast<std::uint32_t>(index), sphere, color);
-    });
-}
-
-} // namespace
-
-// What spheres take up at any time, and how many of them emit.
-struct SphereTree::Extent {
-    glm::dvec3 low{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-    double largest_radius = 0.0;
-    bool moves = false;
-    std::uint32_t lamp_count = 0;
-
-    void add(const Sphere &sphere) {
-        const glm::dvec3 end = sphere.center + sphere.motion;
-        low = glm::min(low, glm::min(sphere.center, end) - sphere.radius);
-        high = glm::max(high, glm::max(sphere.center, end) + sphere.radius);
-        largest_radius = std::max(largest_radius, sphere.radius);
-        moves = moves || sphere.motion != glm::dvec3(0.0);
-    }
-
-    // With a step more than needed on either side, for rounding to places. Of balls that are all but points where they are
-    // the box may be nothing but rounding.
-    Grid grid() const {
-        const glm::dvec3 half = 0.5 * high - 0.5 * low;
-        return {0.5 * low + 0.5 * high, std::max({half.x, half.y, half.z, largest_radius}) * (1.0 + 0x1p-28)};
-    }
-
-    static Extent of(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
-                     std::span<const TreeMaterial> materials, WorkProgress &progress) {
-        progress.enter(share_of_extent, static_cast<double>(spheres.size()));
-        Extent extent;
-        for_each_of(spheres, left_out, progress, [&](std::uint32_t, const Sphere &sphere, const glm::vec3 &) {
-            extent.add(sphere);
-            extent.lamp_count += materials[sphere.material].emits ? 1 : 0;
-        });
-        return extent;
-    }
-};
-
-namespace {
-
-glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid) {
-    return {grid.place(sphere.center), std::bit_cast<std::uint32_t>(static_cast<float>(sphere.radius))};
-}
-
-glm::uvec4 motion_word(const Sphere &sphere) {
-    const glm::vec3 way = glm::vec3(sphere.motion) + 0.0F; // -0 is made +0, for twins
-    return {std::bit_cast<std::uint32_t>(way.x), std::bit_cast<std::uint32_t>(way.y),
-            std::bit_cast<std::uint32_t>(way.z), 0};
-}
-
-glm::ivec3 centre_of(const glm::uvec4 &word) {
-    return {std::bit_cast<int>(word.x), std::bit_cast<int>(word.y), std::bit_cast<int>(word.z)};
-}
-
-glm::dvec3 way_of(const glm::uvec4 &word) {
-    return {std::bit_cast<float>(word.x), std::bit_cast<float>(word.y), std::bit_cast<float>(word.z)};
-}
-
-// What the kernel has of a sphere.
-std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid) {
-    const glm::uvec4 place = sphere_word(sphere, grid);
-    const glm::uvec4 motion = motion_word(sphere);
-    return {place.x, place.y, place.z, place.w, motion.x, motion.y, motion.z};
-}
-
-// Of the sphere as the kernel has it, so that twins have equal ones.
-std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid) {
-    const glm::uvec4 word = sphere_word(sphere, grid);
-    const glm::dvec3 half_way = 0.5 * way_of(motion_word(sphere));
-    const glm::vec3 centre(glm::dvec3(centre_of(word)) + half_way / grid.step);
-    const double radius = double{std::bit_cast<float>(word.w)} + glm::length(half_way);
-    return {centre.x, centre.y, centre.z, static_cast<float>(radius / grid.step)};
+// Of numbers that an int holds: std::ceil is a call where the processor may be an old one.
+int ceiling(double number) {
+    const auto whole = static_cast<int>(number);
+    return whole + (whole < number ? 1 : 0);
 }
 
 std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std::uint32_t> left_out, const Grid &grid,
                                WorkProgress &progress) {
     std::vector<TreeItem> items;
     items.reserve(spheres.size() - left_out.size());
-    for_each_of(spheres, left_out, progress, [&](std::uint32_t index, const Sphere &sphere, const glm::vec3 &) {
+    for_each_in_tree(spheres, left_out, progress, [&](std::uint32_t index, const Sphere &sphere) {
         items.push_back({ball_of(sphere, grid), index});
     });
     return items;
-}
-
-// Ten bits for the root of each component, which keep dark colours apart as well as bright ones.
-std::uint32_t color_word(const glm::vec3 &color) {
-    const glm::uvec3 steps(glm::sqrt(glm::clamp(color, 0.0F, 1.0F)) * float{gpu::TREE_COLOR_STEPS} + 0.5F);
-    return steps.r | steps.g << 10 | steps.b << 20;
 }
 
 } // namespace
 
 SphereTree::SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                        std::span<const TreeMaterial> materials, WorkProgress &progress) :
-    SphereTree(Extent::of(spheres, left_out, materials, progress), spheres, left_out) {
+    SphereTree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out) {
     const auto order = [&](std::uint32_t a, std::uint32_t b) {
         return words_of(spheres[a], grid_) <=> words_of(spheres[b], grid_);
     };
@@ -166,7 +81,7 @@ std::optional<SphereTree> SphereTree::with_shape_of(const SphereTree &other, con
         other.scene_sphere_count_ == spheres.size() && std::ranges::equal(other.left_out_, left_out);
     if (!are_the_same || other.sphere_count_ + left_out.size() != spheres.size())
         return std::nullopt;
-    SphereTree tree(Extent::of(spheres, left_out, materials, progress), spheres, left_out);
+    SphereTree tree(SphereExtent(spheres, left_out, materials, progress), spheres, left_out);
     tree.depth_ = other.depth_;
     tree.spheres_ = other.spheres_;
     tree.cost_as_made_ = other.cost_as_made_;
@@ -181,7 +96,8 @@ std::optional<SphereTree> SphereTree::with_shape_of(const SphereTree &other, con
     return tree;
 }
 
-SphereTree::SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out) :
+SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
+                       std::span<const std::uint32_t> left_out) :
     grid_(extent.grid()),
     moves_(extent.moves),
     has_colors_(spheres.has_colors()),
@@ -214,24 +130,14 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// All blocks but the nodes'. The caller's spheres are read in their order, which is faster than any other.
+// All blocks but the nodes', in the order of the tree: to read the caller's memory anywhere takes less time than to
+// write there.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
-    const std::vector<std::uint32_t> places = places_of_spheres();
-    progress.add(0.0, places.size());
-    // Places are anywhere in memory: it is asked for early, which spares an eighth of the call.
-    const auto fetch = [&](std::uint32_t place) {
-        if (place == nowhere)
-            return;
-        for (const std::uint32_t word : {first_sphere_ + place, first_surface_ + place / 4, first_color_ + place / 4})
-            __builtin_prefetch(&words_[std::min(word, first_lamp_ - 1)], 1);
-    };
-    progress.enter(share_of_spheres, static_cast<double>(spheres.size()));
-    spheres.for_each(progress, [&](std::size_t index, const Sphere &sphere, const glm::vec3 &color) {
-        fetch(places[std::min(index + 16, places.size() - 1)]);
-        const std::uint32_t place = places[index];
-        if (place == nowhere)
-            return;
+    std::vector<FoundLamp> lamps;
+    lamps.reserve(lamp_materials_.capacity());
+    progress.enter(share_of_spheres, static_cast<double>(sphere_count_));
+    spheres.for_each(*spheres_, progress, [&](std::size_t place, const Sphere &sphere, const glm::vec3 &color) {
         const auto component = static_cast<int>(place % 4);
         const TreeMaterial &material = materials[sphere.material];
         words_[first_sphere_ + place] = sphere_word(sphere, grid_);
@@ -240,34 +146,48 @@ void SphereTree::write_spheres(const SphereSource &spheres, std::span<const Tree
         if (has_colors_)
             words_[first_color_ + place / 4][component] = color_word(color);
         words_[first_surface_ + place / 4][component] = material.index;
-        if (material.emits) {
-            const auto number = static_cast<std::uint32_t>(lamp_materials_.size());
-            words_[first_surface_ + place / 4][component] = gpu::TREE_LAMP_BIT + number;
-            words_.emplace_back(place, material.index, 0, 0);
-            lamp_materials_.push_back(sphere.material);
-        }
+        if (material.emits)
+            lamps.push_back({static_cast<std::uint32_t>(place), sphere.material});
     });
+    if (!lamps.empty())
+        write_lamps(lamps, materials);
 }
 
-// By links that are there already. Boxes come from what is below them, which the order of nodes puts behind them.
-void SphereTree::write_nodes(WorkProgress &progress) {
-    std::vector<GridBox> boxes(node_count());
-    progress.enter(share_of_nodes, static_cast<double>(node_count()));
-    double surfaces = 0.0;
-    for (std::uint32_t node = node_count(); node-- > 0;) {
-        const TreeLinks links = TreeNodeView(words_of_node(node)).links();
-        TreeNode written(links);
-        for (std::uint32_t child = 0; child < links.child_count; ++child)
-            written.set_box(child, child < links.inner_count
-                                       ? boxes[links.first_child + child]
-                                       : box_of_place(links.first_place + child - links.inner_count));
-        boxes[node] = written.box();
-        surfaces += boxes[node].surface();
-        std::ranges::copy(written.words(), words_of_node(node).begin());
-        progress.add(1);
+void SphereTree::write_lamps(std::span<const FoundLamp> lamps, std::span<const TreeMaterial> materials) {
+    SceneNumbers numbers(scene_sphere_count_);
+    for (const FoundLamp &lamp : lamps)
+        numbers.add((*spheres_)[lamp.place]);
+    numbers.count();
+    lamp_materials_.resize(lamps.size());
+    words_.resize(first_lamp_ + lamps.size());
+    for (const FoundLamp &lamp : lamps) {
+        const std::uint32_t number = numbers.number_of((*spheres_)[lamp.place]);
+        lamp_materials_[number] = lamp.material;
+        words_[first_lamp_ + number] = {lamp.place, materials[lamp.material].index, 0, 0};
+        words_[first_surface_ + lamp.place / 4][static_cast<int>(lamp.place % 4)] = gpu::TREE_LAMP_BIT + number;
     }
-    box_ = boxes.front();
-    cost_ = surfaces / box_.surface();
+}
+
+// By links that are there already.
+void SphereTree::write_nodes(WorkProgress &progress) {
+    progress.enter(share_of_nodes, static_cast<double>(node_count()));
+    cost_ = 0.0;
+    box_ = write_node(0, progress);
+    cost_ /= box_.surface();
+}
+
+// Writes what is below first, where its box comes from, and adds all surfaces to the cost. As deep as the tree; from
+// the last child to the first, which is the order of nodes and places.
+GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
+    const TreeLinks links = TreeNodeView(words_of_node(node)).links();
+    TreeNode written(links);
+    for (std::uint32_t child = links.child_count; child-- > 0;)
+        written.set_box(child, child < links.inner_count ? write_node(links.first_child + child, progress)
+                                                         : box_of_place(links.first_place + child - links.inner_count));
+    cost_ += written.box().surface();
+    std::ranges::copy(written.words(), words_of_node(node).begin());
+    progress.add(1);
+    return written.box();
 }
 
 // Whether two spheres are equal in all that is held but their motion.
@@ -276,16 +196,10 @@ bool SphereTree::has_alike(WorkProgress &progress) const {
     return has_equal_words(std::span(words_).subspan(first_sphere_, sphere_count_), progress);
 }
 
-// By the spheres' indices in the scene; nowhere: of what is left out, and of twins.
-std::vector<std::uint32_t> SphereTree::places_of_spheres() const {
-    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere);
+std::vector<std::uint32_t> SphereTree::places_in_scene_order() const {
+    std::vector<std::uint32_t> places(scene_sphere_count_, nowhere); // where a sphere is left out, or a twin
     for (std::uint32_t place = 0; place < sphere_count_; ++place)
         places[(*spheres_)[place]] = place;
-    return places;
-}
-
-std::vector<std::uint32_t> SphereTree::places_in_scene_order() const {
-    std::vector<std::uint32_t> places = places_of_spheres();
     std::erase(places, nowhere);
     return places;
 }
@@ -305,7 +219,7 @@ SphereTree::HeldSphere SphereTree::held(std::uint32_t place) const {
 MovingBall SphereTree::ball_at(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
     return {grid_.point(centre_of(word)), moves_ ? way_of(words_[first_motion_ + place]) : glm::dvec3(0.0),
-            std::bit_cast<float>(word.w)};
+            radius_of(word)};
 }
 
 bool SphereTree::is_far(const Camera &camera) const {
@@ -316,7 +230,7 @@ bool SphereTree::is_far(const Camera &camera) const {
 // Of the sphere as the kernel has it, at any time: what rounding adds there is the kernel's margin.
 GridBox SphereTree::box_of_place(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
-    const auto radius = static_cast<int>(std::ceil(double{std::bit_cast<float>(word.w)} / grid_.step));
+    const int radius = ceiling(radius_of(word) * grid_.steps_per_unit);
     const glm::ivec3 centre = centre_of(word);
     GridBox box{centre - radius, centre + radius};
     if (moves_) {

@@ -11,6 +11,7 @@
 #include "lib/scene/scene.h"
 #include "lib/scene/sphere_source.h"
 #include "lib/tree/grid.h"
+#include "lib/tree/sphere_extent.h"
 #include "lib/tree/sphere_order.h"
 #include "shaders/gpu_layout.h"
 
@@ -22,12 +23,6 @@
 #include <vector>
 
 namespace pt {
-
-// What the tree has to know of a material.
-struct TreeMaterial {
-    std::uint32_t index; // in the table of those in use
-    bool emits;
-};
 
 // In the scene's coordinates.
 struct PointBox {
@@ -81,6 +76,10 @@ public:
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
+
+    // The spheres of the places by their indices in the scene, which has so many in all.
+    std::span<const std::uint32_t> spheres() const { return *spheres_; }
+    std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
 
     // Materials of the lamps by number, which is their order in the scene.
@@ -99,17 +98,22 @@ public:
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    struct Extent;
+    // One among the spheres, of a material by its number in the scene.
+    struct FoundLamp {
+        std::uint32_t place;
+        std::uint32_t material;
+    };
 
     // Without a shape, and so without words.
-    SphereTree(const Extent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
+    SphereTree(const SphereExtent &extent, const SphereSource &spheres, std::span<const std::uint32_t> left_out);
 
     void make_room(std::size_t node_count, WorkProgress &progress);
     std::span<glm::uvec4> words_of_node(std::size_t node);
     void write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials, WorkProgress &progress);
+    void write_lamps(std::span<const FoundLamp> lamps, std::span<const TreeMaterial> materials);
     void write_nodes(WorkProgress &progress);
+    GridBox write_node(std::uint32_t node, WorkProgress &progress);
     bool has_alike(WorkProgress &progress) const;
-    std::vector<std::uint32_t> places_of_spheres() const;
     std::vector<std::uint32_t> places_in_scene_order() const;
     HeldSphere held(std::uint32_t place) const;
     MovingBall ball_at(std::uint32_t place) const;

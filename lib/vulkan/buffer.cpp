@@ -193,6 +193,8 @@ void Buffer::download(std::span<const BufferPiece> pieces) {
 }
 
 void Buffer::write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const {
+    if (data.empty()) // which Vulkan does not allow; a scene without surfaces has no words
+        return;
     commands.updateBuffer<std::byte>(
         handle(), 0, vk::ArrayProxy<const std::byte>(static_cast<std::uint32_t>(data.size()), data.data()));
 }

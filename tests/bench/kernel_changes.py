@@ -28,11 +28,11 @@ import subprocess
 import sys
 import tempfile
 import time
-from ctypes import CFUNCTYPE, POINTER, c_char_p, c_int32, c_uint32, c_uint64, c_void_p
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/support"))
 from scene_file import read_scene  # noqa: E402
+from scene_renderer import SceneRenderer, structs, vector  # noqa: E402
 
 WIDTH, HEIGHT = 256, 128
 
@@ -58,20 +58,9 @@ def cpu_seconds():
 class Viewer:
     """A context that renders frames of one sample, and counts the kernels that are built."""
 
-    def __init__(self, options):
+    def __init__(self, options, scene):
         os.environ["PT_LIBRARY"] = options.child
-        import scene_renderer  # it reads PT_LIBRARY
-        smallest = scene_renderer.smallest
-        self.module, self.kernels = scene_renderer, []
-        log_fn = CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
-        load_fn = CFUNCTYPE(c_uint64, c_void_p, c_char_p, c_void_p, c_uint64)
-        store_fn = CFUNCTYPE(None, c_void_p, c_char_p, c_void_p, c_uint64)
-
-        class CreateInfo(smallest.Sized):
-            _fields_ = [("struct_size", c_uint32), ("flags", c_uint32), ("device", c_char_p), ("log", log_fn),
-                        ("log_user", c_void_p), ("submit_milliseconds", c_uint32), ("reserved", c_uint32),
-                        ("vulkan", c_void_p), ("shader_dir", c_char_p), ("load_kernels", load_fn),
-                        ("store_kernels", store_fn), ("kernels_user", c_void_p)]
+        self.kernels = []
 
         def log(_, level, line):
             match = re.match(rb"built a kernel for (this scene|all scenes)", line)
@@ -89,23 +78,19 @@ class Viewer:
             pathlib.Path(options.kept).mkdir(parents=True, exist_ok=True)
             pathlib.Path(options.kept, key.decode()).write_bytes(ctypes.string_at(data, size))
 
-        self.log = log_fn(log)
-        fields = {"log": self.log, "flags": 2 if options.no_scene_kernels else 0}
+        fields = {"log": structs.pt_log_fn(log), "flags": 2 if options.no_scene_kernels else 0}
         if options.kept:
-            self.callbacks = load_fn(load), store_fn(store)
-            fields.update(load_kernels=self.callbacks[0], store_kernels=self.callbacks[1])
-        self.renderer = renderer = object.__new__(scene_renderer.SceneRenderer)
-        renderer.library, renderer.context = smallest.load_library(), c_void_p()
-        renderer.library.pt_create.argtypes = [POINTER(CreateInfo), POINTER(c_void_p)]
-        renderer._check(renderer.library.pt_create(CreateInfo(**fields), renderer.context))
-        renderer.set_render(WIDTH, HEIGHT, max_path_length=options.path_length)
+            fields.update(load_kernels=structs.pt_load_kernels_fn(load),
+                          store_kernels=structs.pt_store_kernels_fn(store))
+        self.callbacks = fields  # are called as long as the context lives
+        self.renderer = SceneRenderer(scene, **fields)
+        self.renderer.set_render(WIDTH, HEIGHT, max_path_length=options.path_length)
 
     def set_scene(self, scene):
         self.renderer.set_json(scene)
 
     def look(self, position, target=(0, 0, 0)):
-        self.renderer.set_camera(position=self.module.vector(position), target=self.module.vector(target),
-                                 vertical_fov=0.927)
+        self.renderer.set_camera(position=vector(position), target=vector(target), vertical_fov=0.927)
 
     def measured(self, run):
         """CPU milliseconds, wall milliseconds and the kinds of kernels built."""
@@ -119,8 +104,7 @@ class Viewer:
         return self.measured(lambda: self.renderer.accumulate(1))
 
     def prepare(self):
-        self.renderer.library.pt_prepare.argtypes = [c_void_p]
-        return self.measured(lambda: self.renderer._check(self.renderer.library.pt_prepare(self.renderer.context)))
+        return self.measured(lambda: self.renderer.call("pt_prepare"))
 
 
 def without_a_lamp(scene):
@@ -149,8 +133,7 @@ def child(options):
     results = {}
 
     def ready():
-        viewer = Viewer(options)
-        viewer.set_scene(scene)
+        viewer = Viewer(options, scene)
         viewer.look((0, 0, 1))
         return viewer
 

@@ -29,7 +29,6 @@ sys.path.insert(0, os.path.join(ROOT, "tests/support"))
 from scene_file import FOLDER, read_scene  # noqa: E402
 from scene_renderer import SceneRenderer, vector  # noqa: E402
 from table import print_table  # noqa: E402
-import smallest  # noqa: E402  (found by scene_renderer)
 
 
 def parse_arguments():
@@ -77,16 +76,10 @@ class Measured:
                                  vertical_fov=math.radians(self.camera["vertical_fov"]))
 
     def accumulate(self, samples, target_error=0.0):
-        result = self.renderer.library.pt_accumulate(
-            self.renderer.context, smallest.pt_accumulate_info(sample_count=samples, target_error=target_error))
-        if result < 0:
-            raise RuntimeError(self.renderer.library.pt_last_error(self.renderer.context).decode())
+        self.renderer.accumulate(samples, target_error)
 
     def readback(self):
-        result = self.renderer.library.pt_readback(
-            self.renderer.context, smallest.pt_image(data=self.image, size_bytes=ctypes.sizeof(self.image)))
-        if result < 0:
-            raise RuntimeError(self.renderer.library.pt_last_error(self.renderer.context).decode())
+        self.renderer.readback(self.image)
 
     def sample_count(self):
         stats = self.renderer.stats()

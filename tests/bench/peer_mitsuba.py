@@ -14,7 +14,8 @@ pt, beyond path length 2, the first vertex of a sample is left by 4. Both rates 
 Measured in rounds, each of both programs, medians over them. The cost is in CPU seconds of all threads (on a GPU in wall
 seconds) of rendering alone, without start-up, compilation and files, at several sample counts. relMSE is the mean over
 pixels and channels of (x - r)^2 / (r^2 + 0.01) against the reference r. The cost of an error lies on the line between two
-sample counts, both axes logarithmic; "~" marks those beyond the counts measured, found with the slope -1.
+sample counts, both axes logarithmic; "~" marks those beyond the counts measured, found with the slope -1. pt is measured with
+target errors too, which give pixels different numbers of samples; their ratio is to Mitsuba's first sampler.
 """
 
 import argparse
@@ -34,8 +35,10 @@ sys.path.insert(0, os.path.join(ROOT, "tests/support"))
 from scene_file import read_scene  # noqa: E402
 
 PATH_LENGTHS = {
-    2: {"pt": [1, 4, 16, 64, 256], "mitsuba": [16, 64, 256, 1024], "errors": [1e-2, 1e-3, 1e-4]},
-    6: {"pt": [4, 16, 64, 256], "mitsuba": [16, 64, 256, 400], "errors": [5e-3]},
+    2: {"pt": [1, 4, 16, 64, 256], "targets": [0.2, 0.06, 0.05, 0.04, 0.03, 0.02, 0.015, 0.01],
+        "mitsuba": [16, 64, 256, 1024], "errors": [1e-2, 1e-3, 1e-4]},
+    6: {"pt": [4, 16, 64, 256], "targets": [0.3, 0.2, 0.14, 0.1, 0.07, 0.05, 0.035],
+        "mitsuba": [16, 64, 256, 400, 1024], "errors": [5e-3, 1e-3]},
 }
 PT_SAMPLERS = {"multijitter": "sobol", "independent": "random"}  # what stands beside which sampler of Mitsuba's
 BRANCHES = {2: 1, 6: 4}  # paths of pt's from the first vertex of a sample
@@ -53,13 +56,12 @@ def parse_arguments():
     return parser.parse_args()
 
 
-def run_pt(options, scene, reference, length, round_number):
-    """One round: sampler -> sample count -> (cost, relMSE)."""
+def run_pt(options, scene, reference, length, round_number, samplers, *aims):
+    """One round of pt bench, with numbers of samples or target errors: sampler -> point of each -> (cost, relMSE)."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "bench.json")
-        samplers = [PT_SAMPLERS[sampler] for sampler in options.samplers]
         command = [options.pt, "bench", scene, "--reference", reference, "--max-path-length", str(length),
-                   "--samplers", ",".join(samplers), "--spp", ",".join(map(str, PATH_LENGTHS[length]["pt"])),
+                   "--samplers", ",".join(samplers), *aims,
                    "--rounds", "1", "--seed", str(1000 * round_number), "--json", path, "--quiet"]
         subprocess.run(command + (["--device", options.device] if options.device else []), check=True)
         with open(path, encoding="utf-8") as file:
@@ -67,7 +69,8 @@ def run_pt(options, scene, reference, length, round_number):
     unit = "seconds" if options.variant.startswith("cuda") else "processor_seconds"
     points = {sampler: {} for sampler in samplers}
     for cell in bench["cells"]:
-        points[cell["sampler"]][cell["spp"]] = (cell[unit], cell["rel_mse"])
+        grows = 1 / cell["target_error"] if cell["target_error"] else cell["spp"]
+        points[cell["sampler"]][grows] = (cell[unit], cell["rel_mse"])
     return points, bench["device"]["name"]
 
 
@@ -126,10 +129,14 @@ def measure(options, mitsuba, scene_path, scene, length):
     reference_path = os.path.join(ROOT, f"tests/reference/coursework_L{length}.exr")
     reference = mitsuba.read(reference_path)
     run_mitsuba(options, mitsuba, reference, length, 1)  # compiles
-    pt_rounds, mitsuba_rounds, means = [], [], []
+    samplers = [PT_SAMPLERS[sampler] for sampler in options.samplers]
+    lists = {key: ",".join(map(str, PATH_LENGTHS[length][key])) for key in ("pt", "targets")}
+    pt_rounds, mitsuba_rounds, target_rounds, means = [], [], [], []
     for number in range(options.rounds):
-        points, device = run_pt(options, scene_path, reference_path, length, number)
+        points, device = run_pt(options, scene_path, reference_path, length, number, samplers, "--spp", lists["pt"])
         pt_rounds.append(points)
+        points, _ = run_pt(options, scene_path, reference_path, length, number, ["sobol"], "--errors", lists["targets"])
+        target_rounds.append(points)
         points, mean = run_mitsuba(options, mitsuba, reference, length, 2 + number)
         mitsuba_rounds.append(points)
         means.append(mean)
@@ -139,7 +146,9 @@ def measure(options, mitsuba, scene_path, scene, length):
     ours = {sampler: summary(points, length, pixel_count, BRANCHES[length])
             for sampler, points in medians(pt_rounds).items()}
     theirs = {sampler: summary(points, length, pixel_count, 1) for sampler, points in medians(mitsuba_rounds).items()}
+    targets = medians(target_rounds)["sobol"]
     return {"device": device, "pt": ours, "mitsuba": theirs,
+            "targets": {f"{error:g}": cost_of_error(targets, error) for error in PATH_LENGTHS[length]["errors"]},
             "ratios": {sampler: ratios(ours[PT_SAMPLERS[sampler]], theirs[sampler]) for sampler in theirs}}
 
 
@@ -150,8 +159,12 @@ def ratios(ours, theirs):
                               for error in ours["cost_of_error"]}}
 
 
+def cost_texts(costs):
+    return [("" if within else "~") + f"{cost:.3g}" for cost, within in costs.values()]
+
+
 def row(program, sampler, figures):
-    costs = [("" if within else "~") + f"{cost:.3g}" for cost, within in figures["cost_of_error"].values()]
+    costs = cost_texts(figures["cost_of_error"])
     errors = " ".join(f"{point['spp']}: {point['rel_mse']:.2g}" for point in figures["points"])
     return [program, sampler, f"{figures['samples_per_second'] / 1e6:.3g}", f"{figures['paths_per_second'] / 1e6:.3g}",
             *costs, errors]
@@ -169,6 +182,9 @@ def print_result(length, result):
         ours = result["pt"][PT_SAMPLERS[sampler]]
         rows += [row("pt", PT_SAMPLERS[sampler], ours), row("Mitsuba", sampler, theirs),
                  ratio_row(result["ratios"][sampler])]
+    theirs = next(iter(result["mitsuba"].values()))["cost_of_error"]
+    rows += [["pt, target errors", "sobol", "", "", *cost_texts(result["targets"]), ""],
+             ["ratio", "", "", "", *(f"{theirs[error][0] / cost:.3g}" for error, (cost, _) in result["targets"].items()), ""]]
     print(f"\nPath length {length}, pt on {result['device']}")
     print_table(rows)
 

@@ -78,7 +78,7 @@ def render(options, name):
         images = [take(seed, "sobol", "mis", options.samples) for seed in SEEDS]
         mean = array.array("f", (statistics.fmean(values) for values in zip(*images)))
         checks = [block_means(take(seed, "random", CHECKS[name], options.check_samples), *SIZE) for seed in CHECK_SEEDS]
-        facts = {"scene": digest(scene), "device": renderer.device_name(), "width": WIDTH, "height": HEIGHT,
+        facts = {"scene": digest(scene), "device": renderer.device().name.decode(), "width": WIDTH, "height": HEIGHT,
                  "images": len(images), "samples": options.samples, "own_error": own_error(images, mean)}
     write_pfm(options.folder / f"{name}.pfm", mean)
     means = {"reference": [block_means(image, *SIZE) for image in images], "check": checks}

@@ -42,10 +42,10 @@ from table import print_table  # noqa: E402
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
-from scene_renderer import SceneRenderer, colour, vector  # noqa: E402
-import smallest  # noqa: E402  (found by scene_renderer)
+from scene_renderer import SceneRenderer, colour, structs, vector  # noqa: E402
 
 PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
+FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
 MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
 REFERENCE_FACTOR, REFERENCE_SEED = 64, 1000
@@ -86,8 +86,7 @@ class Library:
         self.name, self.options = name, options
         scene = cloud.surroundings()
         self.renderer = SceneRenderer(scene)
-        device = smallest.pt_device_info()
-        self.renderer._check(self.renderer.library.pt_get_context_device(self.renderer.context, device))
+        device = self.renderer.device()
         self.device, self.on_cpu = device.name.decode(), device.kind == PT_DEVICE_CPU
         self.render(options.lengths[0], 1)
         before = self.renderer.stats().device_bytes
@@ -99,20 +98,19 @@ class Library:
 
     def set_scene(self, scene, cloud):
         names = list(scene["materials"])
-        materials = [smallest.pt_material(diffuse=colour(m.get("diffuse", 0)), emission=colour(m.get("emission", 0)))
+        materials = [structs.pt_material(diffuse=colour(m.get("diffuse", 0)), emission=colour(m.get("emission", 0)))
                      for m in scene["materials"].values()]
-        lamps = [smallest.pt_sphere(vector(s["center"]), s["radius"], material=names.index(s["material"]))
+        lamps = [structs.pt_sphere(vector(s["center"]), s["radius"], material=names.index(s["material"]))
                  for s in scene["spheres"]]
-        planes = [smallest.pt_plane(vector(p["normal"]), p["offset"], names.index(p["material"]))
+        planes = [structs.pt_plane(vector(p["normal"]), p["offset"], names.index(p["material"]))
                   for p in scene["planes"]]
 
         def column(values, components, kind):
-            return smallest.pt_column(values.buffer_info()[0], components * values.itemsize, kind)
+            return structs.pt_column(values.buffer_info()[0], components * values.itemsize, kind)
 
-        spheres = smallest.pt_sphere_array(count=cloud.count,
-                                           center=column(cloud.centers, 3, smallest.PT_TYPE_FLOAT32),
-                                           radius=column(cloud.radii, 1, smallest.PT_TYPE_FLOAT32),
-                                           material=column(cloud.materials, 1, smallest.PT_TYPE_UINT32))
+        spheres = structs.pt_sphere_array(count=cloud.count, center=column(cloud.centers, 3, FLOAT32),
+                                          radius=column(cloud.radii, 1, FLOAT32),
+                                          material=column(cloud.materials, 1, UINT32))
         start = time.perf_counter()
         self.renderer.set_scene(materials, lamps, planes, [spheres])
         return time.perf_counter() - start

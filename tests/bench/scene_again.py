@@ -11,8 +11,7 @@ import argparse
 import random
 import statistics
 
-from scale import Library, cpu_seconds
-import smallest  # (found by scale)
+from scale import Library, cpu_seconds, structs
 from sphere_cloud import EXTENT, SphereCloud, surroundings
 from table import print_table
 
@@ -47,7 +46,7 @@ class MovingCloud:
 
     def forget(self):
         """Another scene, so that the next one has a new tree."""
-        self.library.renderer.set_scene([smallest.pt_material()])
+        self.library.renderer.set_scene([structs.pt_material()])
 
     def set_scene(self):
         before = cpu_seconds()

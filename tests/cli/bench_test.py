@@ -8,8 +8,8 @@ from command_line import COURSEWORK, PT, CommandLineTest, main
 
 
 class Bench(CommandLineTest):
-    COLUMNS = ["sampler", "estimator", "spp", "rounds", "seconds", "processor_seconds", "mse", "rel_mse", "efficiency",
-               "slope", "near_reference_noise"]
+    COLUMNS = ["sampler", "estimator", "target_error", "spp", "rounds", "seconds", "processor_seconds", "mse", "rel_mse",
+               "efficiency", "slope", "near_reference_noise"]
 
     def test_wrong_values(self):
         for option, value, error in (("--samplers", "random,sobl", 'did you mean "sobol"?'),
@@ -24,6 +24,12 @@ class Bench(CommandLineTest):
         self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--size", "4x2", error="is 4x3, the picture is 4x2")
         self.expect(2, "bench", COURSEWORK, "--reference", "a.exr", "--reference-spp", "9", error="excludes")
         self.assertEqual(self.files(), ["a.exr"])
+
+    def test_target_errors_stand_in_place_of_numbers_of_samples(self):
+        for arguments, error in ((("--errors", "5%"), "needs --reference or --reference-spp"),
+                                 (("--errors", "5%,0"), "must be a number above 0"),
+                                 (("--errors", "5%", "--spp", "4"), "excludes")):
+            self.expect(2, "bench", COURSEWORK, *arguments, error=error)
 
     def test_a_given_reference_is_compared_with(self):
         # The stand-in always shows the same picture.

@@ -1,5 +1,5 @@
 """Tests of checkpoints: a rendering that is killed at any moment and resumed, on whatever machine, ends with the same bytes.
-PT_TEST_KILLS says how often one rendering is killed (default: 6). Arguments: see command_line.py."""
+PT_TEST_KILLS says how often one rendering is killed (default: 4). Arguments: see command_line.py."""
 
 import json
 import os
@@ -11,7 +11,7 @@ import time
 
 from command_line import COURSEWORK, PATIENCE, PT, CommandLineTest, default_signals, main
 
-KILLS = int(os.environ.get("PT_TEST_KILLS", "6"))
+KILLS = int(os.environ.get("PT_TEST_KILLS", "4"))
 MOST_DELAY = 0.7  # seconds until a kill, from the start or from the run's first checkpoint
 SAMPLES_A_KILL = 2000  # some tenths of a second, so that few renderings end before they are killed
 
@@ -104,7 +104,7 @@ class KilledRender(KeptRender):
             os.remove(self.path("c.ptfilm"))
 
     def test_a_time_limit_leaves_it_too(self):
-        options = self.options(4000)
+        options = self.options(300)
         expected = self.whole(*options)
         code, runs = 75, 0
         while code == 75:
@@ -122,14 +122,16 @@ class KilledRender(KeptRender):
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_pixels_with_different_numbers_of_samples_go_on_too(self):
-        options = [*self.options(100000), "--error", "2%", "--stats", "a.json"]
+        options = [*self.options(100000), "--error", "4%", "--stats", "a.json"]
+        expected = self.whole(*options)
         code, runs = 75, 0
         while code == 75:
-            code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.1", "--resume")
+            code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.05", "--resume")
             runs += 1
         self.assertEqual(code, 0, self.errors)
         self.assertGreater(runs, 1)
         self.assertIn('"ended_by": "error"', self.read("a.json"))
+        self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
 
 class Surroundings(KeptRender):

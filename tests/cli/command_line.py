@@ -37,16 +37,17 @@ def png_chunks(data):
 
 
 def parse_png(data):
-    """Width, height and rows of numbers of an RGB image of 8 or 16 bits; enough of PNG (ISO 15948) for what is written
-    here."""
+    """Width, height and rows of numbers of an RGB or RGBA image of 8 or 16 bits; enough of PNG (ISO 15948) for what is
+    written here."""
     pixels = b""
     for kind, body in png_chunks(data):
         if kind == "IHDR":
             width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert depth in (8, 16) and colour == 2
+            assert depth in (8, 16) and colour in (2, 6)
+            channels = {2: 3, 6: 4}[colour]
         elif kind == "IDAT":
             pixels += body
-    step = 3 * depth // 8
+    step = channels * depth // 8
     lines, stride, above, image = zlib.decompress(pixels), step * width, bytes(step * width), []
     for y in range(height):
         kind, *line = lines[y * (stride + 1):(y + 1) * (stride + 1)]
@@ -57,7 +58,7 @@ def parse_png(data):
             paeth = min(guesses, key=lambda g: abs(left + above[x] - corner - g))
             line[x] = (line[x] + (0, left, above[x], (left + above[x]) // 2, paeth)[kind]) % 256
         above = line
-        image.append(line if depth == 8 else list(struct.unpack(f">{3 * width}H", bytes(line))))
+        image.append(line if depth == 8 else list(struct.unpack(f">{channels * width}H", bytes(line))))
     return width, height, image
 
 
@@ -92,6 +93,39 @@ def read_exr_blocks(path):
     table = parse_exr_header(data)[1]
     first_block, = struct.unpack("<Q", data[table:table + 8])
     return data[first_block:]
+
+
+def read_exr_channels(path):
+    """Name of a channel -> rows of its numbers, of an OpenEXR file of scan lines that ZIP compresses ("OpenEXR File
+    Layout"): what is written here."""
+    with open(path, "rb") as file:
+        data = file.read()
+    attributes, position = parse_exr_header(data)
+    assert attributes["compression"][1] == b"\3" and attributes["lineOrder"][1] == b"\0"
+    left, top, right, bottom = struct.unpack("<4i", attributes["dataWindow"][1])
+    width, height = right - left + 1, bottom - top + 1
+    channels, body = [], attributes["channels"][1]
+    while body != b"\0":
+        name, body = body.split(b"\0", 1)
+        channels.append((name.decode(), {0: "I", 2: "f"}[struct.unpack("<i", body[:4])[0]]))
+        body = body[16:]
+    rows = {name: [] for name, _ in channels}
+    for first in range(0, height, 16):
+        offset, = struct.unpack("<Q", data[position + first // 2:position + first // 2 + 8])
+        _, size = struct.unpack("<2i", data[offset:offset + 8])
+        block = data[offset + 8:offset + 8 + size]
+        line_count = min(16, height - first)
+        if size < 4 * width * len(channels) * line_count:
+            deltas = list(zlib.decompress(block))
+            for i in range(1, len(deltas)):
+                deltas[i] = (deltas[i - 1] + deltas[i] - 128) % 256
+            block = bytearray(len(deltas))
+            block[::2], block[1::2] = deltas[:(len(deltas) + 1) // 2], deltas[(len(deltas) + 1) // 2:]
+        for line in range(line_count):
+            for index, (name, kind) in enumerate(channels):
+                begin = 4 * width * (line * len(channels) + index)
+                rows[name].append(list(struct.unpack(f"<{width}{kind}", block[begin:begin + 4 * width])))
+    return rows
 
 
 def default_signals():

@@ -19,7 +19,7 @@ class Usage(CommandLineTest):
         self.expect(0, "--version")
         self.assertRegex(self.output, r"^pt \d+\.\d+\.\d+\n$")
         self.expect(0, "render", "--help")
-        for text in ("--max-path-length", "Exit codes:", "143", "129", "Sampling:"):
+        for text in ("--max-path-length", "Exit codes:", "143", "129", "Samples:", "Checkpoints and parts:"):
             self.assertIn(text, self.output)
 
     def test_wrong_command_lines(self):
@@ -44,15 +44,19 @@ class Usage(CommandLineTest):
 
     def test_misspelt_names_get_a_suggestion(self):
         render = ["render", COURSEWORK, "-o", "a.png"]
-        for arguments, error in ((["rendr", COURSEWORK], 'unknown subcommand "rendr", did you mean "render"? (see pt'),
-                                 (["scene.json"], 'subcommand "scene.json", known: render, tonemap, compare, bench, '
-                                                  'merge, selftest, schema, devices'),
+        for arguments, error in ((["rendr", COURSEWORK], 'unknown command "rendr", did you mean "render"? (see pt'),
+                                 (["scene.json"], 'command "scene.json", known: render, tonemap, compare, bench, '
+                                                  'merge, selftest, schema, devices, completion, man'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
                                  ([*render, "--expsure", "-3"], 'mean "--exposure"?'),
                                  ([*render, "--expsure=-3"], 'unknown option "--expsure",'),
                                  (["bench", COURSEWORK, "--sampler", "x"], 'mean "--samplers"? (see pt bench --help)'),
                                  (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
+                                 ([*render, "--spp"], "pt: --spp: its value is missing: N (see pt render --help)"),
+                                 (["render", "a.json", "-o"], "pt: --output: its value is missing: IMAGE (see"),
+                                 ([*render, "--spp", "4", "--spp", "5"], "pt: --spp: is given 2 times, and takes one"),
+                                 (["--quiet", *render], "pt: --quiet: stands before the command; its options stand"),
                                  ([*render, "-Z"], 'unknown option "-Z" (see'),
                                  (["render", "b.json", *render[1:]], 'unexpected argument "')):
             with self.subTest(arguments=arguments):

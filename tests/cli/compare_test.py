@@ -79,7 +79,7 @@ class Compare(CommandLineTest):
                 (2, ("a.exr", "r.png", "--difference", "r.png"), "is the same file as the reference r.png"),
                 (2, ("a.exr", "r.exr", "--json", "a.exr"), "is the same file as the image a.exr"),
                 (2, ("a.exr", "r.exr", "--difference", "d.png", "--json", "d.png"), "is the same file as --difference"),
-                (2, ("a.exr",), "reference is required")):
+                (2, ("a.exr",), "REFERENCE is required")):
             with self.subTest(arguments=arguments):
                 before = self.files()
                 self.expect(code, "compare", *arguments, error=error)

@@ -61,6 +61,7 @@ TEST(ErrorMetrics, SlopesAndEfficiency) {
     EXPECT_DOUBLE_EQ(cli::convergence_slope(1.0, 16, 0.25, 64).value(), -1.0);
     EXPECT_DOUBLE_EQ(cli::convergence_slope(1.0, 16, 1.0, 64).value(), 0.0);
     EXPECT_EQ(cli::convergence_slope(0.0, 16, 1.0, 64), std::nullopt);
+    EXPECT_EQ(cli::convergence_slope(1.0, 16, 0.5, 16), std::nullopt);
     EXPECT_EQ(cli::convergence_slope(1.0, 16, 0.0, 64), std::nullopt);
     EXPECT_DOUBLE_EQ(cli::efficiency(0.5, 4.0).value(), 0.5);
     EXPECT_EQ(cli::efficiency(0.0, 4.0), std::nullopt);

@@ -242,8 +242,10 @@ pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
 
 // Red grows to the right from 0 to 1, green downwards; blue is 2 everywhere, brighter than a display, and depends on
 // the calls that took the samples with FAKE_PT_FAIL=split:1.
+// Pixels are their places in the picture: objects are counted row by row.
 pt_result pt_readback(pt_context *context, const pt_image *image) {
     const pt_render &render = context->render;
+    auto *object = static_cast<std::uint32_t *>(image->data);
     const float wrong = failure("split") == PT_OK ? 0.0F : static_cast<float>(context->call_count);
     auto *value = static_cast<float *>(image->data);
     const bool is_whole = image->width == 0;
@@ -251,6 +253,10 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
     const std::uint32_t height = is_whole ? rows_of(render) : image->height;
     for (std::uint32_t y = render.first_row + image->y; y < render.first_row + image->y + height; ++y) {
         for (std::uint32_t x = image->x; x < image->x + width; ++x) {
+            if (image->quantity == PT_QUANTITY_OBJECT) {
+                *object++ = y * render.width + x;
+                continue;
+            }
             *value++ = static_cast<float>(x) / static_cast<float>(render.width > 1 ? render.width - 1 : 1);
             *value++ = static_cast<float>(y) / static_cast<float>(render.height > 1 ? render.height - 1 : 1);
             *value++ = 2.0F + wrong;

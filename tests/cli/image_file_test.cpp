@@ -97,8 +97,12 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     const std::array<float, 6> main{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F};
     const std::array<float, 6> error{0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F};
     const std::array<float, 2> count{16.0F, 32.0F};
-    const std::array<pt_image_layer, 3> layers{
-        {{"", 3, 0, main.data()}, {"error", 3, 0, error.data()}, {"count", 1, 0, count.data()}}};
+    const std::array<std::uint32_t, 2> objects{0, 0xffffffff};
+    const std::array<pt_image_layer, 5> layers{{{"", 3, PT_LAYER_COLOUR, main.data()},
+                                                {"error", 3, PT_LAYER_COLOUR, error.data()},
+                                                {"count", 1, PT_LAYER_COLOUR, count.data()},
+                                                {"N", 3, PT_LAYER_VECTOR, error.data()},
+                                                {"id", 1, PT_LAYER_NUMBERS, nullptr, objects.data()}}};
     const cli::ImageWindow window{{3, 4, 1, 2}, 10, 20};
     ImageWriter().write_radiance(target(folder.file("a.exr")), window, layers, attributes);
     const cli::DecodedImage image = cli::read_image(folder.file("a.exr"));
@@ -106,6 +110,9 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     EXPECT_EQ(std::tuple(image.full_width, image.full_height, image.is_float), std::tuple(10U, 20U, true));
     EXPECT_EQ(image.layer(""), std::vector<float>(main.begin(), main.end()));
     EXPECT_EQ(image.layer("error"), std::vector<float>(error.begin(), error.end()));
+    EXPECT_EQ(image.layer("N"), image.layer("error"));
+    EXPECT_EQ(image.layer("id"),
+              (std::vector<float>{0.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F})); // of whole numbers the share
     EXPECT_EQ(image.layer("count"), (std::vector<float>{16.0F, 16.0F, 16.0F, 32.0F, 32.0F, 32.0F}));
     try {
         image.layer("albedo");

@@ -239,7 +239,7 @@ class Tonemap(ImagesTest):
                                        (2, ("a.exr", "-"), "needs --format"),
                                        (2, ("a.exr", "-", "--format", "exr"), "is a .png or .jpg"),
                                        (2, ("a.png", "./a.png"), "is the same file as the image a.png"),
-                                       (2, ("a.exr",), "output is required"),
+                                       (2, ("a.exr",), "OUT is required"),
                                        (6, ("a.png", "b.png"), "a.png: holds whole numbers"),
                                        (6, ("none.exr", "b.png"), "cannot read none.exr"),
                                        (6, ("text.exr", "b.png"), "cannot read text.exr"),

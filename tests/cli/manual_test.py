@@ -116,8 +116,9 @@ class RealDevice(CommandLineTest):
         self.assertGreater(len(commands), 5)
         for command in commands:
             smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
+            words = command[1:command.index(">")] if ">" in command else command[1:]
             if "--watch" not in command:  # which does not end by itself
-                self.expect(0, *command[1:], *smaller)
+                self.expect(0, *words, *smaller)
         for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg", "bench.json":
             self.assertIn(name, self.files())
 
@@ -133,6 +134,27 @@ class RealDevice(CommandLineTest):
                 self.expect(0, *command.split(), "--size", "48x24")
                 self.assertEqual(self.errors, "")
         self.assertRegex(self.output, r"^wrote ball.png: 48x24, .*\nexposure .* \(auto\)\nerror .*; target reached")
+
+    def test_the_tour_of_the_readme(self):
+        """The commands run as they stand there, in a smaller size, and each row shows what its last command makes."""
+        root = os.path.join(SCENES, "..", "..")
+        with open(os.path.join(root, "README.md"), encoding="utf-8") as file:
+            tour = file.read().split("\n## A tour in six steps\n")[1].split("\n## ")[0]
+        os.symlink(os.path.realpath(os.path.join(root, "cli")), self.path("cli"))
+        rows = [line for line in tour.splitlines() if line.startswith("| ![")]
+        self.assertEqual(len(rows), 6)
+        for row in rows:
+            picture = re.match(r"\| !\[[^]]+\]\((cli/scenes/pictures/[\w-]+\.png)\) \|", row)[1]
+            self.assertTrue(os.path.exists(os.path.join(root, picture)), picture)
+            commands = re.findall(r"`build/bin/pt ([^`]+)`", row)
+            for command in commands:
+                words = re.sub(r"--size \d+x\d+", "--size 32x16", command).split()
+                size = ["--size", "32x16"] if words[0] == "render" and "--size" not in words else []
+                self.expect(0, *words, *size)
+                for line in self.errors.splitlines():
+                    self.assertRegex(line, "materials.*: diffuse . specular = |there is no checkpoint yet")
+            self.assertIn(os.path.basename(picture), commands[-1].split())
+            self.assertIn(os.path.basename(picture), self.files())
 
     def render_scene(self, code, section, values):
         self.write("s.json", scene_with(section, values))
@@ -184,13 +206,14 @@ class RealDevice(CommandLineTest):
 
     def test_exit_codes(self):
         self.expect(0, "--help")
-        told = re.findall(r"^  (\d+) +(.*)$", self.output.split("Exit codes:\n")[1], re.MULTILINE)
+        told = re.findall(r"^  (\d+) +(.*(?:\n {7}.*)*)$", self.output.split("Exit codes:\n")[1], re.MULTILINE)
         table = re.findall(r"^\| (\d+) \| (.*) \|$", MANUAL, re.MULTILINE)
+        told = [(code, " ".join(text.split())) for code, text in told]
         self.assertEqual([(code, text.replace("`", "").replace(" (--error)", "")) for code, text in table], told)
 
     def test_every_command_and_option_is_described(self):
         self.expect(0, "--help")
-        commands = re.findall(r"^  (\w+) ", self.output.split("Subcommands:\n")[1].split("\n\n")[0], re.MULTILINE)
+        commands = re.findall(r"^  (\w+) ", self.output.split("Commands:\n")[1].split("\n\n")[0], re.MULTILINE)
         self.assertEqual(re.findall(r"\n\| \[`pt (\w+)", MANUAL), commands)
         for command in commands:
             self.expect(0, command, "--help")
@@ -200,6 +223,10 @@ class RealDevice(CommandLineTest):
             described = [re.findall(r"`(-[\w-]+)`", row[0]) for row in rows]
             self.assertEqual(sorted(described), sorted([name for name in names if name] for names in known
                                                        if names != ("-h", "--help")), command)
+            words = r"^  (--[\w-]+) ([a-z0-9-]+(?:\|[a-z0-9-]+)+)(?: |$)"
+            for names, value in re.findall(words, self.output, re.MULTILINE):
+                cell, = (row[2] for row in rows if row[0] == f"`{names}`")
+                self.assertIn(names_in(cell), [value.split("|"), ["pt"]], names)  # or as in another command
 
 
 if __name__ == "__main__":

@@ -20,7 +20,6 @@ void expect_round_trip(const cli::MethodNames<Count> &methods, std::uint32_t las
 TEST(MethodNames, EveryMethodHasAName) {
     expect_round_trip(cli::samplers, PT_SAMPLER_SOBOL);
     expect_round_trip(cli::estimators, PT_ESTIMATOR_MIS);
-    EXPECT_EQ(cli::samplers.list(), "best, random, halton, halton-cp, sobol");
     EXPECT_EQ(cli::estimators.find("light"), static_cast<std::uint32_t>(PT_ESTIMATOR_LIGHT));
 }
 

@@ -7,12 +7,12 @@
 
 namespace {
 
-// Samples may be all there, the target may be reached, the time may have come, and files may be missing.
+// Samples may be all there, the target may be reached as it happens, the time may have come, files may be missing.
 TEST(Outcome, EveryCombinationHasItsExitCode) {
     for (int bits = 0; bits < 32; ++bits) {
         const bool has_target = (bits & 1) != 0;
         const bool target_reached = has_target && (bits & 2) != 0;
-        const bool timed_out = (bits & 4) != 0 && !target_reached;
+        const bool timed_out = (bits & 4) != 0;
         const bool has_checkpoint = (bits & 8) != 0;
         const bool all_written = (bits & 16) != 0;
         int expected = 0;

@@ -34,12 +34,21 @@ TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
     for (const auto &[path, contents] : files) {
         found.emplace_back(path.lexically_relative(folder.file("")).string(), contents.has_value());
     }
-    const std::vector<std::pair<std::string, bool>> expected{
-        {"../c", false},          {"a", false},         {"accuracy.comp", false},
-        {"add.comp", false},      {"c", true},          {"commit.comp", false},
-        {"estimate.comp", false}, {"fold.comp", false}, {"pathtrace.comp", true},
-        {"resolve.comp", false},  {"scene", true},      {"sub/a", false},
-        {"sub/b", true}};
+    const std::vector<std::pair<std::string, bool>> expected{{"../c", false},
+                                                             {"a", false},
+                                                             {"accuracy.comp", false},
+                                                             {"add.comp", false},
+                                                             {"c", true},
+                                                             {"commit.comp", false},
+                                                             {"coverage.comp", false},
+                                                             {"estimate.comp", false},
+                                                             {"first_hit.comp", false},
+                                                             {"fold.comp", false},
+                                                             {"pathtrace.comp", true},
+                                                             {"resolve.comp", false},
+                                                             {"scene", true},
+                                                             {"sub/a", false},
+                                                             {"sub/b", true}};
     EXPECT_EQ(found, expected);
     EXPECT_EQ(files.at(folder.file("c")), "#include \"pathtrace.comp\"\n");
 }

@@ -95,6 +95,18 @@ class Steps:
                 for place in self.options.build, SOURCE:
                     require(f"{place}/" not in text, f"{path} names {place}")
 
+    def check_manual(self, share, zsh):
+        """Manual pages of all commands, and completions, each where it is looked for, below a folder share/."""
+        text = (share / "man/man1/pt.1").read_text()
+        commands = re.findall(r"^\.BR pt\\-(\w+) \(1\)", text, re.MULTILINE)
+        require("render" in commands, f"pt.1 refers to {commands}")
+        pages = sorted(path.name for path in (share / "man/man1").iterdir())
+        require(pages == sorted(["pt.1", *(f"pt-{command}.1" for command in commands)]), f"the pages are {pages}")
+        scripts = "bash-completion/completions/pt", f"zsh/{zsh}/_pt", "fish/vendor_completions.d/pt.fish"
+        for script in scripts:
+            require("standard-error" in (share / script).read_text(), f"{script} lacks options")
+        require(len(list((share / "zsh").rglob("_pt"))) == 1, "zsh has its script twice")
+
     def c99(self):
         """pkg-config, with the shared and with the static library; the example in C, and the README's program."""
         folder = self.folder("c99")
@@ -171,10 +183,10 @@ class Steps:
         require(installed == ["enclosure_static"], f"the project's installation has {installed}")
 
     def python(self):
-        """ctypes, and the example in Python, whose image has the bits of the example in C."""
+        """The package with the library, and the example in Python, whose image has the bits of the example in C."""
         folder = self.folder("python")
-        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.2")}
-        enclosure = [sys.executable, "-B", HERE / "python" / "enclosure.py", EXAMPLES]
+        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.2"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
+        enclosure = [sys.executable, "-B", HERE / "python" / "enclosure.py"]
         run(*enclosure, "2", **library)
         run(*enclosure, "2.5", expect=1, **library)
         run(sys.executable, "-B", EXAMPLES / "smallest.py", cwd=folder, **library)
@@ -210,6 +222,7 @@ class Steps:
 
     def program(self):
         folder = self.folder("program")
+        self.check_manual(self.prefix / "share", "site-functions")
         self.check_program(self.prefix / "bin" / "pt", folder)
         shutil.copytree(self.prefix, folder / "without", symlinks=True)
         (folder / "without" / self.options.libdir / "pt" / "libpt-image-file.so").unlink()
@@ -264,6 +277,7 @@ class Steps:
             run("dpkg-deb", "--extract", path, root)
         for name in packages:
             require((root / "usr/share/doc" / name / "copyright").is_file(), f"{name} has no copyright file")
+        self.check_manual(root / "usr/share", "vendor-completions")
         libraries = {"LD_LIBRARY_PATH": str(root / "usr" / self.options.libdir)}
         self.check_program(root / "usr/bin/pt", folder, **libraries)
         if compiler in packages:

@@ -177,7 +177,7 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
             for (pt_result result = PT_OK; result != PT_TARGET_REACHED;) {
                 pt_accumulate_info info{};
                 info.struct_size = sizeof info;
-                info.sample_count = static_cast<uint32_t>(1 + generator() % 60);
+                info.sample_count = static_cast<uint32_t>(generator() % 60);
                 info.target_error = uneven_target;
                 info.progress = generator() % 2 == 0 ? &Stopper::progress : nullptr;
                 info.progress_user = &stopper;
@@ -232,15 +232,19 @@ TEST_F(AdaptiveTest, UnevenFilmsTakeEvenSamplesAndAddUp) {
     EXPECT_EQ(stats_of(context()).sample_count, least);
 }
 
-// No pixel gets more than was asked for, and what is missing is taken later.
+// No pixel gets more than was asked for, and what is missing is taken later. With none, others come to rest.
 TEST_F(AdaptiveTest, TheMostSamplesAreThoseOfAPixel) {
     const Bytes expected = film_on_target(context());
     begin(context());
     EXPECT_EQ(take(context(), 50, uneven_target), PT_OK);
     EXPECT_EQ(stats_of(context()).max_sample_count, 50U);
+    const Bytes held_up = film(context());
+    EXPECT_EQ(take(context(), 0, uneven_target), PT_OK);
+    EXPECT_EQ(film(context()), held_up);
     EXPECT_EQ(take(context(), no_limit, uneven_target), PT_TARGET_REACHED);
     EXPECT_EQ(film(context()), expected);
     EXPECT_EQ(take(context(), 1, uneven_target), PT_TARGET_REACHED) << "at once";
+    EXPECT_EQ(take(context(), 0, uneven_target), PT_TARGET_REACHED);
     EXPECT_EQ(film(context()), expected);
 }
 

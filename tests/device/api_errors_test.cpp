@@ -99,7 +99,7 @@ TEST_F(ErrorsTest, NameTheFieldOfEachStruct) {
     accumulate(1);
     std::vector<float> pixels(width * height * 3);
     pt_image image = tight_image(pixels);
-    image.quantity = 7;
+    image.quantity = 8;
     expect_rule(pt_readback(context(), &image), "image", -1, "quantity", -1);
 }
 

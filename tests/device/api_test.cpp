@@ -160,7 +160,7 @@ TEST_F(ApiTest, FailedCallsChangeNothing) {
 
     const pt_accumulate_info nothing = samples(0);
     expect_failure(pt_accumulate(context(), &nothing), PT_ERROR_INVALID_ARGUMENT,
-                   "accumulate.sample_count = 0: must be >= 1");
+                   "accumulate.sample_count = 0: must be >= 1 without a target_error");
     expect_image(3);
 
     pt_accumulate_info aimless = samples(1);

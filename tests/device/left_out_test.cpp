@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
 #include <vector>
 
@@ -60,13 +61,22 @@ InvarianceScene room() {
     return scene;
 }
 
-TEST(LeftOut, InsidesOfSpheresWhereTheCameraIsInNone) {
+// Tests of kernels that take ten seconds to build; others are much like them.
+class RareLeftOut : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!std::getenv("PT_TEST_MANY"))
+            GTEST_SKIP() << "runs with PT_TEST_MANY set";
+    }
+};
+
+TEST_F(RareLeftOut, InsidesOfSpheresWhereTheCameraIsInNone) {
     const KernelRender render = render_of_scene(room(), path_length);
     ASSERT_FALSE(render.features().inside);
     EXPECT_LE(values_changed_by(render, gpu::ID_INSIDE), decided_by_rounding);
 }
 
-TEST(LeftOut, PlanesAsObstaclesWhereNoLampIsBehindOne) {
+TEST_F(RareLeftOut, PlanesAsObstaclesWhereNoLampIsBehindOne) {
     const KernelRender render = render_of_scene(room(), path_length);
     ASSERT_FALSE(render.features().planes_block);
     ASSERT_EQ(render.features().plane_count, 4U);
@@ -74,7 +84,7 @@ TEST(LeftOut, PlanesAsObstaclesWhereNoLampIsBehindOne) {
 }
 
 // The same bits: light that is not there is 0.
-TEST(LeftOut, EmissionOfPlanesWhereNoneEmits) {
+TEST_F(RareLeftOut, EmissionOfPlanesWhereNoneEmits) {
     const KernelRender render = render_of_scene(room(), path_length);
     ASSERT_FALSE(render.features().planes_emit);
     const Image image = image_with(render, render.constants());
@@ -100,7 +110,7 @@ TEST(LeftOut, EndsOfShadowRaysWhereNoLampIsCloseToASphere) {
 }
 
 // Negative controls: what the scene needs is left out, which must show.
-TEST(LeftOut, EmissionOfPlanesShowsWhereOneEmits) {
+TEST_F(RareLeftOut, EmissionOfPlanesShowsWhereOneEmits) {
     InvarianceScene scene = room();
     scene.planes[1].material = scene.spheres[0].material;
     const KernelRender render = render_of_scene(scene, path_length);
@@ -108,7 +118,7 @@ TEST(LeftOut, EmissionOfPlanesShowsWhereOneEmits) {
     EXPECT_GT(values_changed_by(render, gpu::ID_PLANES_EMIT), 10 * decided_by_rounding);
 }
 
-TEST(LeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
+TEST_F(RareLeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
     InvarianceScene scene = room();
     scene.planes.clear();
     scene.spheres.push_back({{0, 0, -5}, 20, {0, 0, 0}, 4, 0});
@@ -117,7 +127,7 @@ TEST(LeftOut, InsidesOfSpheresShowWhereTheCameraIsInOne) {
     EXPECT_GT(values_changed_by(render, gpu::ID_INSIDE), 10 * decided_by_rounding);
 }
 
-TEST(LeftOut, PlanesAsObstaclesShowWhereALampIsBehindOne) {
+TEST_F(RareLeftOut, PlanesAsObstaclesShowWhereALampIsBehindOne) {
     InvarianceScene scene = room();
     scene.spheres[0].center[0] = 14;
     const KernelRender render = render_of_scene(scene, path_length);

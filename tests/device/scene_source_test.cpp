@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -72,7 +73,17 @@ protected:
     }
 };
 
-TEST_F(SceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
+// Tests whose kernels take ten seconds to build, of scenes that others nearly have.
+class RareSceneSource : public SceneSource {
+protected:
+    void SetUp() override {
+        SceneSource::SetUp();
+        if (!std::getenv("PT_TEST_MANY"))
+            GTEST_SKIP() << "runs with PT_TEST_MANY set";
+    }
+};
+
+TEST_F(RareSceneSource, KeepsTheBitsOfADiffuseSceneWithManyLamps) {
     const KernelRender render = render_of_scene(diffuse_scene());
     EXPECT_FALSE(render.features().motion || render.features().gloss || render.features().curvature);
     EXPECT_GT(render.features().lamp_count, gpu::EVERY_LAMP_LIMIT);
@@ -118,7 +129,7 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
 }
 
 // With two lamps that are alike but for their places, what is selected among their radiances is the same for both.
-TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
+TEST_F(RareSceneSource, KeepsTheBitsOfTwoEqualLamps) {
     InvarianceScene scene = scene_with_lamps(2);
     scene.spheres[2].material = scene.spheres[1].material;
     const KernelRender render = render_of_scene(scene);
@@ -135,7 +146,7 @@ TEST_F(SceneSource, KeepsTheBitsOfTwoEqualLamps) {
 }
 
 // Balls and planes of one glossy material that shines: all that the scene says of a surface but its place is the same.
-TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
+TEST_F(RareSceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
     InvarianceScene scene = scene_with_lamps(2);
     std::fill_n(scene.materials[3].diffuse, 3, 0.3F);
     std::fill_n(scene.materials[3].specular, 3, 0.37F);
@@ -154,7 +165,7 @@ TEST_F(SceneSource, KeepsTheBitsOfSurfacesOfOneMaterial) {
 }
 
 // With one surface all that the scene says is constant everywhere: from inside a glossy ball that shines.
-TEST_F(SceneSource, KeepsTheBitsOfASingleSurface) {
+TEST_F(RareSceneSource, KeepsTheBitsOfASingleSurface) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.planes.clear();
     scene.spheres = {{{1, 2, 3}, 17, {0, 0, 0}, 3, 0}};

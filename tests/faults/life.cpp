@@ -93,6 +93,8 @@ Steps Life::all_steps() {
             "pt_accumulate",
             "pt_readback, radiance",
             "pt_readback, standard error",
+            "pt_readback, objects",
+            "pt_readback, coverage",
             "pt_accumulate, to a target",
             "pt_get_stats",
             "pt_get_accuracy",
@@ -152,6 +154,8 @@ void Life::tell() {
     accumulate_to("pt_accumulate", 2, 0.0);
     readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
     readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
+    read_of_scene("pt_readback, objects", PT_QUANTITY_OBJECT);
+    read_of_scene("pt_readback, coverage", PT_QUANTITY_COVERAGE);
     accumulate_to("", 16, 0.0);
     accumulate_to("pt_accumulate, to a target", 18, 1e-6);
     look("pt_get_stats", [&] {
@@ -252,6 +256,25 @@ void Life::readback(const std::string &step, uint32_t quantity) {
     call(step, [&] { return pt_readback(context_, &target); });
     const auto &images = quantity == PT_QUANTITY_RADIANCE ? expected_.radiance : expected_.standard_error;
     EXPECT_EQ(image, images.at(state().sample_count)) << step;
+}
+
+// All pixels, and the same again, whatever failed before.
+void Life::read_of_scene(const std::string &step, uint32_t quantity) {
+    constexpr uint32_t unwritten = PT_NO_OBJECT - 1; // not a number, as a float
+    const bool is_whole = quantity == PT_QUANTITY_OBJECT;
+    std::vector<uint32_t> words(std::size_t{width} * rows_ * (is_whole ? 1 : 3), unwritten);
+    pt_image target{};
+    target.struct_size = sizeof target;
+    target.quantity = quantity;
+    target.format = is_whole ? PT_FORMAT_R32UI : PT_FORMAT_RGB32F;
+    target.data = words.data();
+    target.size_bytes = words.size() * sizeof(uint32_t);
+    const auto read = [&] { return pt_readback(context_, &target); };
+    call(step, read);
+    EXPECT_EQ(std::ranges::count(words, unwritten), 0) << step;
+    const std::vector<uint32_t> first = words;
+    EXPECT_EQ(run(read), PT_OK) << step;
+    EXPECT_EQ(words, first) << step;
 }
 
 void Life::save_film(const std::string &step) {

@@ -33,7 +33,7 @@ void light_in_one_part(pt::RegionChannel &channel, std::size_t pixel, double mea
 // After so many samples in every tile.
 std::vector<pt::ValueError> errors(const pt::RegionChannel &channel, double samples) {
     const std::vector<double> counts(16, samples);
-    return pt::value_errors(channel, counts, true);
+    return pt::value_errors(channel, counts);
 }
 
 double relative_square(const pt::RegionChannel &channel, std::size_t pixel) {

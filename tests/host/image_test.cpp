@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <type_traits>
 
 namespace {
 
@@ -22,9 +23,13 @@ pt_image valid_image() {
 
 // The message of the error, or "accepted".
 template <typename Source>
-std::string message(const Source &image, std::uint32_t image_height = height) {
+std::string message(const Source &image, std::uint32_t image_height = height,
+                    pt::ImageSource of = pt::ImageSource::Context) {
     try {
-        pt::validated_image(image, width, image_height);
+        if constexpr (std::is_same_v<Source, pt_image>)
+            pt::validated_image(image, width, image_height, of);
+        else
+            pt::validated_image(image, width, image_height);
     } catch (const pt::Error &error) {
         EXPECT_EQ(error.code(), PT_ERROR_INVALID_ARGUMENT);
         return error.what();
@@ -33,7 +38,7 @@ std::string message(const Source &image, std::uint32_t image_height = height) {
 }
 
 TEST(Image, IsTightByDefault) {
-    const pt::Image image = pt::validated_image(valid_image(), width, height);
+    const pt::Image image = pt::validated_image(valid_image(), width, height, pt::ImageSource::Context);
     EXPECT_EQ(image.data, reinterpret_cast<std::byte *>(memory));
     EXPECT_EQ(image.layout.row_bytes, width * 12);
     EXPECT_EQ(image.layout.quantity, uint32_t{PT_QUANTITY_RADIANCE});
@@ -44,7 +49,7 @@ TEST(Image, MayHaveGapsBetweenRows) {
     pt_image source = valid_image();
     source.row_bytes = 64;
     source.size_bytes = 2 * 64 + 60; // the last row needs no gap
-    EXPECT_EQ(pt::validated_image(source, width, height).layout.row_bytes, 64U);
+    EXPECT_EQ(pt::validated_image(source, width, height, pt::ImageSource::Context).layout.row_bytes, 64U);
     --source.size_bytes;
     EXPECT_EQ(message(source),
               "image.size_bytes = 187: must be >= (height - 1) * row_bytes + width * 12 (2 * 64 + 60)");
@@ -66,9 +71,36 @@ TEST(Image, NeedsAlignedData) {
 TEST(Image, NeedsAKnownQuantity) {
     pt_image image = valid_image();
     image.quantity = PT_QUANTITY_STANDARD_ERROR;
-    EXPECT_EQ(pt::validated_image(image, width, height).layout.quantity, uint32_t{PT_QUANTITY_STANDARD_ERROR});
-    image.quantity = 3;
-    EXPECT_EQ(message(image), "image.quantity = 3: must be a PT_QUANTITY_* of pt.h");
+    EXPECT_EQ(pt::validated_image(image, width, height, pt::ImageSource::Context).layout.quantity,
+              uint32_t{PT_QUANTITY_STANDARD_ERROR});
+    image.quantity = 8;
+    EXPECT_EQ(message(image), "image.quantity = 8: must be a PT_QUANTITY_* of pt.h");
+}
+
+TEST(Image, OfFirstHitsIsOfAContextAlone) {
+    pt_image image = valid_image();
+    image.quantity = PT_QUANTITY_DEPTH;
+    EXPECT_EQ(message(image), "accepted");
+    const std::string refusal = "image.quantity = 3: must be PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR or "
+                                "PT_QUANTITY_SAMPLE_COUNT here: what camera rays meet is read by pt_readback alone";
+    EXPECT_EQ(message(image, height, pt::ImageSource::Samples), refusal);
+    pt_buffer_image buffer{};
+    buffer.struct_size = sizeof buffer;
+    buffer.buffer = 77;
+    buffer.size_bytes = 1000;
+    buffer.quantity = PT_QUANTITY_DEPTH;
+    EXPECT_EQ(message(buffer), refusal);
+}
+
+TEST(Image, OfObjectsIsWholeNumbersAndNoOtherIs) {
+    pt_image image = valid_image();
+    image.quantity = PT_QUANTITY_OBJECT;
+    EXPECT_EQ(message(image), "image.format = 0: must be PT_FORMAT_R32UI, as the quantity is PT_QUANTITY_OBJECT");
+    image.format = PT_FORMAT_R32UI;
+    EXPECT_EQ(message(image), "accepted");
+    EXPECT_EQ(pt::validated_image(image, width, height, pt::ImageSource::Context).layout.row_bytes, width * 4);
+    image.quantity = PT_QUANTITY_DEPTH;
+    EXPECT_EQ(message(image), "image.format = 3: PT_FORMAT_R32UI is for PT_QUANTITY_OBJECT alone");
 }
 
 TEST(Image, NeedsWholeFloatsInARow) {
@@ -118,7 +150,8 @@ pt_image part(std::uint32_t x, std::uint32_t y, std::uint32_t part_width, std::u
 }
 
 TEST(Image, MayBeARectangle) {
-    const pt::ImageLayout layout = pt::validated_image(part(1, 2, 4, 1), width, height).layout;
+    const pt::ImageLayout layout =
+        pt::validated_image(part(1, 2, 4, 1), width, height, pt::ImageSource::Context).layout;
     EXPECT_EQ(layout.pixels, (pt::Rectangle{1, 2, 4, 1}));
     EXPECT_EQ(layout.row_bytes, 48U);
     pt_image image = part(4, 0, 1, 3);
@@ -141,9 +174,9 @@ TEST(Image, RectanglesHavePixelsOfTheImageAlone) {
 
 TEST(Image, NeedsAKnownFormat) {
     pt_image image = valid_image();
-    image.format = 3;
+    image.format = 4;
     image.reserved = 1;
-    EXPECT_EQ(message(image), "image.format = 3: must be a PT_FORMAT_* of pt.h\nimage.reserved = 1: must be 0");
+    EXPECT_EQ(message(image), "image.format = 4: must be a PT_FORMAT_* of pt.h\nimage.reserved = 1: must be 0");
 }
 
 TEST(Image, HasPixelsOfItsFormat) {
@@ -152,7 +185,7 @@ TEST(Image, HasPixelsOfItsFormat) {
     EXPECT_EQ(message(image), "image.size_bytes = 180: must be >= (height - 1) * row_bytes + width * 16 (2 * 80 + 80)");
     image.format = PT_FORMAT_RGBA16F;
     image.size_bytes = 120;
-    EXPECT_EQ(pt::validated_image(image, width, height).layout.row_bytes, 40U);
+    EXPECT_EQ(pt::validated_image(image, width, height, pt::ImageSource::Context).layout.row_bytes, 40U);
     image.size_bytes = 2 * 42 + 40;
     image.row_bytes = 42;
     image.data = reinterpret_cast<char *>(memory) + 2;

@@ -125,6 +125,10 @@ std::vector<Kind> kinds() {
              [=](std::uint32_t i) {
                  return Ball{share(i * 7919 % many), share(i), 0, i == 5 ? 1e9F : 1e-3F};
              }},
+            {"all but one at one point",
+             [=](std::uint32_t i) {
+                 return Ball{i == many / 3 ? 5.0F : 1.0F, 2, 3, 1 + share(i)};
+             }},
             {"two heaps", [=](std::uint32_t i) {
                  return Ball{(i % 2 == 0 ? 1e9F : 0) + share(i), 0, 0, 1};
              }}};

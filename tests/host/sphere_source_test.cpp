@@ -59,6 +59,58 @@ TEST(SphereSource, ReadsInOrderAcrossArrays) {
     EXPECT_EQ(next, source.size());
     const std::vector<std::uint32_t> starts(source.array_starts().begin(), source.array_starts().end());
     EXPECT_EQ(starts, (std::vector<std::uint32_t>{5, 5, 6, 306, 306, 306, 1006, 1008}));
+
+    // In any order and in that of the scene, so that runs go on from each array to the next one.
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        indices.push_back(i % 3 == 0 ? i * 401 % 1008 : 1007 - i);
+    for (std::uint32_t i = 0; i < source.size(); ++i)
+        indices.push_back(i);
+    pt::WorkProgress nobody;
+    std::size_t read = 0;
+    source.for_each(indices, nobody, [&](std::size_t i, const pt::Sphere &sphere, const glm::vec3 &own_color) {
+        ASSERT_EQ(i, read++);
+        expect_equal(sphere, source[indices[i]]);
+        EXPECT_EQ(own_color, source.color(indices[i])) << indices[i];
+    });
+    EXPECT_EQ(read, indices.size());
+}
+
+// By columns, one value for all, and none, which is the first; those of empty arrays are nobody's.
+TEST(SphereSource, KnowsWhichMaterialsAreUsed) {
+    const std::vector<float> center(3 * 4);
+    const std::vector<std::uint32_t> materials = {7, 5, 7, 5};
+    const std::uint32_t one = 3;
+    const std::uint32_t nobodys = 2;
+    const auto array = [&](std::uint32_t count, pt_column material) {
+        pt_sphere_array columns{};
+        columns.struct_size = sizeof columns;
+        columns.count = count;
+        columns.center = {center.data(), 12, PT_TYPE_FLOAT32};
+        columns.radius = {center.data(), 0, PT_TYPE_FLOAT32};
+        columns.material = material;
+        return columns;
+    };
+    const auto used_by = [](std::span<const pt_sphere> structs, std::span<const pt_sphere_array> arrays) {
+        std::vector<bool> used(9);
+        pt::WorkProgress nobody;
+        pt::SphereSource(structs, arrays).mark_materials(used, nobody);
+        std::vector<std::size_t> marked;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (used[i])
+                marked.push_back(i);
+        return marked;
+    };
+    using Marked = std::vector<std::size_t>;
+    const std::vector<pt_sphere> structs(2, pt_sphere{{9, 9, 9}, 3, {1, 0, 0}, 1, 0});
+    const std::vector<pt_sphere_array> arrays = {array(4, {materials.data(), 4, PT_TYPE_UINT32}),
+                                                 array(4, {&one, 0, PT_TYPE_UINT32}),
+                                                 array(0, {&nobodys, 0, PT_TYPE_UINT32})};
+    EXPECT_EQ(used_by({}, {}), Marked{});
+    EXPECT_EQ(used_by(structs, {}), Marked{1});
+    EXPECT_EQ(used_by(structs, arrays), (Marked{1, 3, 5, 7}));
+    const pt_sphere_array without = array(4, {});
+    EXPECT_EQ(used_by({}, {&without, 1}), Marked{0});
 }
 
 TEST(SphereSource, MayBeEmpty) {

@@ -8,7 +8,6 @@ first six seeds. On a GPU it takes minutes.
 """
 
 import argparse
-import ctypes
 import math
 import os
 import pathlib
@@ -19,7 +18,7 @@ from dataclasses import dataclass
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer, smallest  # noqa: E402
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
 
 WIDTH, HEIGHT = 96, 48
 COUNTS = [16, 18, 24, 64, 72, 100, 256, 1024]
@@ -83,8 +82,7 @@ class Calibration:
         """Error / target of images that were taken until the target was reached; None where it was not."""
         for seed in range(200, 200 + STATED_SEEDS):
             self.start(seed)
-            info = smallest.pt_accumulate_info(sample_count=MOST_SAMPLES, target_error=target)
-            result = self.renderer.library.pt_accumulate(self.renderer.context, ctypes.byref(info))
+            result = self.renderer.accumulate(MOST_SAMPLES, target)
             yield math.sqrt(self.square()) / target if result == 2 else None  # PT_TARGET_REACHED
 
 

@@ -9,7 +9,6 @@ import math
 import pathlib
 import statistics
 import sys
-from ctypes import POINTER, byref, c_uint64, c_void_p
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from relative_error import relative_square  # noqa: E402
@@ -28,8 +27,6 @@ class Renderer(SceneRenderer):
 
     def __init__(self, max_path_length):
         super().__init__(read_scene(FOLDER / "coursework.json"))
-        self.library.pt_save_film.argtypes = [c_void_p, c_void_p, POINTER(c_uint64)]
-        self.library.pt_add_film.argtypes = [c_void_p, c_void_p, c_uint64]
         self.max_path_length = max_path_length
 
     def take(self, first, count, **fields):
@@ -38,10 +35,10 @@ class Renderer(SceneRenderer):
             self.accumulate(count)
 
     def film(self):
-        size = c_uint64()
-        self._check(self.library.pt_save_film(self.context, None, byref(size)))
+        size = ctypes.c_uint64()
+        self.call("pt_save_film", None, size)
         data = ctypes.create_string_buffer(size.value)
-        self._check(self.library.pt_save_film(self.context, data, byref(size)))
+        self.call("pt_save_film", data, size)
         return data.raw
 
     def take_ranges(self, ranges, **fields):
@@ -51,7 +48,7 @@ class Renderer(SceneRenderer):
             films.append(self.film())
         self.take(0, 0, **fields)
         for film in films:
-            self._check(self.library.pt_add_film(self.context, film, len(film)))
+            self.call("pt_add_film", film, len(film))
 
     def stated_error(self):
         return self.stats().relative_rmse

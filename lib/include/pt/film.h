@@ -108,12 +108,12 @@ PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_by
  * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: size_bytes is too small; it stays as it was. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
-/** Writes mean radiance or its standard error, like pt_readback: the same bits that the context shows which took the
+/** Writes mean radiance, its standard error or the counts of samples, like pt_readback: the same bits that the context shows which took the
  * samples.
  *
  * The image is the rectangle that pt_film_info tells, so that pt_image.x counts from its first column and pt_image.y from
  * its first row. Pixels that the film does not have are black, with a standard error of INFINITY. One thread at a time per
- * film. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. */
+ * film. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule; of what camera rays meet first a film knows nothing. */
 PT_API pt_result pt_read_film(const pt_film *film, const pt_image *image);
 
 /** Writes what a film is of. info->struct_size must be set; no more than that is written. One thread at a time per film. */

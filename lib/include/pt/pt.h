@@ -241,8 +241,10 @@ enum {
 
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
-    uint32_t struct_size;  /**< sizeof(pt_accumulate_info) */
-    uint32_t sample_count; /**< samples to add to every pixel, >= 1; indices must stay below 2^32. See target_error */
+    uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
+    /** samples to add to every pixel, >= 1; indices must stay below 2^32. With a target_error the most that it adds to those
+     * pixels that have most; 0: to others alone, which a call that was stopped may have left behind. */
+    uint32_t sample_count;
     /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
      *
      * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
@@ -255,10 +257,10 @@ typedef struct pt_accumulate_info {
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
-     * PT_TARGET_REACHED, and sample_count is the most that it adds to the pixels that have most. The error is looked at when
-     * all pixels have as many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants
-     * more for the bound of the time, and at no other time: where a sequence ends, and with which samples in which pixels,
-     * does not depend on how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
+     * PT_TARGET_REACHED, while PT_OK says that sample_count allows no more. The error is looked at when all pixels have as
+     * many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants more for the bound
+     * of the time, and at no other time: where a sequence ends, and with which samples in which pixels, does not depend on
+     * how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
     uint32_t reserved; /**< 0 */
@@ -272,8 +274,31 @@ enum {
      * difference has one degree of freedom, so in a single pixel this is no more than a hint: a quarter of all values
      * are below a third of the true one. INFINITY where a part has no sample: of up to 8 all are in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1,
-    PT_QUANTITY_SAMPLE_COUNT = 2 /**< samples that the pixel has, the same in all channels, as float32 rounds it */
+    PT_QUANTITY_SAMPLE_COUNT = 2, /**< samples that the pixel has, the same in all channels, as float32 rounds it */
+    /* What camera rays meet first, of the scene and the camera that are set: for compositing, denoising and picking. It is
+     * found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. */
+    /** depth along the view, as compositing programs have it: dot(x - camera.position, unit viewing direction) of the point
+     * x that the ray through the pixel's centre meets halfway between shutter_open and shutter_close; the same in all
+     * channels. INFINITY where it meets nothing. In OpenEXR the channel Z. */
+    PT_QUANTITY_DEPTH = 3,
+    /** unit normal in the world's coordinates x, y, z, on the side of the camera: the mean over 16 rays that are spread
+     * evenly over the pixel and the shutter's time, as denoisers want it filtered like radiance; at edges it is shorter
+     * than 1. 0 of a ray that meets nothing. */
+    PT_QUANTITY_NORMAL = 4,
+    /** diffuse + specular, no component above 1, of each of these rays: their mean. 0 of a ray that meets nothing. */
+    PT_QUANTITY_ALBEDO = 5,
+    /** index of the sphere whose depth it is, as the scene counts them; of a plane, the number of all spheres + its index
+     * in planes; PT_NO_OBJECT where the ray meets nothing. Of surfaces that stand for others (pt_sphere) the first. Its
+     * format is PT_FORMAT_R32UI. */
+    PT_QUANTITY_OBJECT = 6,
+    /** share of the pixel's samples whose camera rays meet a surface, the same in all channels: the alpha that belongs to
+     * their mean, which is black where rays meet nothing and so is multiplied by it already. It is counted when it is read,
+     * by a kernel of its own that takes the camera rays of these samples again, and takes as long as they did. */
+    PT_QUANTITY_COVERAGE = 7
 };
+
+/** Where a ray meets nothing: see PT_QUANTITY_OBJECT. */
+#define PT_NO_OBJECT 0xffffffffu
 
 /** Values of pt_image.format: what a pixel is. Components follow each other in the machine's byte order; A is 1. */
 enum {
@@ -281,7 +306,8 @@ enum {
     PT_FORMAT_RGBA32F = 1, /**< R, G, B, A as float32: 16 bytes */
     /** R, G, B, A as float16: 8 bytes. The numbers of the others, rounded to nearest, ties to even; from 65520 on they
      * are infinity. */
-    PT_FORMAT_RGBA16F = 2
+    PT_FORMAT_RGBA16F = 2,
+    PT_FORMAT_R32UI = 3 /**< one uint32_t: 4 bytes. For PT_QUANTITY_OBJECT, and for nothing else */
 };
 
 /** Memory of the caller's that receives an image, or a rectangle of it. The numbers of a pixel do not depend on what is
@@ -353,8 +379,8 @@ typedef struct pt_create_info {
     const char *shader_dir;
     /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes start
      * sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built
-     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders; on GPUs pt_readback and pt_get_stats too), also of those
-     * that fail. Drivers that have a cache of their own, as Mesa's lavapipe, give next to nothing. */
+     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays meet first; on GPUs of
+     * anything, and pt_get_stats), also of those that fail. Drivers that have a cache of their own, as Mesa's lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< handed to both; the library does not look at it */
@@ -453,11 +479,13 @@ PT_API pt_result pt_prepare(pt_context *context);
  * pt_stats.sample_count says how many: none where several devices had begun samples that they could not complete. */
 PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info);
 
-/** Writes the mean radiance of the samples so far, or its standard error, of all pixels or of a rectangle.
+/** Writes the mean radiance of the samples so far, its standard error, or another PT_QUANTITY_*, of all pixels or of a
+ * rectangle.
  *
  * What the image's data holds after a failure is undefined. One thread at a time per context.
- * PT_ERROR_INVALID_STATE: there is no sample. PT_ERROR_INVALID_ARGUMENT: the image breaks a rule.
- * PT_ERROR_DEVICE_LOST. */
+ * PT_ERROR_INVALID_STATE: there is no sample or, of what camera rays meet first, no scene, camera or render settings.
+ * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_DEVICE_LOST; what camera rays meet first can also fail as
+ * pt_prepare does. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus

@@ -75,7 +75,7 @@ struct pt_vulkan {
  *            pt_readback_to_buffer wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
-    uint32_t quantity;         /**< PT_QUANTITY_* */
+    uint32_t quantity;         /**< PT_QUANTITY_* of samples; what camera rays meet first is for pt_readback */
     uint64_t buffer;           /**< VkBuffer, cast: (uint64_t)buffer in C where handles are pointers, never 0 */
     uint64_t offset_bytes;     /**< of the first pixel in the buffer, a multiple of 4 */
     uint64_t size_bytes;       /**< of the buffer; at least offset_bytes and, as in pt_image, what the rows take */

@@ -1,0 +1,49 @@
+// What the options --layers and --alpha add to an image beside the radiance: read from the library, and named by the customs
+// of OpenEXR.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/method_names.h"
+#include "cli/image/image_module.h"
+#include "cli/image/image_window.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+// By what they are, PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
+inline constexpr MethodNames layer_names({
+    {"mean", PT_QUANTITY_RADIANCE},
+    {"standard-error", PT_QUANTITY_STANDARD_ERROR},
+    {"sample-count", PT_QUANTITY_SAMPLE_COUNT},
+    {"depth", PT_QUANTITY_DEPTH},
+    {"normal", PT_QUANTITY_NORMAL},
+    {"albedo", PT_QUANTITY_ALBEDO},
+    {"object-id", PT_QUANTITY_OBJECT},
+});
+
+// "depth,normal": their quantities, without that of the radiance. Throws CLI::ValidationError for what is no list of
+// different names.
+std::vector<std::uint32_t> parse_layers(const std::string &text);
+
+// A layer of the part of a picture that is rendered.
+struct PictureLayer {
+    std::uint32_t quantity;             // PT_QUANTITY_*
+    std::vector<float> values;          // pixel by pixel, row by row from the top; empty for objects,
+    std::vector<std::uint32_t> numbers; // of which there is one for each pixel
+
+    // Of zeros.
+    PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count);
+
+    // Takes rows of the part from a context that has these as its first.
+    void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
+
+    // As it is in a file; refers to this.
+    pt_image_layer in_file() const;
+};
+
+} // namespace cli

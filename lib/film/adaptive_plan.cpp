@@ -1,0 +1,60 @@
+#include "lib/film/adaptive_plan.h"
+
+#include "lib/film/adaptive_rule.h"
+#include "lib/film/error_estimate.h"
+#include "lib/film/error_region.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pt {
+
+// Tiles that were interrupted on their way to a level go there first, as far as they may.
+std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveRound &round) const {
+    if (round.number == AdaptiveRound::none && samples.most() <= next_check(samples.least()))
+        return next_together(samples, round);
+    if (TileStep step = to_next_level(samples, unfinished_tiles(samples)); !step.tiles.empty())
+        return step;
+    return next_apart(samples, round);
+}
+
+// As long as tiles are not told apart: the error is looked at as with even samples, and at each level whether it pays to.
+// Some may be on their way from one of these counts to the next.
+std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
+    const std::uint64_t count = samples.least();
+    if (samples.even() && is_check(count) && error_().high <= target_error_)
+        return std::nullopt;
+    if (samples.even() && is_level(count) && are_worth_telling_apart(tile_gains(samples, squares_())))
+        return next_apart(samples, round);
+    TileStep step;
+    const std::uint64_t goal = std::min(next_check(count), most_);
+    for (std::uint32_t tile = 0; tile < samples.grid().count(); ++tile)
+        if (samples.of(tile).count() < goal)
+            step.tiles.push_back(tile);
+    step.goal = [goal](std::uint32_t) { return goal; };
+    return step;
+}
+
+// Where a limit holds a tile up, on its way to a level or at one, the round stays, and the others come to rest in it.
+std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, AdaptiveRound &round) const {
+    const std::span<const double> squares = squares_();
+    const std::vector<double> gains = tile_gains(samples, squares);
+    std::vector<std::uint32_t> tiles = wanting_tiles(samples, gains, round);
+    if (tiles.empty() && unfinished_tiles(samples).empty()) {
+        const Error error = error_();
+        if (error.high <= target_error_)
+            return std::nullopt;
+        round = round_after(round, samples, squares, gains, squared(error.high / target_error_), error.sees_too_little);
+        tiles = wanting_tiles(samples, gains, round);
+    }
+    return to_next_level(samples, std::move(tiles));
+}
+
+TileStep AdaptivePlan::to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const {
+    std::erase_if(tiles, [&](std::uint32_t tile) { return samples.of(tile).count() >= most_; });
+    return {std::move(tiles), [&samples, most = most_](std::uint32_t tile) {
+                return std::min(next_level(samples.of(tile).count()), most);
+            }};
+}
+
+} // namespace pt

@@ -1,0 +1,59 @@
+// What tiles of a film take next on their way to a target error: adaptive_rule.h from look to look.
+//
+// However often it is interrupted, and by whatever limits of samples, a film comes to the same samples in the same tiles:
+// as long as tiles are together they are looked at when all have the same; later a tile's decision depends on its own sums
+// and the round alone, and a round ends when every tile has come to rest in it.
+#pragma once
+
+#include "lib/film/adaptive_round.h"
+#include "lib/film/tile_samples.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace pt {
+
+// Tiles that are to take samples, ascending, and by tile how many a pixel is to have then.
+struct TileStep {
+    std::vector<std::uint32_t> tiles;
+    std::function<std::uint64_t(std::uint32_t)> goal;
+};
+
+class AdaptivePlan {
+public:
+    // What a film says about that of its image.
+    struct Error {
+        double high;          // upper bound of the relative error
+        bool sees_too_little; // PT_UNCERTAIN_UNSEEN
+    };
+
+    using LookAtImage = std::function<Error()>;
+    using LookAtTiles =
+        std::function<std::span<const double>()>; // their squares (region_errors.h), valid until the next
+
+    // most: samples of any pixel. Looks are at the samples of the time, and take some time.
+    AdaptivePlan(double target_error, std::uint64_t most, LookAtImage error, LookAtTiles squares) :
+        target_error_(target_error),
+        most_(most),
+        error_(std::move(error)),
+        squares_(std::move(squares)) {}
+
+    // Nothing if the film has the target error; no tile if none may take more. The goals are those of these samples, which
+    // must outlive them. Moves the round on where it is over.
+    std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
+
+private:
+    std::optional<TileStep> next_together(const TileSamples &samples, AdaptiveRound &round) const;
+    std::optional<TileStep> next_apart(const TileSamples &samples, AdaptiveRound &round) const;
+    TileStep to_next_level(const TileSamples &samples, std::vector<std::uint32_t> tiles) const;
+
+    double target_error_;
+    std::uint64_t most_;
+    LookAtImage error_;
+    LookAtTiles squares_;
+};
+
+} // namespace pt

@@ -1,0 +1,40 @@
+"""pt: an offscreen path tracer for spheres and planes on any Vulkan device.
+
+    import pt
+    image = pt.render(positions, radii, colors)   # NumPy arrays: (n, 3), (n,), (n, 3)
+    image.save("picture.png")                     # or leave it as the last line of a notebook's cell
+
+For everything else: a Context, which is given a Scene, a Camera and RenderSettings, accumulates samples and reads the
+image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Colour is linear RGB
+radiance, unclamped. Row 0 of an image is the top row.
+
+The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed with the package, else the system's.
+"""
+
+from pt._callbacks import Log, Progress
+from pt._camera import Camera, RenderSettings
+from pt._context import Context
+from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Quantity, Result, Sampler, Sampling,
+                       Uncertain)
+from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, InternalError, InvalidArgumentError,
+                        InvalidSceneError, InvalidStateError, NoDeviceError, OutOfDeviceMemoryError,
+                        OutOfHostMemoryError, ShaderError, UnsupportedError)
+from pt._film import Film, FilmInfo, FilmTile
+from pt._image import Image
+from pt._library import library, version_text
+from pt._render import render
+from pt._scene import Material, Plane, Scene, Sphere, SphereArray
+from pt._stats import DeviceInfo, Stats, devices
+
+__all__ = [
+    "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature",
+    "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
+    "InvalidSceneError", "InvalidStateError", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
+    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Quantity", "RenderSettings", "Result", "Sampler", "Sampling", "Scene",
+    "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError", "devices", "render", "version",
+]
+
+
+def version() -> str:
+    """Of the library: "0.2.0"."""
+    return version_text(library())

@@ -1,0 +1,127 @@
+"""Where a picture is seen from, and how large it is and how it is made."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._columns import real_column
+from pt._enums import Estimator, Sampler
+from pt._vectors import Vector, vector
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole.
+
+    position       of the pinhole, scene units
+    target         the point in the middle of the image; must differ from position
+    up             not parallel to the viewing direction; of it the perpendicular part is the image's vertical
+    vertical_fov   full vertical angle, radians, in [1e-8, pi)
+    shutter        light is gathered evenly between these times, 0 <= open <= close <= 1; (0, 0) stands for (0, 1)
+    """
+
+    position: Vector
+    target: Vector
+    up: Vector = (0.0, 1.0, 0.0)
+    vertical_fov: float = math.pi / 4
+    shutter: tuple[float, float] = (0.0, 1.0)
+
+    def __post_init__(self) -> None:
+        for name in ("position", "target", "up"):
+            object.__setattr__(self, name, vector(name, getattr(self, name)))
+
+    @staticmethod
+    def around(center: npt.ArrayLike, radius: npt.ArrayLike, *, direction: Vector = (0.5, 0.4, 1.0),
+               up: Vector = (0.0, 1.0, 0.0), vertical_fov: float = math.pi / 6, aspect: float = 4 / 3,
+               margin: float = 1.05) -> Camera:
+        """A camera that sees all of many spheres, from as near as it can.
+
+        center      shape (n, 3), n >= 1, scene units
+        radius      shape (n,), or one number for all
+        direction   from the spheres to the camera, any length but 0
+        aspect      width / height of the image
+        margin      how much wider than the spheres the view is
+        """
+        centers = real_column("center", center, 3, None).astype(np.float64)
+        radii = real_column("radius", radius, 1, len(centers)).astype(np.float64)
+        if not len(centers):
+            raise ValueError("center has no spheres: there must be one to be seen")
+        middle = 0.5 * ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0))
+        right, above, back = _axes(direction, up)
+        # A sphere is in view if it is on the inner side of the four planes through the pinhole that bound the view.
+        # With the pinhole at middle + t back and a plane's inner unit normal n, that is dot(n, center - middle) - t
+        # dot(n, back) >= radius, where dot(n, back) < 0: a lower bound of t for each plane and sphere, and the largest
+        # of them is the answer.
+        half_height = math.tan(0.5 * vertical_fov) / margin
+        distance = 0.0
+        for axis, half_extent in ((right, aspect * half_height), (above, half_height)):
+            for side in (-1.0, 1.0):
+                normal = (side * axis - half_extent * back) / math.hypot(1.0, half_extent)
+                needed = (radii - (centers - middle) @ normal) / -(normal @ back)
+                distance = max(distance, float(needed.max()))
+        return Camera(position=middle + distance * back, target=middle, up=up, vertical_fov=vertical_fov)
+
+    def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Unit vectors to the right and up in the image, and from the target to the camera."""
+        return _axes(np.subtract(self.position, self.target), self.up)
+
+    def _struct(self) -> structs.pt_camera:
+        shutter_open, shutter_close = self.shutter
+        return structs.pt_camera(position=self.position, target=self.target, up=self.up, vertical_fov=self.vertical_fov,
+                                 shutter_open=shutter_open, shutter_close=shutter_close)
+
+
+def _axes(direction: Vector, up: Vector
+          ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    back = np.array(vector("direction", direction))
+    right = np.cross(vector("up", up), back)
+    if not right.any():
+        raise ValueError(f"direction = {direction!r}: must not be parallel to up, nor 0")
+    back /= np.linalg.norm(back)
+    right /= np.linalg.norm(right)
+    return right, np.cross(back, right), back
+
+
+@dataclass(frozen=True)
+class RenderSettings:
+    """What image is to be made, and how.
+
+    width, height     pixels, >= 1
+    max_path_length   surface vertices after the camera, in [1, 1024]; 1 is emission only
+    seed              equal inputs, device and driver and equal seed: equal bits
+    first_sample      index of the first sample: samples a to b of one sequence may be taken anywhere, and their films
+                      add up
+    estimator         how light is found
+    sampler           where a sample's numbers come from
+    first_row         these rows alone are rendered, and read back as an image of their own
+    row_count         0: all from first_row on
+    """
+
+    width: int
+    height: int
+    max_path_length: int = 6
+    seed: int = 0
+    first_sample: int = 0
+    estimator: Estimator = Estimator.BEST
+    sampler: Sampler = Sampler.BEST
+    first_row: int = 0
+    row_count: int = 0
+
+    def _struct(self) -> structs.pt_render:
+        for name, bits in (("width", 32), ("height", 32), ("max_path_length", 32), ("seed", 64), ("first_sample", 32),
+                           ("first_row", 32), ("row_count", 32)):
+            if not 0 <= getattr(self, name) < 2**bits:  # ctypes would take it modulo
+                raise ValueError(f"render.{name} = {getattr(self, name)}: must be at least 0 and below 2^{bits}")
+        return structs.pt_render(
+            width=self.width, height=self.height, max_path_length=self.max_path_length, seed=self.seed,
+            first_sample=self.first_sample, estimator=self.estimator, sampler=self.sampler, first_row=self.first_row,
+            row_count=self.row_count)
+
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of what is read back."""
+        return self.row_count or self.height - self.first_row, self.width

@@ -1,0 +1,234 @@
+"""A renderer on a device."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import weakref
+from types import TracebackType
+from typing import Any
+
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._callbacks import CallbackGuard, Log, Progress, log_function
+from pt._camera import Camera, RenderSettings
+from pt._enums import CreateFlag, Format, Quantity, Result, Sampling
+from pt._errors import InvalidStateError
+from pt._film import Film, bytes_from
+from pt._image import Image
+from pt._library import checked, library
+from pt._pixels import Rectangle, image_struct, new_pixels
+from pt._scene import Scene, SceneStruct
+from pt._stats import DeviceInfo, Stats, device_of, stats_of
+
+MOST_SAMPLES = 2**32 - 1
+
+
+class Context:
+    """One renderer, on one device or several: set a scene, a camera and settings, accumulate samples, read the image.
+
+    device                None: the best one. Else an index into devices(), "gpu", "cpu", a UUID, or a part of a name;
+                          "all" of the best kind, or several with commas share the samples
+    log                   called with level and line, for what the library has to tell, during any call
+    validation            the Khronos validation layer reports to log; UnsupportedError where it is absent
+    scene_kernels         False: no kernels with a scene's numbers as constants, for scenes that change from frame to
+                          frame
+    submit_milliseconds   aim for the length of one submission to a device, in [1, 1000]; how soon calls can be stopped
+
+    Use it by `with`, or close() it; a context that is forgotten is closed by the garbage collector, and at the end of
+    the program.
+
+    Threads: different contexts are independent, and the interpreter's lock is released during calls. A context is in
+    one call at a time: another one meanwhile, from another thread or from a callback, raises InvalidStateError. After
+    os.fork() a child cannot use its parent's contexts (InvalidStateError): start workers by
+    multiprocessing.get_context("spawn").
+
+    Callbacks run on the calling thread. What a callback raises, or a signal handler meanwhile, as Ctrl-C does, stops
+    the call as soon as its next callback comes, and is raised by it; the context stays usable. Progress functions are
+    called with the share of the call that is done, in [0, 1], and stop it by returning True.
+
+    Errors are subclasses of Error. A call that fails has changed nothing, except that a lost device stays lost and
+    accumulate may have taken some of its samples.
+    """
+
+    def __init__(self, device: str | None = None, *, log: Log | None = None, validation: bool = False,
+                 scene_kernels: bool = True, submit_milliseconds: int = 50) -> None:
+        self._library = library()
+        self._in_call = False
+        self._process = os.getpid()
+        self._shape: tuple[int, int] | None = None
+        self._log = log
+        # The function that the library has must outlive the context, and must not keep it alive: log may refer to it.
+        this = weakref.ref(self)
+        self._log_function = log_function(lambda: getattr(this(), "_log", None))
+        log_pointer = structs.pt_log_fn(self._log_function)
+        flags = CreateFlag.VALIDATION * validation | CreateFlag.NO_SCENE_KERNELS * (not scene_kernels)
+        if not 1 <= submit_milliseconds <= 1000:
+            raise ValueError(f"submit_milliseconds = {submit_milliseconds}: must be in [1, 1000]")
+        info = structs.pt_create_info(device=None if device is None else device.encode(), flags=flags,
+                                      submit_milliseconds=submit_milliseconds)
+        if log is not None:
+            info.log = log_pointer
+        handle = ctypes.c_void_p()
+        guard = self._guard()
+        with guard:
+            result = self._library.pt_create(info, handle)
+        checked(self._library, result)
+        self._handle: ctypes.c_void_p | None = handle
+        self._finalizer = weakref.finalize(self, _destroy, self._library, handle, self._process, log_pointer)
+        guard.raise_caught()
+
+    def close(self) -> None:
+        """Frees everything; again it does nothing. InvalidStateError: a call is under way."""
+        if self._handle is None:
+            return
+        if self._in_call:
+            raise InvalidStateError("the context cannot be closed while a call on it is under way")
+        self._handle = None
+        self._finalizer()
+
+    def __enter__(self) -> Context:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                 traceback: TracebackType | None) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return "<pt.Context, closed>" if self._handle is None else f"<pt.Context on {self.device.name}>"
+
+    @property
+    def device(self) -> DeviceInfo:
+        """What this context runs on; the first of several devices."""
+        info = structs.pt_device_info()
+        self._call("pt_get_context_device", info)
+        return device_of(info)
+
+    def set_scene(self, scene: Scene, progress: Progress | None = None) -> Result:
+        """Takes over a scene, and discards the samples so far. Ten million spheres take some seconds.
+
+        Result.CANCELLED: progress returned True, and all is as it was. Where something is raised after progress has
+        been called with 1, the new scene may be there all the same. InvalidSceneError: a rule is broken, as
+        "spheres[3].radius = -1: must be > 0"; the message has a line for each."""
+        guard = self._guard()
+        scene_struct = SceneStruct(scene, guard, progress)
+        return self._call("pt_set_scene", scene_struct.struct, guard=guard)
+
+    def set_camera(self, camera: Camera) -> None:
+        """Takes over a camera, and discards the samples so far. InvalidArgumentError: a rule is broken."""
+        self._call("pt_set_camera", camera._struct())
+
+    def set_render(self, settings: RenderSettings) -> None:
+        """Takes over the image's size and how it is made, and discards the samples so far. It takes 112 bytes a pixel
+        of the device's memory.
+
+        InvalidArgumentError: a rule is broken. UnsupportedError, OutOfDeviceMemoryError: render fewer rows at a
+        time."""
+        self._call("pt_set_render", settings._struct())
+        self._shape = settings.shape()
+
+    def prepare(self) -> None:
+        """Builds the kernels that accumulate needs, so that it does not have to. Cannot be interrupted.
+        InvalidStateError: scene, camera or settings are not set."""
+        self._call("pt_prepare")
+
+    def accumulate(self, sample_count: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
+                   progress: Progress | None = None) -> Result:
+        """Adds samples to every pixel.
+
+        sample_count   >= 1; with a target error the most that it adds
+        target_error   0: none. Else it ends once Stats.relative_rmse_high is at or below it, with
+                       Result.TARGET_REACHED; 0.01 is 1%
+        sampling       where samples go; with a target error adaptive, else uniform
+        progress       called after each submission, a twentieth of a second; returning True ends the call with
+                       Result.CANCELLED and the whole samples that were taken
+        """
+        if not 0 <= sample_count <= MOST_SAMPLES:
+            raise ValueError(f"sample_count = {sample_count}: must be in [1, {MOST_SAMPLES}]")
+        guard = self._guard()
+        info = structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error, sampling=sampling,
+                                          progress=guard.progress(progress))
+        return self._call("pt_accumulate", info, guard=guard)
+
+    def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
+                 rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
+        """The image so far: an array of shape (height, width, 3), float32, row 0 at the top, or as format says.
+
+        quantity    radiance (linear RGB), its standard error, ... OBJECT asks for the format R32UI
+        out         receives the pixels in place of a new array, and is returned. float32 with 3 or 4 channels,
+                    float16 with 4 or uint32 with 1, with the pixels of a row side by side and rows at any distance: a part of a larger
+                    array does. It is never copied: ValueError if it does not fit
+        rectangle   x, y, width, height in pixels, from the top left of what is rendered; None: all
+        format      of a new array
+
+        InvalidStateError: there is no sample."""
+        if self._shape is None:
+            raise InvalidStateError("there is no image: set_render was not called")
+        pixels = new_pixels(self._shape, rectangle, format) if out is None else out
+        self._call("pt_readback", image_struct(pixels, quantity, self._shape, rectangle))
+        return pixels
+
+    def stats(self) -> Stats:
+        """What has been done, and how good the image is."""
+        struct = structs.pt_stats()
+        self._call("pt_get_stats", struct)
+        return stats_of(struct)
+
+    def film(self) -> Film:
+        """The exact sums of the samples so far. InvalidStateError: there is no sample."""
+        return Film(bytes_from(lambda data, size: self._call("pt_save_film", data, size)))
+
+    def add_film(self, film: Film) -> None:
+        """Adds the samples of a film of the same scene, camera and settings (but for first_sample). IncompatibleError:
+        it is of another picture, or has samples that are here already."""
+        data = film.to_bytes()
+        self._call("pt_add_film", data, len(data))
+
+    def image(self) -> Image:
+        """Radiance, standard error and sample counts as they are now, with the error. InvalidStateError: there is no
+        sample."""
+        return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
+                     self.readback(Quantity.SAMPLE_COUNT), self.stats())
+
+    def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
+               target_error: float = 0.0, progress: Progress | None = None) -> Image:
+        """Sets all three, accumulates samples and returns the image, also where progress has ended the samples early;
+        before the first of them that is an InvalidStateError."""
+        self.set_scene(scene)
+        self.set_camera(camera)
+        self.set_render(settings)
+        self.accumulate(samples, target_error=target_error, progress=progress)
+        return self.image()
+
+    def _guard(self) -> CallbackGuard:
+        guard = CallbackGuard()
+        guard.watch(self._log_function)
+        return guard
+
+    def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
+        """Calls a function on the context, and raises what a callback raised, or the library's error."""
+        handle, guard = self._handle, guard or self._guard()
+        if self._process != os.getpid():
+            raise InvalidStateError("the context is of the process that this one was forked from")
+        if handle is None:
+            raise InvalidStateError("the context is closed")
+        # A flag and not a lock: Python raises KeyboardInterrupt when a lock's acquire() returns, but never between this
+        # test and `try`, nor does it change threads there. Without a global lock (PEP 703) it may, and then the library
+        # refuses.
+        if self._in_call:
+            raise InvalidStateError("another call on this context is under way")
+        self._in_call = True
+        try:
+            with guard:
+                result = getattr(self._library, function)(handle, *arguments)
+            guard.raise_caught()
+            return checked(self._library, result, handle)
+        finally:
+            self._in_call = False
+
+
+def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, process: int, _log: object) -> None:
+    """Not in a child of fork, where the threads of the driver are missing and this would wait for them for ever."""
+    if process == os.getpid():
+        loaded.pt_destroy(handle)

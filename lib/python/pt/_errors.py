@@ -1,0 +1,108 @@
+"""Errors of the library as exceptions: a class for each result below 0."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from pt._enums import Result
+
+
+@dataclass(frozen=True)
+class BrokenRule:
+    """A field and the rule that it breaks: `spheres[3].center[0] = nan: must be finite`."""
+
+    subject: str  # "materials", "spheres", "planes", "sphere_arrays", "scene", "camera", "render", ...
+    index: int | None  # which element of the subject; None: the subject is no array
+    member: str  # "center"; "" for a rule about the argument itself
+    component: int | None  # which element of the member; None: it has none
+    joined_with: str  # what else enters the value, as "* height" beside "width"; else ""
+    value: str  # "nan"
+    rule: str  # "must be finite"
+
+
+class Error(Exception):
+    """A call of the library that failed, with the library's message. It has changed nothing, except that a lost device
+    stays lost, and that accumulate may have taken some of its samples."""
+
+    result: Result
+    broken_rules: tuple[BrokenRule, ...]
+    """The first eight rules that the message is about; empty where it is about no field."""
+
+    def __init__(self, message: str, broken_rules: tuple[BrokenRule, ...] = ()) -> None:
+        super().__init__(message)
+        self.broken_rules = broken_rules
+
+
+class InvalidArgumentError(Error, ValueError):
+    """A field, size or pointer breaks a rule."""
+
+    result = Result.ERROR_INVALID_ARGUMENT
+
+
+class InvalidSceneError(Error, ValueError):
+    """A scene breaks a rule; the message names field, value and rule."""
+
+    result = Result.ERROR_INVALID_SCENE
+
+
+class InvalidStateError(Error, RuntimeError):
+    """Something has to be set or to end first, or a call is under way already."""
+
+    result = Result.ERROR_INVALID_STATE
+
+
+class UnsupportedError(Error, RuntimeError):
+    """Valid, but beyond this device, driver or library."""
+
+    result = Result.ERROR_UNSUPPORTED
+
+
+class NoDeviceError(Error, RuntimeError):
+    """No Vulkan driver, or no device fits; the message has the reasons."""
+
+    result = Result.ERROR_NO_DEVICE
+
+
+class OutOfHostMemoryError(Error, MemoryError):
+    """The machine has too little memory left."""
+
+    result = Result.ERROR_OUT_OF_HOST_MEMORY
+
+
+class OutOfDeviceMemoryError(Error, MemoryError):
+    """The device has too little memory left, for this image for instance."""
+
+    result = Result.ERROR_OUT_OF_DEVICE_MEMORY
+
+
+class DeviceLostError(Error, RuntimeError):
+    """The device or its driver gave up; the context can only be closed."""
+
+    result = Result.ERROR_DEVICE_LOST
+
+
+class ShaderError(Error, RuntimeError):
+    """The driver refused to build the kernel."""
+
+    result = Result.ERROR_SHADER
+
+
+class InternalError(Error, RuntimeError):
+    """A bug in the library or in the driver."""
+
+    result = Result.ERROR_INTERNAL
+
+
+class IncompatibleError(Error, ValueError):
+    """A film that does not belong to what is rendered, or to the other film, or that is damaged."""
+
+    result = Result.ERROR_INCOMPATIBLE
+
+
+ERROR_OF_RESULT: Final[dict[int, type[Error]]] = {
+    error.result: error
+    for error in (InvalidArgumentError, InvalidSceneError, InvalidStateError, UnsupportedError, NoDeviceError,
+                  OutOfHostMemoryError, OutOfDeviceMemoryError, DeviceLostError, ShaderError, InternalError,
+                  IncompatibleError)
+}

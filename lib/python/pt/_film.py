@@ -1,0 +1,202 @@
+"""The exact sums behind an image, which add."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import threading
+import weakref
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._enums import Estimator, Format, Quantity, Result, Sampler
+from pt._errors import IncompatibleError
+from pt._files import Path, write_atomically
+from pt._image import Image
+from pt._library import checked, library
+from pt._pixels import Rectangle, image_struct, new_pixels
+from pt._stats import Stats, stats_of
+
+ZSTD_MAGIC = bytes.fromhex("28b52ffd")
+
+
+@dataclass(frozen=True)
+class FilmInfo:
+    """What a film is of."""
+
+    width: int  # of the whole image, pixels
+    height: int
+    x: int  # of the smallest rectangle with all pixels of the film: first column
+    y: int  # its first row
+    columns: int  # its width, pixels
+    rows: int  # its height, pixels
+    max_path_length: int
+    seed: int
+    estimator: Estimator
+    sampler: Sampler
+    device: str  # models and drivers of the devices that took the samples
+
+
+@dataclass(frozen=True)
+class FilmTile:
+    """A rectangle of the image whose pixels have the same samples."""
+
+    x: int  # first column, in the image
+    y: int  # first row
+    width: int  # pixels
+    height: int
+    samples: tuple[range, ...]  # indices, ascending and never adjacent
+
+
+class Film:
+    """Samples of an image as exact sums, which need neither a device nor the scene.
+
+    Films of other samples or other pixels of the same picture add up, by + or sum(), in any order, to the bits of one
+    long rendering. They can be pickled, saved, loaded, and compared: films of equal samples are equal.
+
+    Made by Context.film(), Film.load(path), or Film(data) from the bytes of another; bytes need not be trusted
+    (IncompatibleError). It takes 112 bytes a pixel. One call at a time: others wait.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._library = library()
+        self._lock = threading.RLock()
+        self._handle = ctypes.c_void_p()
+        data = _unpacked(bytes(data))
+        checked(self._library, self._library.pt_open_film(data, len(data), self._handle))
+        weakref.finalize(self, self._library.pt_close_film, self._handle)
+
+    @classmethod
+    def load(cls, path: Path) -> Film:
+        """A film from a file of save(), of the program pt (--film, --checkpoint), or of anybody else who keeps such
+        bytes. Files of the program are packed, which needs Python 3.14 or the module zstandard."""
+        with open(path, "rb") as file:
+            return cls(file.read())
+
+    def save(self, path: Path) -> None:
+        """Writes the bytes to a file, which is there whole or not at all; `pt merge` reads it too."""
+        write_atomically(path, self.to_bytes())
+
+    def to_bytes(self) -> bytes:
+        """Equal samples of equal pictures are equal bytes. Their format: lib/film/FORMAT.md."""
+        return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
+
+    def __add__(self, other: Film) -> Film:
+        if not isinstance(other, Film):
+            return NotImplemented
+        total = Film(self.to_bytes())
+        total += other
+        return total
+
+    def __radd__(self, other: int) -> Film:
+        """0 + film, with which sum() begins."""
+        if other != 0:
+            return NotImplemented
+        return self
+
+    def __iadd__(self, other: Film) -> Film:
+        """Adds the other's samples to this film. IncompatibleError: it is of another picture, or has samples that are
+        here already; the message has a line for each difference, and nothing is changed."""
+        if not isinstance(other, Film):
+            return NotImplemented
+        data = other.to_bytes()
+        self._call("pt_merge_film", data, len(data))
+        return self
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Film):
+            return NotImplemented
+        return self.to_bytes() == other.to_bytes()
+
+    __hash__ = None  # type: ignore[assignment] # += changes it
+
+    def __reduce__(self) -> tuple[type[Film], tuple[bytes]]:
+        return Film, (self.to_bytes(),)
+
+    def __repr__(self) -> str:
+        info = self.info
+        return f"<pt.Film of {info.columns}x{info.rows} pixels, {self.stats().sample_count} samples or more>"
+
+    @property
+    def info(self) -> FilmInfo:
+        """What the film is of."""
+        struct = structs.pt_film_info()
+        with self._lock:
+            self._call("pt_get_film_info", struct)
+            values: dict[str, Any] = {name: getattr(struct, name) for name in FilmInfo.__dataclass_fields__}
+            values.update(device=struct.device.decode(errors="replace"), estimator=Estimator(struct.estimator),
+                          sampler=Sampler(struct.sampler))
+            return FilmInfo(**values)
+
+    @property
+    def tiles(self) -> list[FilmTile]:
+        """Which samples which pixels have; a single tile where all have the same."""
+        with self._lock:
+            info = structs.pt_film_info()
+            self._call("pt_get_film_info", info)
+            return [self._tile(index) for index in range(info.tile_count)]
+
+    def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
+                 rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
+        """As Context.readback, with its bits, of the rectangle that FilmInfo tells. Pixels that the film does not have
+        are black, with an infinite standard error."""
+        with self._lock:
+            info = self.info
+            shape = info.rows, info.columns
+            pixels = new_pixels(shape, rectangle, format) if out is None else out
+            self._call("pt_read_film", image_struct(pixels, quantity, shape, rectangle))
+        return pixels
+
+    def stats(self) -> Stats:
+        """How many samples it has, and how good its image is. The scene's lamps are not known to a film, so that
+        Uncertain.UNMET stands wherever they are found by chance."""
+        struct = structs.pt_stats()
+        self._call("pt_get_film_stats", struct)
+        return stats_of(struct)
+
+    def image(self) -> Image:
+        """Radiance, standard error and sample counts, with the error."""
+        with self._lock:
+            return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
+                         self.readback(Quantity.SAMPLE_COUNT), self.stats())
+
+    def _tile(self, index: int) -> FilmTile:
+        tile = structs.pt_film_tile()
+        self._call("pt_get_film_tile", index, tile)
+        count = ctypes.c_uint32(tile.range_count)
+        ranges = (structs.pt_sample_range * count.value)()
+        self._call("pt_get_film_ranges", index, ranges, count)
+        return FilmTile(tile.x, tile.y, tile.width, tile.height, tuple(range(r.first, r.end) for r in ranges))
+
+    def _call(self, function: str, *arguments: Any) -> Result:
+        with self._lock:
+            return checked(self._library, getattr(self._library, function)(self._handle, *arguments))
+
+
+def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
+    """The bytes that a function of the library writes, which tells their number first."""
+    size = ctypes.c_uint64()
+    write(None, size)
+    data = ctypes.create_string_buffer(size.value)
+    write(data, size)
+    return data.raw[:size.value]
+
+
+def _unpacked(data: bytes) -> bytes:
+    """What a frame of zstd holds; other bytes as they are."""
+    if not data.startswith(ZSTD_MAGIC):
+        return data
+    for name in ("compression.zstd", "zstandard"):
+        try:
+            module = importlib.import_module(name)
+        except ImportError:
+            continue
+        try:
+            return bytes(module.decompress(data))
+        except Exception as error:
+            raise IncompatibleError(f"the film's zstd frame is damaged: {error}") from error
+    raise IncompatibleError("the film is packed: install the Python module zstandard, or unpack it by zstd -d")

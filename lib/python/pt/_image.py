@@ -1,0 +1,92 @@
+"""A finished image: its numbers, how good they are, and a picture of them."""
+
+from __future__ import annotations
+
+import io
+import os
+import pathlib
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._display import automatic_exposure, encode_png, to_srgb8
+from pt._files import Path, write_atomically
+from pt._stats import Stats
+
+
+class Image:
+    """Linear radiance as an array of shape (height, width, 3), float32, row 0 at the top; NumPy takes the image as that
+    array: np.mean(image), image[y, x], image - other.
+
+    radiance         the mean of the samples, linear RGB, unclamped, >= 0
+    standard_error   of the same shape: the standard error of each number, no more than a hint in a single pixel.
+                     Infinite up to 8 samples
+    sample_count     shape (height, width), uint32: samples that each pixel has
+    stats            how good the image is as a whole, and what it took
+    exposure         stops, of the picture that _repr_png_ and save make; None: automatic
+    """
+
+    def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
+                 sample_count: npt.NDArray[Any], stats: Stats, exposure: float | None = None) -> None:
+        self.radiance = radiance
+        self.standard_error = standard_error
+        self.sample_count: npt.NDArray[np.uint32] = sample_count[:, :, 0].astype(np.uint32)
+        self.stats = stats
+        self.exposure = exposure
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        return self.radiance.shape
+
+    @property
+    def error(self) -> float:
+        """The relative root mean square error: 0.01 is 1%. Infinite with fewer than 16 samples."""
+        return self.stats.relative_rmse
+
+    @property
+    def error_bounds(self) -> tuple[float, float]:
+        """Within which the error is with 95% confidence."""
+        return self.stats.relative_rmse_low, self.stats.relative_rmse_high
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
+        array = self.radiance if dtype is None else self.radiance.astype(dtype, copy=False)
+        return array.copy() if copy and array is self.radiance else array
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.radiance[index]
+
+    def __len__(self) -> int:
+        return len(self.radiance)
+
+    def __repr__(self) -> str:
+        height, width = self.shape[:2]
+        low, high = self.error_bounds
+        return (f"<pt.Image {width}x{height}, {self.stats.mean_sample_count:.4g} samples a pixel, "
+                f"error {self.error:.3g} ({low:.3g} to {high:.3g})>")
+
+    def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
+        """The picture as bytes of sRGB, shape (height, width, 3): radiance times 2^exposure, clamped to [0, 1]. None:
+        that of the image, and if that is None too, the exposure at which the average is middle grey, 0.18. These are
+        the bits that the program pt writes if it is not told otherwise."""
+        if exposure is None:
+            exposure = self.exposure
+        return to_srgb8(self.radiance, automatic_exposure(self.radiance) if exposure is None else exposure)
+
+    def save(self, path: Path, *, exposure: float | None = None) -> None:
+        """Writes a picture, of to_srgb8, if the path ends in .png, and the radiance if it ends in .npy. The file is
+        there whole or not at all. ValueError: another ending."""
+        suffix = pathlib.Path(path).suffix.lower()
+        if suffix == ".png":
+            data = encode_png(self.to_srgb8(exposure))
+        elif suffix == ".npy":
+            buffer = io.BytesIO()
+            np.save(buffer, self.radiance, allow_pickle=False)
+            data = buffer.getvalue()
+        else:
+            raise ValueError(f"{os.fspath(path)!r}: must end in .png or .npy")
+        write_atomically(path, data)
+
+    def _repr_png_(self) -> bytes:
+        """What notebooks show."""
+        return encode_png(self.to_srgb8())

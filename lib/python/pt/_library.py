@@ -1,0 +1,117 @@
+"""Finds and loads libpt, declares its functions, and turns what they return into values or exceptions."""
+
+from __future__ import annotations
+
+import ctypes
+import functools
+import os
+import pathlib
+from ctypes import POINTER, c_char_p, c_int32, c_uint32, c_uint64, c_void_p
+from typing import Any, Final
+
+from pt import _structs as structs
+from pt._enums import Result
+from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
+
+SONAME: Final = "libpt.so.0.2"
+BROKEN_RULES_KEPT: Final = 8  # by the library
+
+# A function that is missing here has no types, and ctypes would cut its pointers to 32 bits. All that are not in
+# NOT_RESULTS return a pt_result.
+PARAMETERS: Final[dict[str, list[Any]]] = {
+    "pt_version": [],
+    "pt_result_name": [c_int32],
+    "pt_last_error": [c_void_p],
+    "pt_get_broken_rule": [c_void_p, c_uint32, POINTER(structs.pt_broken_rule)],
+    "pt_create": [POINTER(structs.pt_create_info), POINTER(c_void_p)],
+    "pt_destroy": [c_void_p],
+    "pt_get_devices": [POINTER(structs.pt_device_info), POINTER(c_uint32)],
+    "pt_get_context_device": [c_void_p, POINTER(structs.pt_device_info)],
+    "pt_set_scene": [c_void_p, POINTER(structs.pt_scene)],
+    "pt_set_camera": [c_void_p, POINTER(structs.pt_camera)],
+    "pt_set_render": [c_void_p, POINTER(structs.pt_render)],
+    "pt_prepare": [c_void_p],
+    "pt_accumulate": [c_void_p, POINTER(structs.pt_accumulate_info)],
+    "pt_readback": [c_void_p, POINTER(structs.pt_image)],
+    "pt_get_stats": [c_void_p, POINTER(structs.pt_stats)],
+    "pt_next_check": [c_uint32],
+    "pt_save_film": [c_void_p, c_void_p, POINTER(c_uint64)],
+    "pt_add_film": [c_void_p, c_char_p, c_uint64],
+    "pt_open_film": [c_char_p, c_uint64, POINTER(c_void_p)],
+    "pt_close_film": [c_void_p],
+    "pt_merge_film": [c_void_p, c_char_p, c_uint64],
+    "pt_write_film": [c_void_p, c_void_p, POINTER(c_uint64)],
+    "pt_read_film": [c_void_p, POINTER(structs.pt_image)],
+    "pt_get_film_info": [c_void_p, POINTER(structs.pt_film_info)],
+    "pt_get_film_tile": [c_void_p, c_uint32, POINTER(structs.pt_film_tile)],
+    "pt_get_film_ranges": [c_void_p, c_uint32, POINTER(structs.pt_sample_range), POINTER(c_uint32)],
+    "pt_get_film_stats": [c_void_p, POINTER(structs.pt_stats)],
+}
+NOT_RESULTS: Final[dict[str, Any]] = {
+    "pt_version": c_uint32, "pt_result_name": c_char_p, "pt_last_error": c_char_p, "pt_get_broken_rule": c_uint64,
+    "pt_destroy": None, "pt_next_check": c_uint32, "pt_close_film": None,
+}
+
+
+def library_path() -> str:
+    """The library that PT_LIBRARY names, else the one that was installed with the package, else the system's."""
+    named = os.environ.get("PT_LIBRARY")
+    if named:
+        return named
+    beside = pathlib.Path(__file__).with_name(SONAME)
+    return str(beside) if beside.exists() else SONAME
+
+
+def load_library(path: str) -> ctypes.CDLL:
+    """Loads a libpt; the interpreter's lock is released while its functions run. ImportError: it is not there, or of a
+    version with other structs. What an older one of the same version lacks is an AttributeError when it is called."""
+    try:
+        loaded = ctypes.CDLL(path)
+        for name, parameters in PARAMETERS.items():
+            if name == "pt_version" or hasattr(loaded, name):
+                function = getattr(loaded, name)
+                function.argtypes = parameters
+                function.restype = NOT_RESULTS.get(name, c_int32)
+    except (OSError, AttributeError) as error:
+        raise ImportError(f"{path} is no libpt that can be loaded (PT_LIBRARY names another): {error}") from error
+    if f"libpt.so.{version_text(loaded).rpartition('.')[0]}" != SONAME:
+        raise ImportError(f"{path} is libpt {version_text(loaded)}; this package is for {SONAME}")
+    return loaded
+
+
+def version_text(loaded: ctypes.CDLL) -> str:
+    number = int(loaded.pt_version())
+    return f"{number // 1_000_000}.{number // 1000 % 1000}.{number % 1000}"
+
+
+@functools.lru_cache(maxsize=1)
+def library() -> ctypes.CDLL:
+    """The library of this process, loaded when it is first needed."""
+    return load_library(library_path())
+
+
+def _text(value: bytes | None) -> str:
+    return "" if value is None else value.decode(errors="replace")
+
+
+def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[BrokenRule, ...]:
+    rules = []
+    for index in range(min(loaded.pt_get_broken_rule(context, 0, None), BROKEN_RULES_KEPT)):
+        rule = structs.pt_broken_rule()
+        loaded.pt_get_broken_rule(context, index, rule)
+        rules.append(BrokenRule(
+            subject=_text(rule.subject), index=None if rule.index < 0 else rule.index, member=_text(rule.member),
+            component=None if rule.component < 0 else rule.component, joined_with=_text(getattr(rule, "with")),
+            value=_text(rule.value), rule=_text(rule.rule)))
+    return tuple(rules)
+
+
+def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
+    """The result of a call that did not fail; else raises its error, with the message that the library has for the
+    context, or for this thread's calls without one. So it has to follow the call before another does."""
+    if result >= 0:
+        return Result(result)
+    message = _text(loaded.pt_last_error(context))
+    if result not in ERROR_OF_RESULT:
+        raise Error(f"{_text(loaded.pt_result_name(result))} ({result}): {message}")
+    raise ERROR_OF_RESULT[result](message, _broken_rules(loaded, context))

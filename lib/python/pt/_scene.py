@@ -1,0 +1,198 @@
+"""What is to be seen: materials, spheres and planes."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from pt import _structs as structs
+from pt._callbacks import CallbackGuard, Progress
+from pt._columns import Array, color_column, column_of, index_column, real_column
+from pt._vectors import Color, Vector, color, vector
+
+
+@dataclass(frozen=True)
+class Material:
+    """How a surface reflects and shines: the physically-normalised Phong model of pt/pt.h.
+
+    Colours are linear R, G, B, each in [0, 1e18]; a single number is a grey.
+
+    diffuse      share of the light that is scattered evenly
+    specular     weight of the lobe about the mirror direction
+    emission     radiance, the same in every direction and on both sides
+    glossiness   exponent of the lobe, in [0, 1e9]
+    """
+
+    diffuse: Color = 0.0
+    specular: Color = 0.0
+    emission: Color = 0.0
+    glossiness: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("diffuse", "specular", "emission"):
+            object.__setattr__(self, name, color(name, getattr(self, name)))
+        object.__setattr__(self, "glossiness", float(self.glossiness))
+
+    def _struct(self) -> structs.pt_material:
+        return structs.pt_material(self.diffuse, self.specular, self.emission, self.glossiness)
+
+
+MaterialOrIndex: TypeAlias = "Material | int"
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A ball: visible, lit and emitting on both sides.
+
+    center     at time 0, scene units
+    radius     > 0, scene units
+    material   a Material, or its index in Scene.materials
+    motion     way from time 0 to time 1, scene units
+    """
+
+    center: Vector
+    radius: float
+    material: MaterialOrIndex
+    motion: Vector = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "center", vector("center", self.center))
+        object.__setattr__(self, "radius", float(self.radius))
+        object.__setattr__(self, "motion", vector("motion", self.motion))
+
+
+@dataclass(frozen=True)
+class Plane:
+    """The points x with dot(normal, x) + offset = 0: visible, lit and emitting on both sides.
+
+    normal     any length but 0; (normal, offset) is divided by it
+    offset     minus the distance from the origin along the normal, times the normal's length
+    material   a Material, or its index in Scene.materials
+    """
+
+    normal: Vector
+    offset: float
+    material: MaterialOrIndex
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "normal", vector("normal", self.normal))
+        object.__setattr__(self, "offset", float(self.offset))
+
+
+class SphereArray:
+    """Many spheres, read from NumPy arrays where they are, each time that the scene is set: until then changes of the
+    arrays count, and afterwards they do not.
+
+    center     shape (n, 3): x, y, z at time 0, scene units
+    radius     shape (n,), or one number for all; > 0, scene units
+    material   a Material or an index in Scene.materials for all, or indices of shape (n,)
+    motion     shape (n, 3) or (3,): way from time 0 to time 1; none by default
+    color      shape (n, 3) or (3,), by which the material's diffuse is multiplied: floats in [0, 1], linear, or uint8,
+               sRGB as pictures and colour maps have it. By default the material is as it is
+
+    Read in place are arrays of float32 and float64, of uint32 (indices) and of uint8 (colours), in the machine's byte
+    order, whose rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table,
+    fields of structured arrays, np.broadcast_to. Everything else is copied here, once: transposed (Fortran) and
+    reversed arrays, the other byte order, lists, other types of numbers. `copied` has the names of those columns.
+    Changes of arrays that were copied do not count.
+
+    ValueError: shapes do not fit. TypeError: not numbers, or colours of integers that are not uint8.
+    """
+
+    def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,
+                 motion: npt.ArrayLike | None = None, color: npt.ArrayLike | None = None) -> None:
+        self.center: Array = real_column("center", center, 3, None)
+        count = len(self.center)
+        self.radius: Array = real_column("radius", radius, 1, count)
+        self.material: Material | Array = (
+            material if isinstance(material, Material) else index_column("material", material, count))
+        self.motion: Array | None = None if motion is None else real_column("motion", motion, 3, count)
+        self.color: Array | None = None if color is None else color_column("color", color, count)
+        given = {"center": center, "radius": radius, "material": material, "motion": motion, "color": color}
+        self.copied: tuple[str, ...] = tuple(name for name, value in given.items() if self._is_copy(name, value))
+
+    def _is_copy(self, name: str, value: object) -> bool:
+        column = getattr(self, name)
+        return (isinstance(column, np.ndarray) and column.size > 0 and
+                not (isinstance(value, np.ndarray) and np.may_share_memory(column, value)))
+
+    def __len__(self) -> int:
+        return len(self.center)
+
+    def __repr__(self) -> str:
+        return f"<pt.SphereArray of {len(self)} spheres>"
+
+
+@dataclass
+class Scene:
+    """What is to be seen.
+
+    materials       those that numbers stand for; others join them, each once, as spheres and planes bring them
+    spheres         in any order, like all that follow
+    planes
+    sphere_arrays   more spheres, one array for each species for instance
+    """
+
+    spheres: Sequence[Sphere] = ()
+    planes: Sequence[Plane] = ()
+    sphere_arrays: Sequence[SphereArray] = ()
+    materials: Sequence[Material] = field(default=(), kw_only=True)
+
+
+class _Materials:
+    """The list of a scene's materials while it grows."""
+
+    def __init__(self, listed: Sequence[Material]) -> None:
+        self.all = list(listed)
+        self.indices: dict[Material, int] = {}
+        for index, material in enumerate(listed):
+            self.indices.setdefault(material, index)
+
+    def index(self, material: MaterialOrIndex) -> int:
+        if not isinstance(material, Material):
+            index = operator.index(material)
+            if not 0 <= index < 2**32:
+                raise ValueError(f"material = {index}: must be a Material or an index of Scene.materials")
+            return index
+        if material not in self.indices:
+            self.indices[material] = len(self.all)
+            self.all.append(material)
+        return self.indices[material]
+
+
+class SceneStruct:
+    """A pt_scene with what it points to, which lives as long as this object."""
+
+    def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
+        materials = _Materials(scene.materials)
+        spheres = [structs.pt_sphere(s.center, s.radius, s.motion, materials.index(s.material)) for s in scene.spheres]
+        planes = [structs.pt_plane(p.normal, p.offset, materials.index(p.material)) for p in scene.planes]
+        self._columns: list[Array] = []
+        arrays = [self._sphere_array(array, materials) for array in scene.sphere_arrays]
+        self.struct = structs.pt_scene(
+            material_count=len(materials.all),
+            materials=_pointer(structs.pt_material, [material._struct() for material in materials.all]),
+            sphere_count=len(spheres), spheres=_pointer(structs.pt_sphere, spheres), plane_count=len(planes),
+            planes=_pointer(structs.pt_plane, planes), sphere_array_count=len(arrays),
+            sphere_arrays=_pointer(structs.pt_sphere_array, arrays), progress=guard.progress(progress))
+
+    def _sphere_array(self, array: SphereArray, materials: _Materials) -> structs.pt_sphere_array:
+        indices = array.material
+        if isinstance(indices, Material):
+            indices = np.broadcast_to(np.uint32(materials.index(indices)), len(array))
+        columns = [array.center, array.radius, array.motion, indices, array.color]
+        self._columns += [column for column in columns if column is not None]
+        center, radius, motion, material, color = map(column_of, columns)
+        return structs.pt_sphere_array(count=len(array), center=center, radius=radius, motion=motion,
+                                       material=material, color=color)
+
+
+def _pointer(struct: Any, elements: list[Any]) -> Any:
+    """To an array of structs, which the pointer keeps; NULL where there are none."""
+    return (struct * len(elements))(*elements) if elements else None
+

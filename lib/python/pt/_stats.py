@@ -1,0 +1,76 @@
+"""What has been done, and how good an image is; which devices there are."""
+
+from __future__ import annotations
+
+import ctypes
+import uuid
+from dataclasses import dataclass
+from typing import Any
+
+from pt import _structs as structs
+from pt._enums import DeviceKind, Feature, Uncertain
+from pt._library import checked, library
+
+
+@dataclass(frozen=True)
+class Stats:
+    """What has been done, what it took, and how good the image is.
+
+    The error is estimated without a reference: the root of the mean of (x - r)^2 over pixels and channels, for the
+    image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence. Nothing is
+    known with fewer than 16 samples: then the lower bounds are 0, the others infinite. Of a film, what the context
+    alone knows is 0.
+    """
+
+    sample_count: int  # whole samples in every pixel; the fewest that one has
+    max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
+    mean_sample_count: float  # of all pixels
+    rejected_samples: int  # left out of all pixels: NaN, infinite, negative or too bright
+    rmse: float  # root mean square error, a radiance
+    rmse_low: float
+    rmse_high: float
+    relative_rmse: float  # relative root mean square error, a number
+    relative_rmse_low: float
+    relative_rmse_high: float
+    uncertain: Uncertain  # how far the error can be known
+    features: Feature  # of the kernel
+    device_bytes: int  # memory allocated on all its devices now
+    device_count: int  # devices that share the samples
+    device_seconds: float  # time spent in submissions, summed
+    submit_count: int  # submissions that took samples
+
+
+def stats_of(struct: structs.pt_stats) -> Stats:
+    values: dict[str, Any] = {name: getattr(struct, name) for name in Stats.__dataclass_fields__}
+    values.update(uncertain=Uncertain(struct.uncertain), features=Feature(struct.features))
+    return Stats(**values)
+
+
+@dataclass(frozen=True)
+class DeviceInfo:
+    """A Vulkan device."""
+
+    name: str
+    kind: DeviceKind
+    driver: str  # name and version
+    memory_bytes: int  # of its largest memory heap that kernels can reach quickly
+    uuid: uuid.UUID  # tells two equal devices apart; stable over reboots
+    suitable: bool  # whether a Context can use it
+    reason: str  # why not; empty if it can
+
+
+def device_of(struct: structs.pt_device_info) -> DeviceInfo:
+    return DeviceInfo(name=struct.name.decode(errors="replace"), kind=DeviceKind(struct.kind),
+                      driver=struct.driver.decode(errors="replace"), memory_bytes=struct.memory_bytes,
+                      uuid=uuid.UUID(bytes=bytes(struct.uuid)), suitable=bool(struct.suitable),
+                      reason=struct.reason.decode(errors="replace"))
+
+
+def devices() -> list[DeviceInfo]:
+    """The Vulkan devices of this machine; the index of each is its name for Context, as "0". NoDeviceError: there is
+    none, or no Vulkan."""
+    loaded, count = library(), ctypes.c_uint32()
+    checked(loaded, loaded.pt_get_devices(None, count))
+    found = (structs.pt_device_info * count.value)()
+    checked(loaded, loaded.pt_get_devices(found, count))
+    return [device_of(struct) for struct in found[:count.value]]

@@ -1,0 +1,189 @@
+// What a renderer gives of its samples, and takes in of others: the error, images, films, figures; see renderer.h.
+#include "lib/base/error.h"
+#include "lib/film/film.h"
+#include "lib/film/film_tiles.h"
+#include "lib/kernel/gpu_scene.h"
+#include "lib/render/coverage_image.h"
+#include "lib/render/film_identity.h"
+#include "lib/render/first_hit_image.h"
+#include "lib/render/kernels_kept.h"
+#include "lib/render/missed_lamps.h"
+#include "lib/render/renderer.h"
+#include "lib/render/saved_film.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <utility>
+
+namespace pt {
+
+const ErrorEstimate &Renderer::error() {
+    if (!error_ && samples_.least() < min_estimate_samples)
+        error_ = unknown_error();
+    if (!error_) {
+        const KernelsKept kept(devices_);
+        const std::uint64_t samples = samples_.total();
+        ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
+                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
+        if (!samples_.even() || (job_ && job_->uneven))
+            view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
+        else
+            view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->even && job_->even->has_estimate());
+        rejected_samples_ = estimator.rejected();
+        error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
+    }
+    return *error_;
+}
+
+// Of samples that are uneven, or may come to be.
+std::span<const double> Renderer::tile_squares() {
+    if (view_.finds_tile_squares_alone())
+        return view_.tile_squares(scene_->film_unit, samples_);
+    error();
+    return tile_squares_;
+}
+
+bool Renderer::is_on_target(double target_error) {
+    return target_error > 0.0 && is_check(samples_.of(0).count()) && error().relative_rmse.high <= target_error;
+}
+
+ImageQuery Renderer::query(const ImageLayout &layout) const {
+    const std::optional<PartCounts> counts =
+        samples_.even() ? std::optional(part_counts(samples_.of(0))) : std::nullopt;
+    return {layout.pixels, layout.quantity, scene_->film_unit, counts, layout.format};
+}
+
+void Renderer::readback(const Image &image) {
+    require_settings();
+    if (is_of_first_hits(image.layout.quantity)) { // a few rays a pixel: one device does
+        const KernelsKept kept(devices_);
+        read_first_hits(image, {*scene_, *camera_, *settings_, gpu_scene_of_settings()}, *devices_.front());
+        return;
+    }
+    require_samples();
+    const KernelsKept kept(devices_);
+    if (image.layout.quantity == PT_QUANTITY_COVERAGE) {
+        read_coverage(image, samples_, *settings_, gpu_scene_of_settings(), *devices_.front());
+        return;
+    }
+    view_.read(image, query(image.layout), samples_);
+}
+
+// A lent device is the only one, so its film holds all samples.
+void Renderer::readback(const BufferImage &image) {
+    require_alive();
+    if (!is_on_lent_device())
+        throw Error(PT_ERROR_INVALID_STATE, "the context has a device of its own: pt_create_info.vulkan lends it one");
+    require_settings();
+    require_samples();
+    const KernelsKept kept(devices_);
+    devices_.front()->buffer_writer().write(
+        query(image.layout), {.buffer = std::bit_cast<VkBuffer>(image.buffer),
+                              .offset = image.offset_bytes,
+                              .row_bytes = image.layout.row_bytes,
+                              .semaphores = {.wait = std::bit_cast<VkSemaphore>(image.wait_semaphore),
+                                             .signal = std::bit_cast<VkSemaphore>(image.signal_semaphore)}});
+}
+
+FilmIdentity Renderer::identity() const {
+    std::vector<pt_device_info> infos;
+    for (const auto &device : devices_)
+        infos.push_back(device->device().info());
+    return identity_of(*scene_, *camera_, *settings_, code_, infos);
+}
+
+Rectangle Renderer::pixels() const {
+    return {0, settings_->first_row, settings_->width, settings_->row_count};
+}
+
+FilmHeader Renderer::film_header() const {
+    require_settings();
+    require_samples();
+    return {identity(), film_tiles(samples_, pixels()), round_};
+}
+
+void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {
+    save(FilmView::films(devices_), samples_, header, bytes);
+}
+
+// A pass under way, of which no sample is counted yet, ends where the film brings its sample.
+void Renderer::add_film(std::span<const std::byte> bytes) {
+    require_settings();
+    const FilmReader film(bytes);
+    require_same(film.header().identity, identity());
+    if (!samples_.even() || !is_even(film.header(), pixels())) {
+        add_to_tiles(bytes);
+        return;
+    }
+    require_addable(film, samples_.of(0));
+    RenderDevice &device = *devices_.front();
+    const SampleSet &added = film.header().tiles.front().samples;
+    SampleSet all = samples_.of(0);
+    all.add(added);
+    TileSamples all_samples(samples_.grid(), all); // before the film has them: this may fail
+    DeviceFilm &device_film = device.film();
+    if (is_in_pass() && added.overlap(device.pass()))
+        device.discard_pass();
+    add(film, all.hull(), device.device(), device_film);
+    round_ = later_of(round_, film.header().round);
+    take_over(std::move(all_samples));
+}
+
+// By way of the host, where films are values.
+void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
+    for (const auto &device : devices_)
+        if (!device->has_whole_regions())
+            throw Error(PT_ERROR_UNSUPPORTED,
+                        "film: this device holds films in parts that cut tiles, so that all pixels "
+                        "must have the same samples");
+    Film sum(bytes);
+    if (!samples_.empty()) {
+        const FilmHeader header = film_header();
+        std::vector<std::byte> own(FilmLayout(header).size_bytes());
+        save_film(header, own);
+        sum.add(Film(own));
+    }
+    require_within(sum.bounds(), pixels());
+    std::optional<TileSamples> samples = tile_samples(sum.header().tiles, pixels());
+    if (!samples)
+        throw Error(PT_ERROR_INCOMPATIBLE,
+                    "film: its tiles must be whole ones of this context, squares of 8 pixels from "
+                    "the top left of what is rendered on");
+    for (const auto &device : devices_)
+        if (!device->pass().empty())
+            device->discard_pass();
+    const AdaptiveRound round = sum.header().round;
+    RenderDevice &device = *devices_.front();
+    replace(sum, samples->hull(), pixels(), device.device(), device.film());
+    for (const auto &other : std::span(devices_).subspan(1))
+        other->discard_samples();
+    round_ = round;
+    take_over(std::move(*samples));
+}
+
+pt_stats Renderer::stats(bool with_error) {
+    const bool alive = std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
+    const bool readable = settings_ && alive;
+    const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
+    pt_stats stats{};
+    stats.sample_count = static_cast<std::uint32_t>(samples_.least());
+    stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
+    if (settings_)
+        stats.mean_sample_count =
+            static_cast<double>(samples_.total()) / (1.0 * settings_->width * settings_->row_count);
+    stats.submit_count = work_.submit_count;
+    stats.device_seconds = work_.seconds;
+    for (const auto &device : devices_) {
+        if (readable && !samples_.empty() && !rejected_samples_)
+            stats.rejected_samples += device->film().rejected_samples();
+        stats.device_bytes += device->device().allocated_bytes();
+    }
+    stats.rejected_samples += rejected_samples_.value_or(0);
+    stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
+    stats.device_count = static_cast<std::uint32_t>(devices_.size());
+    set_error(stats, error);
+    return stats;
+}
+
+} // namespace pt

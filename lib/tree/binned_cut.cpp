@@ -1,0 +1,123 @@
+// Counts spheres in bins; see binned_cut.h.
+#include "lib/tree/binned_cut.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace pt {
+
+namespace {
+
+constexpr int most_bins = 16;
+
+// More bins for fewer spheres change nothing but the time.
+int bins_for(std::size_t spheres) {
+    return spheres > 64 ? most_bins : 8;
+}
+
+// Divides centres along the longest axis into bins of equal width. The other axes are nearly never better for so many.
+class Bins {
+public:
+    explicit Bins(const Part &part) :
+        axis_(part.centres.longest_axis()),
+        count_(bins_for(part.items.size())),
+        low_(part.centres.low[axis_]),
+        scale_(static_cast<float>(count_) / part.centres.extent(axis_)) {}
+
+    int count() const { return count_; }
+
+    int bin_of(const TreeItem &item) const {
+        return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
+    }
+
+    // Whether it is in a bin before that one, which is not the first.
+    bool is_before(const TreeItem &item, int bin) const {
+        return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
+    }
+
+private:
+    std::size_t axis_;
+    int count_;
+    float low_;
+    float scale_;
+};
+
+// Where to divide a part: before a bin.
+struct BinCut {
+    float cost = std::numeric_limits<float>::infinity(); // none, then
+    int bin = 0;
+    float first_surface = 0.0F;
+    float second_surface = 0.0F;
+};
+
+// What is in the bins.
+struct BinContents {
+    std::array<Box, most_bins> balls;
+    std::array<std::size_t, most_bins> counts{};
+    std::size_t all = 0;
+
+    void add(const TreeItem &item, const Bins &bins) {
+        const auto bin = static_cast<std::size_t>(bins.bin_of(item));
+        balls[bin].add_ball(item);
+        ++counts[bin];
+        ++all;
+    }
+};
+
+BinCut best_cut(const BinContents &contents, const Bins &bins) {
+    std::array<float, most_bins> surfaces_from{}; // of the balls in a bin and those after it
+    Box after;
+    for (int bin = bins.count() - 1; bin > 0; --bin) {
+        after.add(contents.balls[static_cast<std::size_t>(bin)]);
+        surfaces_from[static_cast<std::size_t>(bin)] = after.surface();
+    }
+    BinCut best;
+    Box before;
+    std::size_t count = 0;
+    for (int bin = 1; bin < bins.count(); ++bin) {
+        const auto i = static_cast<std::size_t>(bin);
+        before.add(contents.balls[i - 1]);
+        count += contents.counts[i - 1];
+        if (count == 0 || count == contents.all)
+            continue;
+        const float first = before.surface();
+        const float cost = first * nodes_for(count) + surfaces_from[i] * nodes_for(contents.all - count);
+        if (cost < best.cost)
+            best = {cost, bin, first, surfaces_from[i]};
+    }
+    return best;
+}
+
+// By all, where a sample is in one bin.
+BinCut best_cut(const Part &part, const Bins &bins) {
+    BinContents sample;
+    for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
+    const BinCut cut = best_cut(sample, bins);
+    if (cut.bin > 0)
+        return cut;
+    BinContents all;
+    for (const TreeItem &item : part.items)
+        all.add(item, bins);
+    return best_cut(all, bins);
+}
+
+} // namespace
+
+// Without branches, of which every other would be mispredicted.
+Halves binned_halves(const Part &part) {
+    const Bins bins(part);
+    const BinCut cut = best_cut(part, bins);
+    std::size_t count = 0; // on the first side so far; up to the item that is looked at, the others are on the second
+    for (TreeItem &item : part.items) {
+        const TreeItem looked_at = item;
+        item = part.items[count];
+        part.items[count] = looked_at;
+        count += bins.is_before(looked_at, cut.bin) ? 1 : 0;
+    }
+    const Items first = part.items.first(count);
+    const Items second = part.items.subspan(count);
+    return {{first, centres_of(first), cut.first_surface}, {second, centres_of(second), cut.second_surface}};
+}
+
+} // namespace pt

@@ -1,0 +1,121 @@
+// Spheres that are still together while a tree's shape is made, and boxes about them. Used by what divides them.
+#pragma once
+
+#include "lib/base/mixed.h"
+#include "lib/tree/sphere_order.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace pt {
+
+using Vector = float __attribute__((vector_size(16))); // three coordinates and one that is not used, in one register
+using Items = std::span<TreeItem>;
+
+struct Box {
+    static constexpr float none = std::numeric_limits<float>::infinity();
+    Vector low{none, none, none, none};
+    Vector high{-none, -none, -none, -none};
+
+    void add(const Vector &from, const Vector &to) {
+        low = from < low ? from : low;
+        high = to > high ? to : high;
+    }
+
+    void add(const Box &other) { add(other.low, other.high); }
+
+    void add_centre(const TreeItem &item) {
+        const auto centre = std::bit_cast<Vector>(item.centre_radius);
+        add(centre, centre);
+    }
+
+    void add_ball(const TreeItem &item) {
+        const auto centre = std::bit_cast<Vector>(item.centre_radius);
+        add(centre - centre[3], centre + centre[3]);
+    }
+
+    float extent(std::size_t axis) const { return high[axis] - low[axis]; }
+    bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
+
+    // Half of it; of no box, what is not less than any number.
+    float surface() const {
+        const Vector sides = high - low;
+        const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
+        return products[0] + products[1] + products[2];
+    }
+
+    std::size_t longest_axis() const {
+        const std::size_t axis = extent(1) > extent(0) ? 1 : 0;
+        return extent(2) > extent(axis) ? 2 : axis;
+    }
+};
+
+inline Box ball_of(const TreeItem &item) {
+    Box box;
+    box.add_ball(item);
+    return box;
+}
+
+// So many spheres tell nearly as well as all where to divide a part. Measured with 10^6, trips of a ray through the
+// tree: as without samples, to 0.5%, for even clouds, clumps and shells, and 1% more where one sphere in 10^4 is 30
+// times as large as the others.
+inline constexpr std::size_t sample_size = 4096;
+
+inline constexpr std::size_t sampled_from = 4 * sample_size;
+
+// Calls use(item) for all, or of many for a sample, which is the same one until their order changes: one of each of as
+// many runs of equal length, anywhere in it, so that no pattern in the order matters.
+template <typename Use>
+void for_each_or_sample(Items items, Use use) {
+    if (items.size() < sampled_from) {
+        for (const TreeItem &item : items)
+            use(item);
+        return;
+    }
+    std::uint64_t random = 0;
+    for (std::size_t run = 0; run < sample_size; ++run) {
+        const std::size_t first = items.size() * run / sample_size;
+        const std::size_t length = items.size() * (run + 1) / sample_size - first;
+        random = mixed(random);
+        use(items[first + random % length]);
+    }
+}
+
+// Of all, or of a sample, but then it is no point.
+inline Box centres_of(Items items) {
+    Box box;
+    for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
+    if (box.is_point())
+        for (const TreeItem &item : items)
+            box.add_centre(item);
+    return box;
+}
+
+// The same of balls.
+inline Box balls_of(Items items) {
+    Box box;
+    for_each_or_sample(items, [&](const TreeItem &item) { box.add_ball(item); });
+    return box;
+}
+
+// Spheres that are still together. Boxes are of a sample where they are many.
+struct Part {
+    Items items;
+    Box centres;          // a point only if all are there
+    float surface = 0.0F; // of the box about the spheres
+};
+
+struct Halves {
+    Part first;
+    Part second;
+};
+
+// Nodes of the lowest level for so many spheres.
+inline float nodes_for(std::size_t count) {
+    return static_cast<float>((count + tree_width - 1) / tree_width);
+}
+
+} // namespace pt

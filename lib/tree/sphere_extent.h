@@ -1,0 +1,48 @@
+// Which spheres are in a tree, what they take up at any time, and how many of them emit. Used by SphereTree.
+#pragma once
+
+#include "lib/base/work_progress.h"
+#include "lib/scene/sphere_source.h"
+#include "lib/tree/grid.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace pt {
+
+// What the tree has to know of a material.
+struct TreeMaterial {
+    std::uint32_t index; // in the table of those in use
+    bool emits;
+};
+
+// Calls use(index, sphere) for all spheres but those left out, by their indices in ascending order. Each is a unit of
+// work.
+template <typename Use>
+void for_each_in_tree(const SphereSource &spheres, std::span<const std::uint32_t> left_out, WorkProgress &progress,
+                      Use use) {
+    spheres.for_each(progress, [&](std::size_t index, const Sphere &sphere, const glm::vec3 &) {
+        if (!left_out.empty() && left_out.front() == index)
+            left_out = left_out.subspan(1);
+        else
+            use(static_cast<std::uint32_t>(index), sphere);
+    });
+}
+
+struct SphereExtent {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+    double largest_radius = 0.0;
+    bool moves = false;
+    std::uint32_t lamp_count = 0;
+
+    // materials: those of the scene, by index.
+    SphereExtent(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
+                 std::span<const TreeMaterial> materials, WorkProgress &progress);
+
+    // For all of them.
+    Grid grid() const;
+};
+
+} // namespace pt

@@ -1,0 +1,42 @@
+// A sphere as the kernel reads it from a tree (gpu_layout.h): its words, and back.
+#pragma once
+
+#include "lib/scene/scene.h"
+#include "lib/tree/grid.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace pt {
+
+// Place on the grid, and radius.
+glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid);
+
+glm::uvec4 motion_word(const Sphere &sphere);
+
+// Ten bits for the root of each component, which keep dark colours apart as well as bright ones.
+std::uint32_t color_word(const glm::vec3 &color);
+
+// All that the kernel has of where a sphere is.
+std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid);
+
+// Centre and radius in steps of the ball about the way of the sphere as the kernel has it, so that twins have equal
+// ones.
+std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid);
+
+inline glm::ivec3 centre_of(const glm::uvec4 &sphere) {
+    return {std::bit_cast<int>(sphere.x), std::bit_cast<int>(sphere.y), std::bit_cast<int>(sphere.z)};
+}
+
+inline double radius_of(const glm::uvec4 &sphere) {
+    return std::bit_cast<float>(sphere.w);
+}
+
+inline glm::dvec3 way_of(const glm::uvec4 &motion) {
+    return {std::bit_cast<float>(motion.x), std::bit_cast<float>(motion.y), std::bit_cast<float>(motion.z)};
+}
+
+} // namespace pt

@@ -1,0 +1,26 @@
+// What a ray from the camera meets first: where paths begin, and all that first_hit.comp looks for.
+#ifndef CAMERA_WALK_GLSL
+#define CAMERA_WALK_GLSL
+
+#include "camera.glsl"
+#include "intersect.glsl"
+#include "tree_walk.glsl"
+#include "vertex.glsl"
+
+Walk walk_from_camera(CameraRay ray)
+{
+    Hit hit = closest_hit(ray.origin, ray.direction, ray.time);
+    Start start = Start(ray.origin, NO_SURFACE, false);
+    return walk_from(start, ray.direction, true, NO_SHADOW_RAY, ray.time, hit, false);
+}
+
+// Where it has met something.
+Arrival arrival_of(CameraRay ray, Hit hit)
+{
+    vec3 point = hit.distance * ray.direction;
+    if (STARTS_AHEAD == 1)
+        point += ray.origin;
+    return Arrival(point, ray.direction, hit.surface);
+}
+
+#endif

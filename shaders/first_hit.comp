@@ -1,0 +1,129 @@
+// What camera rays meet first: depth, normal, albedo or object of the pixels of a rectangle. One invocation a ray.
+// Depth and object are of the ray through the pixel's centre, halfway through the shutter's time: a mean of two depths
+// is where nothing is, and a mean of two numbers is another object. Normal and albedo are means over the pixel's square
+// and the shutter's time, as radiance is: what denoisers are guided by has to have the image's edges, neither harder
+// nor elsewhere.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+
+#include "gpu_layout.h"
+
+layout(local_size_x = WORKGROUP_SIZE) in;
+layout(push_constant) uniform Push { FirstHitConstants view; };
+
+#include "camera_frame.glsl"
+#include "camera_walk.glsl"
+#include "half.glsl"
+#include "maths.glsl"
+
+layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Resolved { uint words[]; } resolved; // of pixels
+layout(set = 0, binding = BINDING_FINDINGS) buffer Findings { uint lost_pixels; } findings; // whose rays were cut
+
+const uint FLOAT_INFINITY_BITS = 0x7f800000u;
+const uint SIGN_BIT = 0x80000000u;
+
+shared vec3 values[WORKGROUP_SIZE]; // of rays whose mean is taken
+
+// The place in a pixel (x, y) and the time (z) of one of the rays whose mean is taken: a rank-1 lattice (Korobov 1959),
+// whose multipliers 3 and 5 keep its points farthest apart, in the pixel and in all three dimensions.
+vec3 lattice_point(uint ray)
+{
+    uvec3 point = uvec3(ray, 3u * ray, 5u * ray) % FILTER_RAYS;
+    return (vec3(point) + 0.5) / float(FILTER_RAYS);
+}
+
+CameraRay ray_through(uint pixel_index, vec3 numbers)
+{
+    FrameConstants frame = camera_frame();
+    uvec2 pixel = uvec2(pixel_index % view.width, pixel_index / view.width);
+    vec2 from_middle = image_place(frame, pixel, numbers.xy);
+    return CameraRay(camera_origin(frame, from_middle), camera_direction(frame, from_middle), numbers.z);
+}
+
+// Along the view: rays start at the pinhole, or on a plane across the view ahead of it.
+float depth_of(CameraRay ray, Hit hit)
+{
+    float cosine = dot(ray.direction, view.camera_forward) / length(view.camera_forward);
+    return view.start_distance + max(hit.distance, 0.0) * cosine;
+}
+
+vec3 albedo_of(uint surface)
+{
+    vec4 specular = specular_of(surface);
+    return min(diffuse_of(surface).rgb * PI + specular.rgb * (2.0 * PI / (specular.a + 2.0)), vec3(1.0));
+}
+
+vec3 value_of(CameraRay ray, Hit hit)
+{
+    if (view.quantity == QUANTITY_DEPTH)
+        return vec3(depth_of(ray, hit));
+    if (view.quantity == QUANTITY_ALBEDO)
+        return albedo_of(hit.surface);
+    return vertex_at(arrival_of(ray, hit), ray.time).normal;
+}
+
+// Of any number, by way of those that are not negative.
+uint signed_half_bits(uint float_bits)
+{
+    return half_bits(float_bits & ~SIGN_BIT) | ((float_bits & SIGN_BIT) >> 16u);
+}
+
+void write_pixel(uint index, uvec3 value)
+{
+    if (view.format == FORMAT_R32UI) {
+        resolved.words[index] = value.x;
+    } else if (view.format == FORMAT_RGBA16F) {
+        uvec3 halves = uvec3(signed_half_bits(value.x), signed_half_bits(value.y), signed_half_bits(value.z));
+        resolved.words[2u * index] = halves.x | halves.y << 16u;
+        resolved.words[2u * index + 1u] = halves.z | HALF_ONE_BITS << 16u;
+    } else {
+        uint pixel_words = view.format == FORMAT_RGBA32F ? 4u : 3u;
+        [[unroll]] for (uint channel = 0u; channel < 3u; ++channel)
+            resolved.words[pixel_words * index + channel] = value[channel];
+        if (view.format == FORMAT_RGBA32F)
+            resolved.words[4u * index + 3u] = floatBitsToUint(1.0);
+    }
+}
+
+void main()
+{
+    const bool takes_mean = view.quantity == QUANTITY_NORMAL || view.quantity == QUANTITY_ALBEDO;
+    const uint ray_count = takes_mean ? FILTER_RAYS : 1u;
+    const uint index = gl_GlobalInvocationID.x / ray_count;
+    const uint ray_index = gl_GlobalInvocationID.x % ray_count;
+    const bool is_there = index < view.pixel_count;
+
+    // Where the ray arrives.
+    vec3 value = vec3(0.0);
+    uint surface = NO_SURFACE;
+    if (is_there) {
+        uint row = (view.first_of_rectangle + index) / view.rectangle_width;
+        uint column = (view.first_of_rectangle + index) % view.rectangle_width;
+        uint pixel_index = view.first_pixel + row * view.width + column;
+        CameraRay ray = ray_through(pixel_index, takes_mean ? lattice_point(ray_index) : vec3(0.5));
+        Walk walk = walk_from_camera(ray);
+        finish(walk);
+        surface = walk.hit.surface;
+        if (TREE == 1u && walk_was_cut)
+            atomicAdd(findings.lost_pixels, 1u);
+        if (surface != NO_SURFACE)
+            value = value_of(ray, walk.hit);
+    }
+    values[gl_LocalInvocationIndex] = value;
+    barrier();
+    if (!is_there || ray_index != 0u)
+        return;
+
+    // Its pixel.
+    if (takes_mean) {
+        for (uint i = 1u; i < FILTER_RAYS; ++i)
+            value += values[gl_LocalInvocationIndex + i];
+        value /= float(FILTER_RAYS);
+    }
+    uvec3 words = floatBitsToUint(value);
+    if (view.quantity == QUANTITY_DEPTH && surface == NO_SURFACE)
+        words = uvec3(FLOAT_INFINITY_BITS);
+    if (view.quantity == QUANTITY_OBJECT)
+        words = uvec3(surface);
+    write_pixel(index, words);
+}

@@ -1,0 +1,83 @@
+"""Tests that every row of the table of exit codes in cli/README.md is true: for each code, command lines that end with
+it, and what they leave. Arguments: see command_line.py."""
+
+import os
+import re
+
+from command_line import COURSEWORK, FAKE_PT, PT, RESULT, SCENES, CommandLineTest, main
+
+with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
+    SECTION = file.read().split("\n## Exit codes\n")[1]
+TABLE = {int(code) for code in re.findall(r"^\| (\d+) \| .* \|$", SECTION, re.MULTILINE)}
+
+RENDER = ["render", COURSEWORK, "-o", "a.png", "--size", "4x2", "--spp", "4"]
+ENDLESS = ["render", COURSEWORK, "-o", "a.png", "--size", "2x2", "--spp", "1000000", "--time", "0.05"]
+
+
+def fails(name, result):
+    return {"FAKE_PT_FAIL": f"{name}:{RESULT[result]}", "FAKE_PT_MESSAGE": "the reason"}
+
+
+# Code, command line, environment of the stand-in for the library, the beginning of what is said, and files that are
+# left.
+CASES = [
+    (0, RENDER, {}, "", ["a.png"]),
+    (0, ["--version"], {}, "", []),
+    (0, ["devices"], {}, "", []),
+    (0, ["merge", "first.ptfilm", "second.ptfilm", "--film", "sum.ptfilm"], {}, "", ["sum.ptfilm"]),
+    (1, [*RENDER, "--validation"], {"FAKE_PT_LOG": "accumulate"}, "pt: validation: a message of the layer", ["a.png"]),
+    (1, ["selftest"], {"FAKE_PT_FAIL": "accuracy_bound:1"}, "", []),
+    (1, RENDER, fails("accumulate", "INTERNAL"), "pt: the reason", []),
+    (2, [], {}, "pt: a command is missing: render, tonemap, ", []),
+    (2, ["rendr"], {}, 'pt: unknown command "rendr", did you mean "render"? (see pt --help)', []),
+    (2, ["render"], {}, "pt: SCENE is required (see pt render --help)", []),
+    (2, ["render", COURSEWORK], {}, "pt: -o or --film is missing: there is nothing to write", []),
+    (2, [*RENDER, "--gamma", "0"], {}, 'pt: --gamma: must be a number from 0.1 to 10, is "0" (see pt render', []),
+    (2, [*RENDER, "--skip-existing"], {}, "pt: --skip-existing requires --frames", []),
+    (3, [*RENDER[:3], "a-#.png", "--frames", "1-2"], {}, f"pt: {COURSEWORK}: has no animation", []),
+    (3, ["render", "broken.json", "-o", "a.png"], {}, "pt: broken.json:", []),
+    (4, RENDER, fails("create", "NO_DEVICE"), "pt: the reason", []),
+    (4, ["devices"], {"FAKE_PT_FAIL": f"devices:{RESULT['NO_DEVICE']}"}, "pt: no Vulkan device", []),
+    (5, RENDER, fails("accumulate", "DEVICE_LOST"), "pt: the reason", []),
+    (6, ["render", "none.json", "-o", "a.png"], {}, "pt: cannot read none.json: ", []),
+    (6, ["render", COURSEWORK, "-o", "none/a.png"], {}, "pt: cannot write none/a.png: ", []),
+    (6, ["tonemap", "none.exr", "a.png"], {}, "pt: cannot read none.exr: ", []),
+    (6, ["merge", "none.ptfilm", "-o", "a.png"], {}, "pt: cannot read none.ptfilm: ", []),
+    (7, [*RENDER, "--error", "1e-9"], {}, "", ["a.png"]),
+    (7, ["merge", "first.ptfilm", "second.ptfilm", "--film", "sum.ptfilm", "--first-sample", "0", "--spp", "9"], {},
+     "pt: ", ["sum.ptfilm"]),
+    (8, ["compare", "dark.png", "bright.png", "--max-mse", "0"], {}, "pt: ", []),
+    (75, [*ENDLESS, "--checkpoint", "c.ptfilm"], {"FAKE_PT_SAMPLE_MS": 5}, "", ["a.png", "c.ptfilm"]),
+    (129, RENDER, {"FAKE_PT_SIGNAL": "1:5"}, "pt: stopped by SIGHUP after 1 of 4 samples", ["a.png"]),
+    (130, RENDER, {"FAKE_PT_SIGNAL": "2:5"}, "pt: stopped by SIGINT after 1 of 4 samples", ["a.png"]),
+    (143, RENDER, {"FAKE_PT_SIGNAL": "15:5"}, "pt: stopped by SIGTERM after 1 of 4 samples", ["a.png"]),
+]
+
+
+class ExitCodes(CommandLineTest):
+    def setUp(self):
+        super().setUp()
+        self.write("broken.json", "{")
+        self.program = PT  # films that can be added, and pictures that differ
+        small = ["--size", "4x2", "--spp", "4"]
+        for name, first in ("first", "0"), ("second", "4"):
+            self.expect(0, "render", COURSEWORK, *small, "--first-sample", first, "--film", f"{name}.ptfilm")
+        for name, stops in ("dark", "-9"), ("bright", "0"):
+            self.expect(0, "render", COURSEWORK, *small, "--exposure", stops, "-o", f"{name}.png")
+
+    def test_every_row_of_the_table(self):
+        self.assertEqual({case[0] for case in CASES}, TABLE)
+        given = self.files()
+        for code, arguments, environment, said, left in CASES:
+            with self.subTest(code=code, arguments=arguments):
+                for name in set(self.files()) - set(given):
+                    os.remove(self.path(name))
+                self.program = PT if arguments[:1] in (["merge"], ["compare"]) else FAKE_PT
+                self.assertEqual(self.run_pt(*arguments, **environment), code, self.errors)
+                self.assertTrue(self.errors.startswith(said), self.errors)
+                found = [name for name in self.files() if name not in given]
+                self.assertEqual(found, left)
+
+
+if __name__ == "__main__":
+    main()

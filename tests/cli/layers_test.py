@@ -1,0 +1,173 @@
+"""Tests of the layers that `pt render --layers` adds to an .exr, and of --alpha.
+
+Arguments: see command_line.py.
+"""
+
+import math
+import struct
+
+from command_line import COURSEWORK, PT, CommandLineTest, main, read_exr_attributes, read_exr_channels, read_png
+
+WIDTH, HEIGHT = 9, 37  # two blocks of an .exr and a part of one
+SIZE = ("--size", f"{WIDTH}x{HEIGHT}", "--spp", "2")
+ALL = "mean,standard-error,sample-count,depth,normal,albedo,object-id"
+CHANNELS = ["B", "G", "N.X", "N.Y", "N.Z", "R", "Z", "albedo.B", "albedo.G", "albedo.R", "id", "sample_count",
+            "standard_error.B", "standard_error.G", "standard_error.R"]
+
+
+def as_float(number):
+    return struct.unpack("f", struct.pack("f", number))[0]
+
+
+class LayersTest(CommandLineTest):
+    def render(self, *options, code=0, error=None, **environment):
+        size = () if "--size" in options else SIZE
+        self.expect(code, "render", COURSEWORK, *size, *options, error=error, **environment)
+
+    def contents(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+
+class Layers(LayersTest):
+    def test_each_is_where_it_belongs(self):
+        # The stand-in for the library has each pixel's place as its numbers.
+        for crop, pieces in (((0, 0, WIDTH, HEIGHT), ()), ((2, 3, 5, 33), ("--piece-rows", "10"))):
+            with self.subTest(crop=crop):
+                self.render("-o", "a.exr", "--layers", ALL, "--crop", ",".join(map(str, crop)), *pieces)
+                channels = read_exr_channels(self.path("a.exr"))
+                self.assertEqual(list(channels), CHANNELS)
+                x, y, width, height = crop
+                self.assertEqual(channels["id"], [[row * WIDTH + column for column in range(x, x + width)]
+                                                  for row in range(y, y + height)])
+                across = [[as_float(column / (WIDTH - 1)) for column in range(x, x + width)]] * height
+                down = [[as_float(row / (HEIGHT - 1))] * width for row in range(y, y + height)]
+                for name in "R", "N.X", "albedo.R", "standard_error.R", "Z", "sample_count":
+                    self.assertEqual(channels[name], across, name)
+                for name in "G", "N.Y", "albedo.G", "standard_error.G":
+                    self.assertEqual(channels[name], down, name)
+                for name in "B", "N.Z", "albedo.B", "standard_error.B":
+                    self.assertEqual(channels[name], [[2.0] * width] * height, name)
+
+    def test_those_alone_that_are_asked_for(self):
+        for layers, names in (("depth", ["B", "G", "R", "Z"]), ("mean", ["B", "G", "R"]),
+                              ("object-id,normal", ["B", "G", "N.X", "N.Y", "N.Z", "R", "id"])):
+            self.render("-o", "a.exr", "--layers", layers)
+            self.assertEqual(list(read_exr_channels(self.path("a.exr"))), names)
+        self.render("-o", "b.exr")
+        self.render("-o", "a.exr", "--layers", "mean")
+        self.assertEqual(self.contents("a.exr"), self.contents("b.exr"))
+
+    def test_other_images_have_none(self):
+        self.render("-o", "a.exr", "-o", "a.png", "--standard-error", "e.exr", "--layers", "depth")
+        self.render("-o", "b.png", "--standard-error", "f.exr")
+        self.assertEqual(self.contents("a.png"), self.contents("b.png"))
+        self.assertEqual(self.contents("e.exr"), self.contents("f.exr"))
+        self.assertIn("Z", read_exr_channels(self.path("a.exr")))
+
+    def test_what_makes_no_sense_is_refused(self):
+        for layers, error in (("depht", '--layers: unknown layer "depht", did you mean "depth"?'),
+                              ("", "--layers: unknown layer"), ("depth,", "--layers: unknown layer"),
+                              ("depth,normal,depth", "--layers: must name a layer once")):
+            self.render("-o", "a.exr", "--layers", layers, code=2, error=error)
+        for output in (("-o", "a.png"), ("-o", "a.jpg", "-o", "b.png"), ("-o", "-", "--format", "png"),
+                       ("--film", "a.ptfilm")):
+            self.render(*output, "--layers", "depth", code=2,
+                        error="--layers: needs -o FILE.exr, as no other format has layers")
+        self.assertEqual(self.files(), [])
+
+
+class Alpha(LayersTest):
+    # The stand-in for the library covers each pixel by the share of the width that is left of it.
+    SHARES = [as_float(column / (WIDTH - 1)) for column in range(WIDTH)]
+
+    def test_an_exr_has_it_beside_the_colours(self):
+        self.render("-o", "a.exr", "--alpha")
+        self.render("-o", "b.exr")
+        channels, without = (read_exr_channels(self.path(name)) for name in ("a.exr", "b.exr"))
+        self.assertEqual(list(channels), ["A", "B", "G", "R"])
+        self.assertEqual(channels.pop("A"), [self.SHARES] * HEIGHT)
+        self.assertEqual(channels, without)
+        self.render("-o", "a.exr", "--alpha", "--layers", "depth", "--crop", "2,3,5,33", "--piece-rows", "10")
+        self.assertEqual(read_exr_channels(self.path("a.exr"))["A"], [self.SHARES[2:7]] * 33)
+
+    def test_a_png_has_colours_that_are_not_multiplied_by_it(self):
+        for bits, largest in ((), 255), (("--png-bits", "16"), 65535):
+            self.render("-o", "a.png", "-o", "a.exr", "--alpha", "--exposure", "0", "--gamma", "1", *bits)
+            width, height, image = read_png(self.path("a.png"))
+            self.assertEqual((width, height), (WIDTH, HEIGHT))
+            for y, row in enumerate(image):
+                for x, share in enumerate(self.SHARES):
+                    down = as_float(y / (HEIGHT - 1))
+                    colour = [min(light / share, 1) if share else 0 for light in (share, down, 2.0)]
+                    found = row[4 * x:4 * x + 4]
+                    self.assertEqual(found[3], math.floor(share * largest + 0.5))
+                    for light, signal in zip(colour, found):
+                        self.assertAlmostEqual(signal, light * largest, delta=0.51)
+
+    def test_other_images_have_none(self):
+        self.render("-o", "a.png", "-o", "a.exr", "--alpha", "--standard-error", "e.exr")
+        self.render("-o", "b.png", "--standard-error", "f.exr")
+        self.assertEqual(self.contents("e.exr"), self.contents("f.exr"))
+        self.assertEqual(len(read_png(self.path("b.png"))[2][0]), 3 * WIDTH)
+
+    def test_what_has_no_alpha_is_refused(self):
+        self.render("-o", "a.png", "-o", "b.jpg", "--alpha", code=2, error="--alpha: -o b.jpg: JPEG has no alpha")
+        self.render("-o", "-", "--format", "jpg", "--alpha", code=2, error="--alpha: -o -: JPEG has no alpha")
+        self.render("--film", "a.ptfilm", "--alpha", code=2, error="--alpha: needs -o FILE.exr or FILE.png")
+        self.assertEqual(self.files(), [])
+
+
+class RealDeviceLayers(LayersTest):
+    program = PT
+
+    def test_they_agree_with_the_picture(self):
+        width, height = 32, 20
+        size = ("--size", f"{width}x{height}", "--spp", "2")
+        self.render("-o", "a.exr", "--layers", ALL, "--standard-error", "e.exr", *size)
+        self.render("-o", "b.exr", *size)
+        with_layers, without = (read_exr_channels(self.path(name)) for name in ("a.exr", "b.exr"))
+        errors = read_exr_channels(self.path("e.exr"))
+        for channel in "RGB":
+            self.assertEqual(with_layers[channel], without[channel])
+            self.assertEqual(with_layers[f"standard_error.{channel}"], errors[channel])
+        self.assertEqual(read_exr_attributes(self.path("a.exr"))["pt.quantity"],
+                         read_exr_attributes(self.path("b.exr"))["pt.quantity"])
+        pixels = [{name: rows[y][x] for name, rows in with_layers.items()} for y in range(height) for x in range(width)]
+        self.assertEqual({pixel["sample_count"] for pixel in pixels}, {2.0})
+        self.assertTrue({pixel["id"] for pixel in pixels} <= set(range(8)))  # four spheres and four planes
+        self.assertGreater(len({pixel["id"] for pixel in pixels}), 5)
+        # The camera looks from (0, 0, 1) at the wall z = -18.5; before it stand the others.
+        for pixel in pixels:
+            self.assertLessEqual(pixel["Z"], 19.5 + 1e-5)
+            if pixel["id"] == 5:
+                self.assertAlmostEqual(pixel["Z"], 19.5, 5)
+            self.assertLessEqual(math.hypot(*(pixel[f"N.{axis}"] for axis in "XYZ")), 1 + 1e-6)
+
+    def test_alpha_is_that_of_the_samples(self):
+        # A ball of radiance 1 that reflects nothing: its mean is the share of the samples that meet it.
+        self.write("ball.json", """{"materials": {"white": {"emission": 1}},
+                                    "spheres": [{"center": [0, 0, -4], "radius": 1, "material": "white"}]}""")
+        self.expect(0, "render", "ball.json", *SIZE, "-o", "a.exr", "-o", "a.png", "--alpha", "--exposure", "0")
+        channels = read_exr_channels(self.path("a.exr"))
+        self.assertEqual(channels["A"], channels["R"])
+        values = {value for row in channels["A"] for value in row}
+        self.assertEqual(values, {0.0, 0.5, 1.0})  # of two samples
+        for row, alphas in zip(read_png(self.path("a.png"))[2], channels["A"]):
+            for x, alpha in enumerate(alphas):
+                colour = 255 if alpha > 0 else 0
+                self.assertEqual(row[4 * x:4 * x + 4], [colour, colour, colour, math.floor(alpha * 255 + 0.5)])
+
+    def test_other_commands_read_the_mean(self):
+        self.render("-o", "a.exr", "--layers", ALL, "--alpha")
+        self.render("-o", "b.exr")
+        self.expect(0, "compare", "a.exr", "b.exr", "--max-relative-mse", "0")
+        for name in "a", "b":
+            self.expect(0, "tonemap", f"{name}.exr", f"{name}.png", "--exposure", "0")
+        self.assertEqual(self.contents("a.png"), self.contents("b.png"))
+        self.expect(0, "compare", "a.exr", "a.exr", "--layer", "N")
+        self.assertEqual(self.errors, "")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,228 @@
+// The coverage of pixels, through pt.h. Where every surface shines with a radiance of 1 and nothing is reflected, the mean
+// radiance is the share of the samples that meet one: the sums are exact, so that coverage has to have the same bits, of
+// whatever samples. Run alone with --gtest_filter=Coverage*.
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/film.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace coverage {
+
+namespace {
+
+constexpr std::uint32_t picture_width = 29;
+constexpr std::uint32_t picture_height = 19;
+
+struct Shining {
+    std::vector<pt_material> materials = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_plane> planes;
+    pt_camera camera = CourseworkScene::camera();
+};
+
+// Balls before a plane whose horizon is in view.
+Shining some(std::uint32_t count, double motion) {
+    Shining scene;
+    std::mt19937 random(11);
+    const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+    for (std::uint32_t i = 0; i < count; ++i)
+        scene.spheres.push_back({{8 * share() - 4, 4 * share(), -6 - 4 * share()},
+                                 0.1 + 0.5 * share(),
+                                 {motion * share(), -motion * share(), 0},
+                                 0,
+                                 0});
+    scene.planes = {{{0, 1, 0}, 2, 0, 0}};
+    scene.camera.shutter_open = 0.25;
+    scene.camera.shutter_close = 1;
+    return scene;
+}
+
+class Coverage : public ContextFixture {
+protected:
+    static pt_render picture(std::uint32_t sampler = PT_SAMPLER_BEST) {
+        pt_render render = render_of(picture_width, picture_height, 1);
+        render.sampler = sampler;
+        render.seed = 77;
+        return render;
+    }
+
+    static void set(pt_context *to, const Shining &shining, const pt_render &render) {
+        const pt_scene scene = scene_of(shining.materials, shining.spheres, shining.planes);
+        ASSERT_EQ(pt_set_scene(to, &scene), PT_OK) << pt_last_error(to);
+        ASSERT_EQ(pt_set_camera(to, &shining.camera), PT_OK) << pt_last_error(to);
+        ASSERT_EQ(pt_set_render(to, &render), PT_OK) << pt_last_error(to);
+    }
+
+    static std::vector<std::byte> film_of(pt_context *of) {
+        std::uint64_t size = 0;
+        EXPECT_EQ(pt_save_film(of, nullptr, &size), PT_OK) << pt_last_error(of);
+        std::vector<std::byte> film(size);
+        EXPECT_EQ(pt_save_film(of, film.data(), &size), PT_OK) << pt_last_error(of);
+        return film;
+    }
+
+    static void take(pt_context *on, std::uint32_t samples, double target_error = 0.0) {
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = samples;
+        info.target_error = target_error;
+        ASSERT_GE(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
+    }
+
+    static std::vector<float> read(pt_context *from, std::uint32_t quantity, std::uint32_t rows = picture_height) {
+        std::vector<float> values(std::size_t{3} * picture_width * rows, -7.0F);
+        const pt_image target = image_target(values, quantity);
+        EXPECT_EQ(pt_readback(from, &target), PT_OK) << pt_last_error(from);
+        return values;
+    }
+
+    // And that there are edges.
+    static void expect_that_of_radiance(pt_context *of, std::uint32_t rows = picture_height) {
+        const std::vector<float> expected = read(of, PT_QUANTITY_RADIANCE, rows);
+        EXPECT_EQ(read(of, PT_QUANTITY_COVERAGE, rows), expected);
+        EXPECT_TRUE(std::ranges::any_of(expected, [](float value) { return value > 0.0F && value < 1.0F; }));
+    }
+};
+
+TEST_F(Coverage, IsThatOfTheSamplesThemselves) {
+    struct Case {
+        std::uint32_t spheres; // few, or so many that there is a tree
+        double motion;
+        std::uint32_t sampler;
+    };
+    for (const auto &[spheres, motion, sampler] :
+         {Case{5, 0.0, PT_SAMPLER_SOBOL}, Case{5, 1.5, PT_SAMPLER_RANDOM}, Case{5, 1.5, PT_SAMPLER_HALTON},
+          Case{5, 1.5, PT_SAMPLER_HALTON_CP}, Case{5, 1.5, PT_SAMPLER_SOBOL}, Case{90, 0.0, PT_SAMPLER_HALTON},
+          Case{90, 1.5, PT_SAMPLER_SOBOL}}) {
+        SCOPED_TRACE(std::to_string(spheres) + " spheres, sampler " + std::to_string(sampler));
+        pt_render render = picture(sampler);
+        render.first_sample = 3;
+        set(context(), some(spheres, motion), render);
+        take(context(), 7);
+        expect_that_of_radiance(context());
+    }
+}
+
+// More than a table of points holds, and many submissions.
+TEST_F(Coverage, OfManySamplesIsTakenInParts) {
+    const Context hurried = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
+    ASSERT_TRUE(hurried);
+    for (pt_context *const each : {context(), hurried.get()}) {
+        set(each, some(5, 1.0), picture());
+        take(each, 5000);
+        expect_that_of_radiance(each);
+    }
+
+    // And pieces of the pixels.
+    constexpr std::uint32_t width = 400;
+    constexpr std::uint32_t height = 300;
+    set(hurried.get(), some(5, 1.0), render_of(width, height, 1));
+    take(hurried.get(), 2);
+    std::vector<float> radiance(std::size_t{3} * width * height);
+    std::vector<float> covered(radiance.size());
+    const pt_image of_radiance = image_target(radiance);
+    const pt_image of_coverage = image_target(covered, PT_QUANTITY_COVERAGE);
+    ASSERT_EQ(pt_readback(hurried.get(), &of_radiance), PT_OK) << pt_last_error(hurried.get());
+    ASSERT_EQ(pt_readback(hurried.get(), &of_coverage), PT_OK) << pt_last_error(hurried.get());
+    EXPECT_TRUE(covered == radiance);
+}
+
+// Tiles with samples of their own, and ranges with gaps between them.
+TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
+    const Context adaptive =
+        create_context([](pt_create_info &) {},
+                       [](const auto *info, auto **made) { return create_shared(1, *info, made, false, 16); });
+    ASSERT_TRUE(adaptive);
+    set(adaptive.get(), some(5, 0.0), picture());
+    take(adaptive.get(), 4096, 0.03);
+    const std::vector<float> counts = read(adaptive.get(), PT_QUANTITY_SAMPLE_COUNT);
+    ASSERT_LT(*std::ranges::min_element(counts), *std::ranges::max_element(counts));
+    expect_that_of_radiance(adaptive.get());
+
+    // Some rows have earlier samples too, so that the first range of tiles is not that of others.
+    pt_render later = picture();
+    later.first_sample = 5000;
+    later.row_count = 8;
+    set(context(), some(5, 0.0), later);
+    take(context(), 9);
+    const std::vector<std::byte> rows_later = film_of(context());
+    later.first_sample = 70;
+    later.first_row = 8;
+    set(context(), some(5, 0.0), later);
+    take(context(), 5);
+    const std::vector<std::byte> rows_earlier = film_of(context());
+    pt_render whole = picture();
+    whole.first_sample = 2000;
+    set(context(), some(5, 0.0), whole);
+    take(context(), 4);
+    for (const std::vector<std::byte> &film : {rows_later, rows_earlier})
+        ASSERT_EQ(pt_add_film(context(), film.data(), film.size()), PT_OK) << pt_last_error(context());
+    expect_that_of_radiance(context());
+}
+
+// Of rows, of rectangles, of several devices, of what starts ahead of the camera, and of nothing.
+TEST_F(Coverage, OfPartsIsPartOfTheWhole) {
+    const Context shared = create_context(
+        [](pt_create_info &) {}, [](const auto *info, auto **made) { return create_shared(2, *info, made, true); });
+    ASSERT_TRUE(shared);
+    set(shared.get(), some(90, 1.0), picture());
+    take(shared.get(), 6);
+    expect_that_of_radiance(shared.get());
+    const std::vector<float> whole = read(shared.get(), PT_QUANTITY_COVERAGE);
+
+    constexpr std::uint32_t rows = 12;
+    pt_render piece = picture();
+    piece.first_row = 5;
+    piece.row_count = rows;
+    set(context(), some(90, 1.0), piece);
+    take(context(), 6);
+    expect_that_of_radiance(context(), rows);
+    EXPECT_TRUE(
+        std::ranges::equal(read(context(), PT_QUANTITY_COVERAGE, rows),
+                           std::span(whole).subspan(std::size_t{3} * 5 * picture_width, 3 * rows * picture_width)));
+    std::vector<float> part(std::size_t{3} * 11 * 7);
+    pt_image target = image_target(part, PT_QUANTITY_COVERAGE);
+    target.x = 9;
+    target.y = 2;
+    target.width = 11;
+    target.height = 7;
+    ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+    for (std::size_t row = 0; row < 7; ++row)
+        EXPECT_TRUE(std::ranges::equal(std::span(part).subspan(row * 33, 33),
+                                       std::span(whole).subspan(3 * ((7 + row) * picture_width + 9), 33)));
+
+    Shining narrow = some(0, 0.0);
+    narrow.planes.clear();
+    narrow.spheres = {{{0, 0, -1e8}, 3, {0, 0, 0}, 0, 0}};
+    narrow.camera.vertical_fov = 2e-7;
+    set(context(), narrow, picture());
+    take(context(), 6);
+    expect_that_of_radiance(context());
+
+    set(context(), Shining{}, picture());
+    take(context(), 2);
+    EXPECT_EQ(read(context(), PT_QUANTITY_COVERAGE),
+              std::vector<float>(std::size_t{3} * picture_width * picture_height));
+}
+
+TEST_F(Coverage, NeedsSamples) {
+    set(context(), some(5, 0.0), picture());
+    std::vector<float> values(std::size_t{3} * picture_width * picture_height);
+    const pt_image target = image_target(values, PT_QUANTITY_COVERAGE);
+    EXPECT_EQ(pt_readback(context(), &target), PT_ERROR_INVALID_STATE);
+    EXPECT_STREQ(pt_last_error(context()), "no samples yet: call pt_accumulate or pt_add_film first");
+}
+
+} // namespace
+
+} // namespace coverage

@@ -1,0 +1,195 @@
+// How parts of a tree are divided: nothing is lost, few spheres as the best of all cuts does it, many about so, and as
+// well by a sample as by all.
+#include "lib/tree/binned_cut.h"
+#include "lib/tree/swept_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace tree_cuts {
+
+namespace {
+
+using Items = std::vector<pt::TreeItem>;
+
+// Sides of balls below 4 are rounded by 2^-23 at most, so the side of a box is off by 2^-22, and half its surface by
+// 2^-21 times the sum of its sides, which is below 15 here; the few roundings of that sum are less.
+constexpr double surface_error = 15 * 0x1p-21;
+
+pt::Part part_of(Items &items) {
+    return {items, pt::centres_of(items), 0.0F};
+}
+
+Items items_of(std::uint32_t count, const std::function<std::array<float, 4>(std::uint32_t)> &ball) {
+    Items items;
+    for (std::uint32_t i = 0; i < count; ++i)
+        items.push_back({ball(i), i});
+    return items;
+}
+
+double surface_of(std::span<const pt::TreeItem> items) {
+    std::array<double, 3> sides{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const pt::TreeItem &item : items) {
+            low = std::min(low, double{item.centre_radius[axis]} - item.centre_radius[3]);
+            high = std::max(high, double{item.centre_radius[axis]} + item.centre_radius[3]);
+        }
+        sides[axis] = high - low;
+    }
+    return sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0];
+}
+
+double cost_of(std::span<const pt::TreeItem> first, std::span<const pt::TreeItem> second) {
+    const auto nodes = [](std::size_t count) { return std::ceil(static_cast<double>(count) / 4.0); };
+    return surface_of(first) * nodes(first.size()) + surface_of(second) * nodes(second.size());
+}
+
+// Of all cuts between different coordinates of centres, along the axes from the first to the last.
+double least_cost(Items items, std::size_t first_axis = 0, std::size_t last_axis = 2) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t axis = first_axis; axis <= last_axis; ++axis) {
+        const auto coordinate = [axis](const pt::TreeItem &item) { return item.centre_radius[axis]; };
+        std::ranges::sort(items, {}, coordinate);
+        for (std::size_t count = 1; count < items.size(); ++count)
+            if (coordinate(items[count - 1]) < coordinate(items[count]))
+                least = std::min(least, cost_of(std::span(items).first(count), std::span(items).subspan(count)));
+    }
+    return least;
+}
+
+// Each sphere as it was in one of the halves, which lie one behind the other, and have boxes and surfaces as they are
+// told.
+void expect_all_there(const pt::Halves &halves, const Items &before) {
+    const auto first = halves.first.items;
+    const auto second = halves.second.items;
+    ASSERT_GT(first.size(), 0U);
+    ASSERT_GT(second.size(), 0U);
+    ASSERT_EQ(first.data() + first.size(), second.data());
+    std::vector<bool> is_there(before.size());
+    for (const auto &items : {first, second})
+        for (const pt::TreeItem &item : items) {
+            ASSERT_LT(item.sphere, before.size());
+            ASSERT_FALSE(is_there[item.sphere]) << "twice";
+            is_there[item.sphere] = true;
+            ASSERT_EQ(item.centre_radius, before[item.sphere].centre_radius);
+        }
+    EXPECT_EQ(first.size() + second.size(), before.size());
+}
+
+void expect_boxes(const pt::Part &part) {
+    EXPECT_NEAR(part.surface, surface_of(part.items), surface_error);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto [low, high] =
+            std::ranges::minmax(part.items, {}, [axis](const pt::TreeItem &item) { return item.centre_radius[axis]; });
+        EXPECT_EQ(part.centres.low[axis], low.centre_radius[axis]);
+        EXPECT_EQ(part.centres.high[axis], high.centre_radius[axis]);
+    }
+}
+
+// Balls of different sizes; on whole places, so that many have equal coordinates, and not.
+TEST(TreeCuts, OfFewSpheresAreTheBest) {
+    std::mt19937 engine(3);
+    std::uniform_real_distribution<float> share(0.0F, 1.0F);
+    for (int round = 0; round < 3000; ++round) {
+        const auto count = static_cast<std::uint32_t>(2 + round % (pt::most_swept - 1));
+        const bool on_whole = round % 3 == 0;
+        const auto coordinate = [&](float extent) {
+            return on_whole ? std::floor(3.0F * share(engine)) : extent * share(engine) - 1.0F;
+        };
+        const Items before = items_of(count, [&](std::uint32_t) {
+            return std::array{coordinate(2), coordinate(5), coordinate(3), 0.5F * share(engine) * share(engine)};
+        });
+        Items items = before;
+        const pt::Part part = part_of(items);
+        if (part.centres.is_point())
+            continue;
+        const pt::Halves halves = pt::swept_halves(part);
+        expect_all_there(halves, before);
+        expect_boxes(halves.first);
+        expect_boxes(halves.second);
+        // Four nodes at the most, in the cut that is taken and in the one that is best.
+        const double most_error = 2 * 4 * surface_error;
+        const double least = least_cost(before);
+        EXPECT_NEAR(cost_of(halves.first.items, halves.second.items), least, most_error) << round;
+        const bool is_between = std::ranges::any_of(std::array{0U, 1U, 2U}, [&](unsigned axis) {
+            return halves.first.centres.high[axis] < halves.second.centres.low[axis];
+        });
+        EXPECT_TRUE(is_between) << "equal centres in both";
+    }
+}
+
+// Even clouds that are longest along one axis. There is a cut within half of one of 8 bins of the best one, x = 1/2,
+// and costs are about as x^2 + (1 - x)^2: a 60th more, and chance adds to it.
+TEST(TreeCuts, OfManySpheresAreAboutTheBest) {
+    std::mt19937 engine(5);
+    std::uniform_real_distribution<float> share(0.0F, 1.0F);
+    for (const std::uint32_t count : {64U, 65U, 1000U, 10'000U})
+        for (std::size_t longest = 0; longest < 3; ++longest) {
+            const Items before = items_of(count, [&](std::uint32_t) {
+                std::array ball{share(engine), share(engine), share(engine), 0.01F};
+                ball[longest] *= 5.0F;
+                return ball;
+            });
+            Items items = before;
+            const pt::Halves halves = pt::binned_halves(part_of(items));
+            expect_all_there(halves, before);
+            expect_boxes(halves.first);
+            expect_boxes(halves.second);
+            EXPECT_LT(halves.first.centres.high[longest], halves.second.centres.low[longest]);
+            EXPECT_LT(cost_of(halves.first.items, halves.second.items), 1.1 * least_cost(before, longest, longest));
+        }
+}
+
+// Two heaps with a wide gap between them, in an order in which every so many belong to one of them: a sample at equal
+// distances would know of one heap alone.
+TEST(TreeCuts, OfSamplesHeedNoPattern) {
+    const std::uint32_t count = 4 * pt::sampled_from;
+    const std::uint32_t run = count / pt::sample_size;
+    for (const std::uint32_t heap_at : {0U, run / 2, run - 1}) {
+        const auto is_right = [=](std::uint32_t i) { return i % run == heap_at; };
+        const Items before = items_of(count, [&](std::uint32_t i) {
+            const float along = static_cast<float>(i) / static_cast<float>(count);
+            return std::array{along + (is_right(i) ? 9.0F : 0.0F), 0.0F, 0.0F, 1e-3F};
+        });
+        Items items = before;
+        const pt::Halves halves = pt::binned_halves(part_of(items));
+        expect_all_there(halves, before);
+        EXPECT_TRUE(
+            std::ranges::none_of(halves.first.items, [&](const pt::TreeItem &item) { return is_right(item.sphere); }));
+        EXPECT_TRUE(
+            std::ranges::all_of(halves.second.items, [&](const pt::TreeItem &item) { return is_right(item.sphere); }));
+    }
+}
+
+// All but one at a point, which a sample takes for all.
+TEST(TreeCuts, OfSamplesFindTheOneThatIsElsewhere) {
+    const auto count = static_cast<std::uint32_t>(2 * pt::sampled_from);
+    for (const std::uint32_t other : {0U, 1U, count / 2, count - 1})
+        for (const float place : {-7.0F, 7.0F}) {
+            const Items before = items_of(count, [&](std::uint32_t i) {
+                return std::array{0.0F, i == other ? place : 1.0F, 0.0F, static_cast<float>(i + 1)};
+            });
+            Items items = before;
+            const pt::Part part = part_of(items);
+            ASSERT_FALSE(part.centres.is_point());
+            const pt::Halves halves = pt::binned_halves(part);
+            expect_all_there(halves, before);
+            const pt::Part &one = place < 0.0F ? halves.first : halves.second;
+            ASSERT_EQ(one.items.size(), 1U);
+            EXPECT_EQ(one.items[0].sphere, other);
+        }
+}
+
+} // namespace
+
+} // namespace tree_cuts

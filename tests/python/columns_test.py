@@ -1,0 +1,157 @@
+"""NumPy arrays as columns of spheres: what is read in place, and that all layouts give the bits of the plain one."""
+
+import unittest
+
+import numpy as np
+import pt
+from pictures import LAMP, WHITE, cloud, radiance
+
+COUNT = 60  # from 49 spheres on they are in a tree
+POSITIONS, COLORS = cloud(COUNT)
+RADII = np.linspace(0.05, 0.2, COUNT, dtype=np.float32)
+MATERIALS = [WHITE, pt.Material(diffuse=0.5, specular=0.4, glossiness=20)]
+INDICES = (np.arange(COUNT) % 2).astype(np.uint32)
+SUN = pt.Sphere((3, 8, 6), 3, LAMP)
+
+
+def scene_of(array):
+    return pt.Scene([SUN], sphere_arrays=[array], materials=MATERIALS)
+
+
+def swapped(array):
+    return array.astype(array.dtype.newbyteorder())
+
+
+class Columns(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.context = pt.Context()
+        cls.plain = radiance(cls.context, scene_of(
+            pt.SphereArray(POSITIONS.copy(), RADII.copy(), INDICES.copy(), color=COLORS.copy())))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.context.close()
+
+    def check(self, copied, positions=POSITIONS, radii=RADII, indices=INDICES, colors=COLORS, **columns):
+        array = pt.SphereArray(positions, radii, indices, color=colors, **columns)
+        self.assertEqual(array.copied, copied)
+        np.testing.assert_array_equal(radiance(self.context, scene_of(array)), self.plain)
+
+    def test_the_plain_picture_shows_something(self):
+        self.assertGreater(len(np.unique(self.plain)), 100)
+        without = pt.SphereArray(POSITIONS, RADII, INDICES)
+        self.assertFalse(np.array_equal(radiance(self.context, scene_of(without)), self.plain))
+
+    def test_spheres_one_by_one_are_the_same(self):
+        spheres = [pt.Sphere(*sphere) for sphere in zip(POSITIONS, RADII, INDICES)]
+        one_by_one = pt.Scene([SUN, *spheres], materials=MATERIALS)
+        without = pt.SphereArray(POSITIONS, RADII, INDICES)
+        np.testing.assert_array_equal(radiance(self.context, one_by_one), radiance(self.context, scene_of(without)))
+
+    def test_double_precision(self):
+        self.check((), POSITIONS.astype(float), RADII.astype(float), colors=COLORS.astype(float))
+
+    def test_members_of_a_structured_array(self):
+        particles = np.zeros(COUNT, [("charge", "i1"), ("position", "f4", 3), ("radius", "f8"), ("kind", "u4")])
+        particles["position"], particles["radius"], particles["kind"] = POSITIONS, RADII, INDICES
+        self.assertFalse(particles["position"].flags.aligned)
+        self.check((), particles["position"], particles["radius"], particles["kind"])
+
+    def test_slices(self):
+        table = np.full((2 * COUNT, 7), np.nan)
+        table[::2, 1:4], table[::2, 5] = POSITIONS, RADII
+        self.check((), table[::2, 1:4], table[::2, 5])
+
+    def test_read_only(self):
+        positions = POSITIONS.copy()
+        positions.flags.writeable = False
+        self.check((), positions)
+
+    def test_fortran_order_is_copied(self):
+        self.check(("center", "color"), np.asfortranarray(POSITIONS), colors=np.asfortranarray(COLORS))
+
+    def test_components_apart_are_copied(self):
+        table = np.full((COUNT, 6), np.nan)
+        table[:, ::2] = POSITIONS
+        self.check(("center",), table[:, ::2])
+
+    def test_descending_rows_are_copied(self):
+        self.check(("center", "radius"), POSITIONS[::-1].copy()[::-1], RADII[::-1].copy()[::-1])
+
+    def test_the_other_byte_order_is_copied(self):
+        self.check(("center", "radius", "material", "color"), swapped(POSITIONS), swapped(RADII), swapped(INDICES),
+                   swapped(COLORS))
+
+    def test_lists_and_other_numbers_are_copied(self):
+        self.check(("center", "material"), POSITIONS.tolist(), indices=INDICES.astype(np.int64))
+        self.check(("center",), POSITIONS.astype(np.longdouble))
+        self.assertEqual(pt.SphereArray(POSITIONS.astype(np.float16), 1, 0).center.dtype, np.float32)
+        self.assertEqual(pt.SphereArray(swapped(POSITIONS), 1, 0).center.dtype, np.float32)
+        self.assertEqual(pt.SphereArray(POSITIONS.astype(int), 1, 0).center.dtype, np.float64)
+
+    def test_one_value_for_all(self):
+        columns = {"color": np.array((0.5, 0.2, 0.1)), "motion": np.zeros(3)}
+        array = pt.SphereArray(POSITIONS, 0.1, MATERIALS[1], **columns)
+        repeated = pt.SphereArray(POSITIONS, np.full(COUNT, 0.1), np.ones(COUNT, np.uint32),
+                                  **{name: np.tile(value, (COUNT, 1)) for name, value in columns.items()})
+        np.testing.assert_array_equal(radiance(self.context, scene_of(array)),
+                                      radiance(self.context, scene_of(repeated)))
+        self.check(("radius",), radii=RADII.tolist(), motion=np.broadcast_to(np.zeros(3), (COUNT, 3)))
+
+    def test_motion(self):
+        """From an otherwise equal place: what moves is elsewhere."""
+        array = pt.SphereArray(POSITIONS, RADII, INDICES, motion=np.array((1.0, 0.0, 0.0)), color=COLORS)
+        self.assertFalse(np.array_equal(radiance(self.context, scene_of(array)), self.plain))
+
+    def test_bytes_are_srgb(self):
+        srgb = np.arange(3 * COUNT, dtype=np.uint8).reshape(COUNT, 3)
+        signal = srgb / 255
+        linear = np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
+        images = [radiance(self.context, scene_of(pt.SphereArray(POSITIONS, RADII, 0, color=color)))
+                  for color in (srgb, linear)]
+        # Trees hold both to a thousandth, and light is coloured by up to six surfaces on its way.
+        np.testing.assert_allclose(*images, rtol=2e-3 * 6)
+        self.assertGreater(np.abs(images[0] - self.plain).max(), 0.01)
+
+    def test_nothing_is_copied(self):
+        """Changes of the arrays before the scene is set count, and those after it do not."""
+        positions, radii, colors = np.zeros_like(POSITIONS), RADII.astype(float), np.zeros_like(COLORS)
+        array = pt.SphereArray(positions, radii, INDICES, color=colors)
+        self.assertTrue(np.shares_memory(array.center, positions))
+        positions[:], colors[:] = POSITIONS, COLORS
+        image = radiance(self.context, scene_of(array))
+        np.testing.assert_array_equal(image, self.plain)
+        positions[:] = np.nan
+        self.context.set_render(pt.RenderSettings(image.shape[1], image.shape[0]))
+        self.context.accumulate(4)
+        np.testing.assert_array_equal(self.context.readback(), self.plain)
+        with self.assertRaisesRegex(pt.InvalidSceneError, r"sphere_arrays\[0\].center\[0\] = \(nan, nan, nan\)"):
+            self.context.set_scene(scene_of(array))
+
+    def test_what_does_not_fit_is_refused(self):
+        for error, words, arguments in (
+                (ValueError, r"center.shape = \(60,\): must be \(n, 3\)", (RADII, RADII, 0)),
+                (ValueError, r"radius.shape = \(59,\): must be \(60,\) or \(\)", (POSITIONS, RADII[1:], 0)),
+                (ValueError, "indices of materials", (POSITIONS, RADII, -1)),
+                (ValueError, "indices of materials", (POSITIONS, RADII, 2**32)),
+                (TypeError, "must be of real numbers", (POSITIONS.astype(complex), RADII, 0)),
+                (TypeError, "must be of real numbers", (POSITIONS > 0, RADII, 0)),
+                (TypeError, "must be of integers", (POSITIONS, RADII, RADII)),
+        ):
+            with self.subTest(words=words), self.assertRaisesRegex(error, words):
+                pt.SphereArray(*arguments)
+        for colors in COLORS.astype(int), COLORS.astype(np.uint16), COLORS > 0:
+            with self.assertRaisesRegex(TypeError, r"color.dtype = .*: must be uint8 \(sRGB"):
+                pt.SphereArray(POSITIONS, RADII, 0, color=colors)
+        with self.assertRaisesRegex(pt.InvalidSceneError, r"sphere_arrays\[0\].radius\[7\] = -1: must be > 0"):
+            self.context.set_scene(scene_of(pt.SphereArray(POSITIONS, np.where(np.arange(COUNT) == 7, -1, RADII), 0)))
+
+    def test_no_spheres(self):
+        empty = pt.SphereArray(np.zeros((0, 3)), np.zeros(0), WHITE)
+        np.testing.assert_array_equal(radiance(self.context, scene_of(empty)),
+                                      radiance(self.context, pt.Scene([SUN])))
+
+
+if __name__ == "__main__":
+    unittest.main()

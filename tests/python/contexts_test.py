@@ -1,0 +1,219 @@
+"""Contexts and films over their lives: threads, processes, what is closed and what is left behind."""
+
+import gc
+import os
+import pathlib
+import resource
+import signal
+import sys
+import threading
+import unittest
+import weakref
+from unittest import mock
+
+import numpy as np
+import pt
+from pictures import CAMERA, SCENE, ready, settings
+from pt import _context, _library
+
+
+class Lives(unittest.TestCase):
+    def setUp(self):
+        self.destroyed = []
+        patch = mock.patch.object(_context, "_destroy", self.destroy)
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def destroy(self, loaded, handle, process, log):
+        self.destroyed.append(handle.value)
+        loaded.pt_destroy(handle)
+
+    def test_closed_once(self):
+        with pt.Context() as context:
+            self.assertEqual(len(self.destroyed), 0)
+            self.assertIn(context.device.name, repr(context))
+        context.close()
+        self.assertEqual(len(self.destroyed), 1)
+        self.assertEqual(repr(context), "<pt.Context, closed>")
+        for call in context.stats, context.prepare, lambda: context.set_scene(SCENE):
+            with self.assertRaisesRegex(pt.InvalidStateError, "the context is closed"):
+                call()
+
+    def test_forgotten(self):
+        context = ready(pt.Context())
+        context.accumulate(1)
+        gone = weakref.ref(context)
+        del context
+        gc.collect()
+        self.assertIsNone(gone())
+        self.assertEqual(len(self.destroyed), 1)
+
+    def test_forgotten_with_a_log_that_refers_to_it(self):
+        class Owner:
+            def __init__(self):
+                self.lines = []
+                self.context = pt.Context(log=self.write)
+
+            def write(self, level, line):
+                self.lines.append((level, line))
+
+        owner = Owner()
+        ready(owner.context).accumulate(1)
+        self.assertIn(pt.LogLevel.INFO, [level for level, _ in owner.lines])
+        self.assertTrue(all(line and isinstance(line, str) for _, line in owner.lines))
+        gone = weakref.ref(owner)
+        del owner
+        gc.collect()
+        self.assertIsNone(gone())
+        self.assertEqual(len(self.destroyed), 1)
+
+    def test_nothing_is_left_of_films(self):
+        """Each of these takes 10 MB: of fifty, some few are there at a time."""
+        with pt.Context() as context:
+            context.render(SCENE, CAMERA, settings(width=300, height=300), 1)
+            film = context.film()
+            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            for _ in range(50):
+                film = pt.Film(film.to_bytes())
+            self.assertLess(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before, 10 * 10_000)
+
+    def test_arrays_of_a_scene_are_not_kept(self):
+        positions = np.zeros((100, 3))
+        gone = weakref.ref(positions)
+        with pt.Context() as context:
+            context.set_scene(pt.Scene(sphere_arrays=[pt.SphereArray(positions, 1, pt.Material())]))
+            del positions
+            self.assertIsNone(gone())
+
+
+class Processes(unittest.TestCase):
+    def test_a_child_leaves_its_parent_s_alone(self):
+        context = ready(pt.Context())
+        context.accumulate(1)
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)  # a call on the parent's context may never return
+            status = 1
+            try:
+                context.stats()
+            except pt.InvalidStateError as error:
+                status = 0 if "forked" in str(error) else 2
+            context.close()
+            del context
+            gc.collect()
+            os._exit(status)
+        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+        context.accumulate(1)
+        context.close()
+
+
+class Threads(unittest.TestCase):
+    def test_contexts_are_independent(self):
+        with pt.Context() as context:
+            expected = ready(context).render(SCENE, CAMERA, settings(), 8).radiance
+        both_inside, images = threading.Barrier(2, timeout=60), []
+
+        def render():
+            waited = []
+
+            def meet(_):
+                if not waited:
+                    waited.append(both_inside.wait())
+
+            with pt.Context() as context:
+                images.append(context.render(SCENE, CAMERA, settings(), 8, progress=meet).radiance)
+
+        threads = [threading.Thread(target=render) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(images), 2)
+        for image in images:
+            np.testing.assert_array_equal(image, expected)
+
+    def test_others_run_during_calls(self):
+        """As this thread gives nothing up by itself, another one runs only if the library is called without the
+        interpreter's lock."""
+        interval = sys.getswitchinterval()
+        self.addCleanup(sys.setswitchinterval, interval)
+        start, ran = threading.Event(), []
+        thread = threading.Thread(target=lambda: (start.wait(), ran.append(True)))
+        thread.start()
+        with ready(pt.Context(submit_milliseconds=1)) as context:
+            shares = []
+            sys.setswitchinterval(1000)
+            start.set()
+            context.accumulate(2**16, progress=lambda share: shares.append(share) or bool(ran) or len(shares) > 1000)
+            sys.setswitchinterval(interval)
+            self.assertTrue(ran)
+        thread.join()
+
+    def test_one_call_at_a_time(self):
+        with ready(pt.Context()) as context:
+            told = []
+
+            def call(_):
+                for function in context.stats, context.close, context.readback:
+                    try:
+                        function()
+                    except pt.InvalidStateError as error:
+                        told.append(str(error))
+                return True
+
+            context.accumulate(1000, progress=call)
+            self.assertEqual(told, ["another call on this context is under way",
+                                    "the context cannot be closed while a call on it is under way",
+                                    "another call on this context is under way"])
+            context.stats()
+
+    def test_a_film_in_several_threads(self):
+        with ready(pt.Context()) as context:
+            context.accumulate(8)
+            film = context.film()
+        data, found = film.to_bytes(), []
+        threads = [threading.Thread(target=lambda: found.extend(film.to_bytes() == data for _ in range(50)))
+                   for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [True] * 200)
+
+
+class Libraries(unittest.TestCase):
+    def test_where_it_is_looked_for(self):
+        with mock.patch.dict(os.environ, PT_LIBRARY="/some/where"):
+            self.assertEqual(_library.library_path(), "/some/where")
+        with mock.patch.dict(os.environ):
+            os.environ.pop("PT_LIBRARY", None)
+            beside = pathlib.Path(pt.__file__).with_name("libpt.so.0.2")
+            for exists, found in (False, "libpt.so.0.2"), (True, str(beside)):
+                with mock.patch.object(pathlib.Path, "exists", return_value=exists):
+                    self.assertEqual(_library.library_path(), found)
+
+    def test_what_is_no_libpt_is_refused(self):
+        for path in "/no/such/library", "libc.so.6":
+            with self.assertRaisesRegex(ImportError, f"{path} is no libpt"):
+                _library.load_library(path)
+        with mock.patch.object(_library, "version_text", return_value="0.3.1"):
+            with self.assertRaisesRegex(ImportError, "is libpt 0.3.1; this package is for libpt.so.0.2"):
+                _library.load_library(_library.library_path())
+
+    def test_version_and_devices(self):
+        self.assertRegex(pt.version(), r"^0\.2\.\d+$")
+        found = pt.devices()
+        suitable = [device for device in found if device.suitable]
+        self.assertTrue(suitable)
+        for device in suitable:
+            self.assertGreater(device.memory_bytes, 0)
+            self.assertEqual(device.reason, "")
+        with pt.Context(str(found.index(suitable[0]))) as context:
+            self.assertEqual(context.device, suitable[0])
+            self.assertEqual(context.stats().device_count, 1)
+        with pt.Context(suitable[0].uuid.hex, scene_kernels=False) as context:
+            self.assertEqual(context.device.uuid, suitable[0].uuid)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,136 @@
+"""Images as NumPy sees them, as pictures, and in files: with the bytes of the program. Arguments: the program pt."""
+
+import io
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+import numpy as np
+import pt
+from pictures import CAMERA, SCENE, cloud, settings
+
+PROGRAM = sys.argv.pop(1)
+
+SCENE_FILE = {
+    "camera": {"position": [0, 1.5, 5], "look_at": [0, 1, 0], "vertical_fov": 45},
+    "film": {"width": 24, "height": 16},
+    "materials": {
+        "glossy": {"diffuse": [0.4, 0.1, 0.1], "specular": 0.4, "glossiness": 100},
+        "lamp": {"emission": [4, 3, 2]},
+        "white": {"diffuse": 0.8}
+    },
+    "spheres": [{"center": [0, 1, 0], "radius": 1, "material": "glossy"},
+                {"center": [2, 4, 2], "radius": 1, "material": "lamp"}],
+    "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "white"}]
+}
+
+
+def paeth(left, above, corner):
+    """W3C, "Portable Network Graphics (PNG) Specification", 2003, section 9.4."""
+    guess = left + above - corner
+    return min((left, above, corner), key=lambda value: abs(guess - value))
+
+
+def decode_png(data):
+    """Pixels of a PNG of 8 bits, RGB, not interlaced."""
+    chunks, at = {}, 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body, checksum = data[at + 8:at + 8 + size], data[at + 8 + size:at + 12 + size]
+        assert struct.unpack(">I", checksum)[0] == zlib.crc32(kind + body), kind
+        chunks[kind] = chunks.get(kind, b"") + body
+        at += 12 + size
+    width, height, *rest = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
+    assert rest == [8, 2, 0, 0, 0] and data[:8] == b"\x89PNG\r\n\x1a\n" and kind == b"IEND", rest
+    rows = np.frombuffer(zlib.decompress(chunks[b"IDAT"]), np.uint8).reshape(height, 1 + 3 * width).tolist()
+    before = [0] * (3 * width)
+    pixels = []
+    for kind, *row in rows:
+        for i, value in enumerate(row):
+            left, above, corner = (row[i - 3], before[i], before[i - 3]) if i >= 3 else (0, before[i], 0)
+            row[i] = (value + (0, left, above, (left + above) // 2, paeth(left, above, corner))[kind]) % 256
+        pixels.append(row)
+        before = row
+    return np.array(pixels, np.uint8).reshape(height, width, 3)
+
+
+def rendered(**fields):
+    with pt.Context() as context:
+        return context.render(SCENE, CAMERA, settings(**fields), 16)
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.image = rendered()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+
+    def picture_of_the_program(self, *options):
+        (self.folder / "scene.json").write_text(json.dumps(SCENE_FILE))
+        subprocess.run([PROGRAM, "render", self.folder / "scene.json", "--spp", "16", "-o", self.folder / "x.png",
+                        *options], check=True, capture_output=True)
+        return decode_png((self.folder / "x.png").read_bytes())
+
+    def test_its_bytes_are_the_program_s(self):
+        expected = self.picture_of_the_program()
+        self.assertGreater(len(np.unique(expected)), 50)
+        np.testing.assert_array_equal(self.image.to_srgb8(), expected)
+        np.testing.assert_array_equal(decode_png(self.image._repr_png_()), expected)
+        self.image.save(self.folder / "mine.png")
+        self.assertEqual((self.folder / "mine.png").read_bytes(), self.image._repr_png_())
+
+    def test_an_exposure_that_is_asked_for(self):
+        expected = self.picture_of_the_program("--exposure", "-1.5")
+        np.testing.assert_array_equal(self.image.to_srgb8(-1.5), expected)
+        fixed = rendered()
+        fixed.exposure = -1.5
+        np.testing.assert_array_equal(fixed.to_srgb8(), expected)
+        fixed.save(self.folder / "fixed.PNG")
+        np.testing.assert_array_equal(decode_png((self.folder / "fixed.PNG").read_bytes()), expected)
+        self.assertFalse(np.array_equal(self.image.to_srgb8(), expected))
+
+    def test_a_black_picture(self):
+        self.image.radiance, kept = np.zeros_like(self.image.radiance), self.image.radiance
+        self.assertFalse(self.image.to_srgb8().any())
+        self.image.radiance = kept
+
+    def test_radiance_in_files(self):
+        self.image.save(self.folder / "x.npy")
+        kept = np.load(self.folder / "x.npy")
+        self.assertEqual(kept.dtype, np.float32)
+        np.testing.assert_array_equal(kept, self.image.radiance)
+        with self.assertRaisesRegex(ValueError, "must end in .png or .npy"):
+            self.image.save(self.folder / "x.exr")
+        self.assertFalse((self.folder / "x.exr").exists())
+
+    def test_numpy_takes_it_as_its_radiance(self):
+        radiance = self.image.radiance
+        self.assertIs(np.asarray(self.image), radiance)
+        self.assertIsNot(np.array(self.image), radiance)
+        self.assertEqual(np.asarray(self.image, np.float64).dtype, np.float64)
+        self.assertEqual(np.mean(self.image), radiance.mean())
+        np.testing.assert_array_equal(np.subtract(self.image, self.image), np.zeros_like(radiance))
+        np.testing.assert_array_equal(self.image[3, 4], radiance[3, 4])
+        self.assertEqual((len(self.image), self.image.shape), (16, (16, 24, 3)))
+        buffer = io.BytesIO()
+        np.save(buffer, self.image)
+
+    def test_how_good_it_is(self):
+        low, high = self.image.error_bounds
+        self.assertTrue(0 < low < self.image.error < high < 1)
+        self.assertEqual(self.image.error, self.image.stats.relative_rmse)
+        self.assertIn("24x16, 16 samples", repr(self.image))
+        positions, _ = cloud(3)
+        few = pt.render(positions, 0.1, size=(4, 4), samples=1)
+        self.assertEqual((few.error, few.error_bounds), (np.inf, (0.0, np.inf)))
+
+
+if __name__ == "__main__":
+    unittest.main()

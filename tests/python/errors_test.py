@@ -1,0 +1,171 @@
+"""Errors as exceptions: a class for each result, the library's message, and the broken rules."""
+
+import pathlib
+import re
+import sys
+import unittest
+
+import numpy as np
+import pt
+from pictures import CAMERA, SCENE, WHITE, ready, settings
+from pt._library import NOT_RESULTS, PARAMETERS, checked
+
+HEADERS = pathlib.Path(sys.argv.pop(1))
+
+
+class FailingLibrary:
+    """Says of every result what a library would."""
+
+    def __init__(self, rules=0):
+        self.rules = rules
+
+    def pt_last_error(self, context):
+        return f"the message of {context}".encode()
+
+    def pt_result_name(self, result):
+        return b"unknown result"
+
+    def pt_get_broken_rule(self, context, index, rule):
+        if rule is not None:
+            rule.index, rule.component, rule.subject, rule.rule = index, -1, b"spheres", b"must be > 0"
+        return self.rules
+
+
+class Results(unittest.TestCase):
+    def test_every_error_has_its_class(self):
+        classes = set()
+        listed = re.findall(r"PT_ERROR_(\w+) = (-\d+)", (HEADERS / "pt.h").read_text())
+        self.assertGreater(len(listed), 10)
+        for name, number in listed:
+            with self.assertRaises(pt.Error) as raised:
+                checked(FailingLibrary(), int(number), 7)
+            self.assertEqual(raised.exception.result.name, f"ERROR_{name}")
+            self.assertEqual(type(raised.exception).__name__.lower(), name.lower().replace("_", "") + "error")
+            self.assertEqual(str(raised.exception), "the message of 7")
+            classes.add(type(raised.exception))
+        self.assertEqual(len(classes), len(listed))
+
+    def test_an_error_of_a_newer_library(self):
+        with self.assertRaisesRegex(pt.Error, r"^unknown result \(-99\): the message of 7$"):
+            checked(FailingLibrary(), -99, 7)
+
+    def test_no_error(self):
+        self.assertEqual(checked(FailingLibrary(), 2), pt.Result.TARGET_REACHED)
+
+    def test_of_many_broken_rules_those_that_are_kept(self):
+        with self.assertRaises(pt.InvalidSceneError) as raised:
+            checked(FailingLibrary(rules=100), -2)
+        self.assertEqual([rule.index for rule in raised.exception.broken_rules], list(range(8)))
+        self.assertEqual(raised.exception.broken_rules[0], pt.BrokenRule("spheres", 0, "", None, "", "", "must be > 0"))
+
+    def test_python_s_own_classes(self):
+        for error, built_in in ((pt.InvalidSceneError, ValueError), (pt.InvalidStateError, RuntimeError),
+                                (pt.OutOfDeviceMemoryError, MemoryError), (pt.IncompatibleError, ValueError)):
+            self.assertTrue(issubclass(error, built_in) and issubclass(error, pt.Error))
+
+
+class Functions(unittest.TestCase):
+    KINDS = {"uint32_t": "c_uint", "uint64_t": "c_ulong", "pt_result": "c_int", "const char *": "c_char_p",
+             "void": "NoneType"}
+
+    def declared(self):
+        """Results and parameters of the functions in the headers."""
+        text = " ".join(" ".join(path.read_text().split()) for path in sorted(HEADERS.glob("*.h")))
+        return {name: (kind.strip(), [] if parameters == "void" else parameters.split(", "))
+                for kind, name, parameters in re.findall(r"PT_API ([\w ]+?[ *]+)(pt_\w+)\(([^)]*)\);", text)}
+
+    def test_their_types_are_the_headers(self):
+        declared = self.declared()
+        self.assertIn("pt_create", declared)
+        for function, types in PARAMETERS.items():
+            result, parameters = declared[function]
+            self.assertEqual(len(types), len(parameters), function)
+            for kind, parameter in zip(types, parameters):
+                if "*" in parameter:  # to a struct or a number, unless it is a handle or bytes
+                    struct = re.sub(r"const |\*+\w+$", "", parameter).strip()
+                    allowed = {"c_void_p", "c_char_p", "LP_c_void_p", f"LP_{struct}", f"LP_{self.KINDS.get(struct)}"}
+                    self.assertIn(kind.__name__, allowed, f"{function}: {parameter}")
+                else:
+                    self.assertEqual(kind.__name__, self.KINDS[parameter.split()[0]], f"{function}: {parameter}")
+            if result != "pt_result":
+                self.assertEqual(getattr(NOT_RESULTS[function], "__name__", "NoneType"), self.KINDS[result], function)
+            self.assertEqual(function in NOT_RESULTS, result != "pt_result", function)
+
+
+class RealErrors(unittest.TestCase):
+    def setUp(self):
+        self.context = pt.Context()
+        self.addCleanup(self.context.close)
+
+    def test_of_a_scene(self):
+        wrong = pt.Scene([pt.Sphere((0, 0, 0), 1, WHITE), pt.Sphere((0, float("nan"), 0), -1, WHITE)])
+        with self.assertRaises(pt.InvalidSceneError) as raised:
+            self.context.set_scene(wrong)
+        self.assertEqual(str(raised.exception).splitlines(), ["spheres[1].center[1] = nan: must be finite",
+                                                              "spheres[1].radius = -1: must be > 0"])
+        self.assertEqual(raised.exception.broken_rules[0],
+                         pt.BrokenRule("spheres", 1, "center", 1, "", "nan", "must be finite"))
+
+    def test_of_settings(self):
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "^render.width = 0: must be >= 1$") as raised:
+            self.context.set_render(pt.RenderSettings(0, 4))
+        self.assertEqual(raised.exception.broken_rules[0].index, None)
+        for fields in {"seed": -1}, {"seed": 2**64}, {"width": 2**32 + 8}:
+            with self.assertRaisesRegex(ValueError, f"render.{list(fields)[0]} = "):
+                self.context.set_render(settings(**fields))
+
+    def test_of_a_camera(self):
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "camera"):
+            self.context.set_camera(pt.Camera(position=(1, 2, 3), target=(1, 2, 3)))
+        for wrong in (1, 2), (1, 2, 3, 4), 1, [[1, 2, 3]]:
+            with self.assertRaisesRegex(ValueError, "position = .*: must be three numbers"):
+                pt.Camera(position=wrong, target=(1, 2, 3))
+
+    def test_of_colours(self):
+        for grey in 0.5, np.float32(0.5), (0.5, 0.5, 0.5), np.full(3, 0.5), [0.5] * 3:
+            self.assertEqual(pt.Material(diffuse=grey).diffuse, (0.5, 0.5, 0.5))
+        with self.assertRaisesRegex(ValueError, "emission = .*: must be three numbers"):
+            pt.Material(emission=(1, 2))
+
+    def test_of_the_order_of_calls(self):
+        with self.assertRaises(pt.InvalidStateError):
+            self.context.accumulate(1)
+        with self.assertRaises(pt.InvalidStateError):
+            self.context.readback()
+        ready(self.context)
+        with self.assertRaises(pt.InvalidStateError):
+            self.context.readback()
+        self.context.accumulate(1)
+
+    def test_of_numbers_of_samples(self):
+        ready(self.context)
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "accumulate.sample_count = 0"):
+            self.context.accumulate(0)
+        for count in -1, 2**32:
+            with self.assertRaisesRegex(ValueError, f"sample_count = {count}"):
+                self.context.accumulate(count)
+
+    def test_of_devices(self):
+        with self.assertRaisesRegex(pt.NoDeviceError, "no such device"):
+            pt.Context("no such device")
+        with self.assertRaisesRegex(ValueError, "submit_milliseconds = 0"):
+            pt.Context(submit_milliseconds=0)
+
+    def test_of_what_is_read(self):
+        ready(self.context).accumulate(1)
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "image"):
+            self.context.readback(rectangle=(20, 0, 8, 8))
+
+    def test_a_failed_call_changes_nothing(self):
+        ready(self.context).accumulate(2)
+        image = self.context.readback()
+        with self.assertRaises(pt.Error):
+            self.context.set_camera(pt.Camera(position=CAMERA.position, target=CAMERA.position))
+        with self.assertRaises(pt.Error):
+            self.context.set_scene(pt.Scene([pt.Sphere((0, 0, 0), 0, WHITE)]))
+        np.testing.assert_array_equal(self.context.readback(), image)
+        self.assertEqual(SCENE.materials, ())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,130 @@
+"""Films: sums that add to the bits of one rendering, and come back from pickles and files."""
+
+import pathlib
+import pickle
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+import pt
+from pictures import HEIGHT, SCENE, WHITE, WIDTH, ready
+from pt import _film
+
+SAMPLES = 24  # of which the error can be told
+
+
+class Films(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.context = pt.Context()
+        cls.whole, cls.image = cls.film(0, SAMPLES), cls.context.image()
+        cls.parts = [cls.film(first, 8) for first in range(0, SAMPLES, 8)]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.context.close()
+
+    @classmethod
+    def film(cls, first, count, **fields):
+        ready(cls.context, first_sample=first, **fields).accumulate(count)
+        return cls.context.film()
+
+    def test_they_add_to_one_rendering(self):
+        first, second, third = self.parts
+        for total in (first + second + third, third + (first + second), sum(self.parts), sum(reversed(self.parts))):
+            self.assertEqual(total.to_bytes(), self.whole.to_bytes())
+        self.assertNotEqual(first + second, self.whole)
+
+    def test_a_sum_leaves_its_terms(self):
+        first, second, _ = self.parts
+        before = first.to_bytes()
+        total = first + second
+        self.assertEqual(first.to_bytes(), before)
+        kept = total
+        total += self.parts[2]
+        self.assertIs(total, kept)
+        self.assertEqual(total, self.whole)
+
+    def test_pickle(self):
+        copies = pickle.loads(pickle.dumps(self.parts))
+        self.assertEqual(copies, self.parts)
+        self.assertEqual(sum(copies), self.whole)
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "kept.ptfilm")
+            path.write_text("what was there before")
+            self.whole.save(path)
+            self.assertEqual(pt.Film.load(path), self.whole)
+            self.assertEqual(path.read_bytes(), self.whole.to_bytes())
+            self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
+            with mock.patch("pathlib.Path.replace", side_effect=OSError), self.assertRaises(OSError):
+                self.parts[0].save(path)
+            self.assertEqual(pt.Film.load(path), self.whole)
+            self.assertEqual([found.name for found in pathlib.Path(folder).iterdir()], ["kept.ptfilm"])
+
+    def test_packed_files(self):
+        """As the program writes them; the module that unpacks them may be missing."""
+        packed = _film.ZSTD_MAGIC + b"frame"
+        module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
+        with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):
+            self.assertEqual(pt.Film(packed), self.whole)
+        with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": None}):
+            with self.assertRaisesRegex(pt.IncompatibleError, "install the Python module zstandard"):
+                pt.Film(packed)
+
+    def test_their_images_are_the_context_s(self):
+        image = sum(self.parts).image()
+        np.testing.assert_array_equal(image.radiance, self.image.radiance)
+        np.testing.assert_array_equal(image.standard_error, self.image.standard_error)
+        self.assertTrue((image.sample_count == SAMPLES).all())
+        # A GPU finds it in float32.
+        self.assertAlmostEqual(image.error, self.image.error, delta=1e-5 * image.error)
+        part = np.zeros((4, 6, 4), np.float16)
+        self.whole.readback(out=part, rectangle=(3, 5, 6, 4))
+        np.testing.assert_array_equal(part[:, :, :3], self.image.radiance[5:9, 3:9].astype(np.float16))
+
+    def test_what_they_are_of(self):
+        info = self.film(8, 4, first_row=5, row_count=6, seed=2**40).info
+        self.assertEqual((info.width, info.height, info.x, info.y, info.columns, info.rows),
+                         (WIDTH, HEIGHT, 0, 5, WIDTH, 6))
+        self.assertEqual((info.seed, info.estimator, info.sampler), (2**40, pt.Estimator.MIS, pt.Sampler.SOBOL))
+        self.assertIn(self.context.device.name, info.device)
+        self.assertEqual(self.whole.tiles, [pt.FilmTile(0, 0, WIDTH, HEIGHT, (range(0, SAMPLES),))])
+        self.assertEqual((self.parts[0] + self.parts[2]).tiles[0].samples, (range(0, 8), range(16, 24)))
+        self.assertIn(f"{WIDTH}x{HEIGHT} pixels, {SAMPLES} samples", repr(self.whole))
+
+    def test_a_context_goes_on_from_one(self):
+        ready(self.context)
+        self.context.add_film(self.parts[0])
+        self.context.accumulate(SAMPLES - 8)
+        self.assertEqual(self.context.film(), self.whole)
+
+    def test_what_does_not_belong_is_refused(self):
+        first, kept = self.parts[0], self.parts[0].to_bytes()
+        with self.assertRaises(pt.IncompatibleError):
+            first += self.parts[0]
+        with self.assertRaisesRegex(pt.IncompatibleError, "seed"):
+            first += self.film(8, 8, seed=1)
+        with self.assertRaises(pt.IncompatibleError):
+            pt.Film(kept[:-1])
+        with self.assertRaises(pt.IncompatibleError):
+            pt.Film(bytes(len(kept)))
+        self.assertEqual(first.to_bytes(), kept)
+        ready(self.context, pt.Scene([*SCENE.spheres, pt.Sphere((9, 9, 9), 1, WHITE)]))
+        with self.assertRaisesRegex(pt.IncompatibleError, "scene"):
+            self.context.add_film(first)
+        for other in 1, "film", None:
+            with self.assertRaises(TypeError):
+                first + other
+            with self.assertRaises(TypeError):
+                other + first
+            self.assertNotEqual(first, other)
+        with self.assertRaises(TypeError):
+            hash(first)
+
+
+if __name__ == "__main__":
+    unittest.main()

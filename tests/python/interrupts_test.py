@@ -1,0 +1,168 @@
+"""Progress, and what is raised while the library is at work: it stops the call, comes out of it, and leaves a context
+that goes on as if nothing had been."""
+
+import signal
+import sys
+import unittest
+
+import numpy as np
+import pt
+from pictures import SCENE, WHITE, cloud, ready
+
+ENDLESS = 2**20  # samples: minutes on a CPU
+MANY = 300_000  # spheres, so that their tree takes some hundred milliseconds
+
+
+class Alarm(Exception):
+    pass
+
+
+def many_spheres():
+    return pt.Scene(sphere_arrays=[pt.SphereArray(cloud(MANY)[0], 1e-3, WHITE)])
+
+
+def ring(_signal, _frame):
+    raise Alarm
+
+
+class Interrupts(unittest.TestCase):
+    def setUp(self):
+        signal.signal(signal.SIGINT, signal.default_int_handler)  # shells start background jobs with it ignored
+        signal.signal(signal.SIGALRM, ring)
+        self.context = ready(pt.Context(submit_milliseconds=1))
+        self.addCleanup(self.context.close)
+        self.addCleanup(signal.setitimer, signal.ITIMER_REAL, 0)
+        self.hook = sys.unraisablehook
+
+    def tearDown(self):
+        self.assertIs(sys.unraisablehook, self.hook)
+
+    def check_usable(self):
+        """Its samples are those that it has always had, and more can be added."""
+        ready(self.context)
+        self.context.accumulate(8)
+        with pt.Context() as fresh:
+            ready(fresh).accumulate(8)
+            np.testing.assert_array_equal(self.context.readback(), fresh.readback())
+
+    def test_progress_grows_to_1(self):
+        for call in (lambda tell: self.context.set_scene(many_spheres(), tell),
+                     lambda tell: self.context.accumulate(2, progress=tell)):
+            told = []
+            self.assertIs(call(told.append), pt.Result.OK)
+            self.assertEqual(told, sorted(told))
+            self.assertEqual(told[-1], 1.0)
+            self.assertGreaterEqual(told[0], 0.0)
+            self.context.set_scene(SCENE)
+
+    def test_true_stops(self):
+        self.context.accumulate(4)
+        film = self.context.film()
+        self.assertIs(self.context.set_scene(many_spheres(), lambda _: True), pt.Result.CANCELLED)
+        self.assertEqual(self.context.film(), film)
+        told = []
+        self.assertIs(self.context.accumulate(ENDLESS, progress=lambda _: told.append(_) or len(told) > 3),
+                      pt.Result.CANCELLED)
+        self.assertEqual(len(told), 4)
+
+    def test_other_values_do_not_stop(self):
+        for value in 1, "stop", None, [0]:
+            self.assertIs(self.context.accumulate(1, progress=lambda _: value), pt.Result.OK)
+
+    def test_what_progress_raises(self):
+        def fail(_):
+            raise LookupError("where it is")
+
+        self.context.accumulate(4)
+        film = self.context.film()
+        with self.assertRaisesRegex(LookupError, "where it is"):
+            self.context.set_scene(many_spheres(), fail)
+        self.assertEqual(self.context.film(), film)
+        with self.assertRaisesRegex(LookupError, "where it is"):
+            self.context.accumulate(ENDLESS, progress=fail)
+        self.check_usable()
+
+    def test_ctrl_c_in_progress(self):
+        def interrupt(_):
+            signal.raise_signal(signal.SIGINT)
+
+        for call in (lambda: self.context.set_scene(many_spheres(), interrupt),
+                     lambda: self.context.accumulate(ENDLESS, progress=interrupt)):
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            self.check_usable()
+
+    def test_a_signal_while_samples_are_taken(self):
+        """It comes while the library is at work, without a function for progress to be raised in."""
+        for _ in range(3):
+            with self.assertRaises(Alarm):
+                signal.setitimer(signal.ITIMER_REAL, 0.02)
+                self.context.accumulate(ENDLESS)
+            self.check_usable()
+
+    def test_a_signal_while_a_tree_is_made(self):
+        self.context.accumulate(4)
+        film, shares = self.context.film(), []
+
+        def start_clock(share):
+            if not shares:
+                signal.setitimer(signal.ITIMER_REAL, 0.001)
+            shares.append(share)
+
+        with self.assertRaises(Alarm):
+            self.context.set_scene(many_spheres(), start_clock)
+        self.assertLess(shares[-1], 1.0)
+        self.assertEqual(self.context.film(), film)
+        self.check_usable()
+
+    def test_what_a_log_raises(self):
+        def fail(_level, _line):
+            raise LookupError
+
+        with self.assertRaises(LookupError):
+            pt.Context(log=fail)
+
+    def test_what_others_cannot_raise_goes_its_way(self):
+        """Finalizers raise too, and it is told where it was told before."""
+        told = []
+        sys.unraisablehook, hook = lambda raised: told.append(raised.exc_type), sys.unraisablehook
+
+        class Failing:
+            def __del__(self):
+                raise LookupError
+
+        def drop(_):
+            Failing()
+
+        try:
+            self.assertIs(self.context.accumulate(1, progress=drop), pt.Result.OK)
+        finally:
+            sys.unraisablehook = hook
+        self.assertEqual(set(told), {LookupError})
+
+    def test_a_hook_that_is_set_meanwhile_stays(self):
+        before, told = sys.unraisablehook, []
+
+        def hook(raised):
+            told.append(raised)
+            inner(raised)
+
+        def put_hook(_):
+            nonlocal inner
+            if sys.unraisablehook is not hook:
+                inner, sys.unraisablehook = sys.unraisablehook, hook
+
+        def fail(_):
+            raise LookupError
+
+        inner = None
+        self.context.accumulate(1, progress=put_hook)
+        self.assertIs(sys.unraisablehook, hook)
+        with self.assertRaises(LookupError):
+            self.context.accumulate(1, progress=fail)
+        self.assertIs(sys.unraisablehook, hook)
+        sys.unraisablehook = before
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,34 @@
+"""Small pictures that the tests of the package share."""
+
+import numpy as np
+import pt
+
+LAMP = pt.Material(emission=(4, 3, 2))
+WHITE = pt.Material(diffuse=0.8)
+GLOSSY = pt.Material(diffuse=(0.4, 0.1, 0.1), specular=0.4, glossiness=100)
+SCENE = pt.Scene([pt.Sphere((0, 1, 0), 1, GLOSSY), pt.Sphere((2, 4, 2), 1, LAMP)], [pt.Plane((0, 1, 0), 0, WHITE)])
+CAMERA = pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0))
+WIDTH, HEIGHT = 24, 16
+
+
+def settings(**fields):
+    return pt.RenderSettings(**{"width": WIDTH, "height": HEIGHT, **fields})
+
+
+def ready(context, scene=SCENE, **fields):
+    context.set_scene(scene)
+    context.set_camera(CAMERA)
+    context.set_render(settings(**fields))
+    return context
+
+
+def radiance(context, scene, samples=4):
+    """Of a scene, as Context.render finds it."""
+    return context.render(scene, CAMERA, settings(), samples).radiance
+
+
+def cloud(count, seed=1):
+    """Positions in front of the camera, colours in [0, 1], both of float32."""
+    random = np.random.default_rng(seed)
+    return (random.normal((0, 1, 0), 0.7, (count, 3)).astype(np.float32),
+            random.uniform(0.1, 1, (count, 3)).astype(np.float32))

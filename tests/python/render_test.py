@@ -1,0 +1,162 @@
+"""pt.render, the camera that it fits, what is read into whose memory, and errors that are asked for."""
+
+import unittest
+
+import numpy as np
+import pt
+from pictures import CAMERA, HEIGHT, SCENE, WIDTH, cloud, ready, settings
+from pt import _render
+
+POSITIONS, COLORS = cloud(80)
+SMALL = {"size": (WIDTH, HEIGHT), "samples": 16}
+
+
+class Render(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.context = pt.Context()
+        cls.image = pt.render(POSITIONS, 0.1, COLORS, context=cls.context, **SMALL)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.context.close()
+
+    def test_it_is_what_the_calls_of_the_library_give(self):
+        spheres = pt.SphereArray(POSITIONS, 0.1, pt.Material(diffuse=0.8), color=COLORS)
+        camera = pt.Camera.around(POSITIONS, 0.1, aspect=WIDTH / HEIGHT)
+        with pt.Context() as context:
+            context.set_render(settings())
+            context.set_camera(camera)
+            context.set_scene(pt.Scene(_render.surroundings(spheres, camera), [], [spheres]))
+            for _ in range(2):
+                context.accumulate(8)
+            for quantity, found in ((pt.Quantity.RADIANCE, self.image.radiance),
+                                    (pt.Quantity.STANDARD_ERROR, self.image.standard_error)):
+                np.testing.assert_array_equal(found, context.readback(quantity))
+            self.assertEqual(self.image.stats.relative_rmse, context.stats().relative_rmse)
+        self.assertTrue((self.image.sample_count == 16).all())
+        self.assertEqual(self.image.sample_count.shape, (HEIGHT, WIDTH))
+
+    def test_a_context_of_its_own_gives_the_same(self):
+        np.testing.assert_array_equal(pt.render(POSITIONS, 0.1, COLORS, **SMALL), self.image)
+
+    def test_all_is_lit_and_the_lamp_is_out_of_the_picture(self):
+        """No pixel is brighter than the sky or a white surface under all the light there is, and none is black."""
+        self.assertGreater(self.image.radiance.min(), 0)
+        self.assertLessEqual(self.image.radiance.max(), 1.0)
+        self.assertEqual(self.image.exposure, 0.0)
+        self.assertAlmostEqual(float(self.image[0, 0, 0]), _render.SKY_RADIANCE, places=6)
+        lamp, sky = _render.surroundings(pt.SphereArray(POSITIONS, 0.1, 0), CAMERA)
+        right, above, back = CAMERA.axes()
+        self.assertGreater(np.subtract(lamp.center, CAMERA.position) @ back, lamp.radius)
+        self.assertLess(np.linalg.norm(np.subtract(lamp.center, sky.center)) + lamp.radius, sky.radius)
+        self.assertAlmostEqual(right @ above, 0.0)
+
+    def test_options(self):
+        floor = pt.render(POSITIONS, 0.1, COLORS, context=self.context, floor=True, **SMALL)
+        self.assertLess(floor[-1, WIDTH // 2].max(), self.image[-1, WIDTH // 2].max())
+        other_seed = pt.render(POSITIONS, 0.1, COLORS, context=self.context, seed=1, **SMALL)
+        self.assertFalse(np.array_equal(other_seed, self.image))
+        self.assertLess(np.abs(other_seed.radiance - self.image.radiance).mean(), 0.05)
+        seen_by = pt.render(POSITIONS, 0.1, context=self.context, camera=CAMERA, **SMALL)
+        self.assertFalse(np.array_equal(seen_by, self.image))
+
+    def test_until_an_error_is_reached(self):
+        image = pt.render(POSITIONS, 0.1, context=self.context, size=(WIDTH, HEIGHT), error=0.05)
+        self.assertLessEqual(image.error_bounds[1], 0.05)
+        self.assertLessEqual(image.error, image.error_bounds[1])
+        self.assertLess(image.stats.max_sample_count, 65536)
+        self.assertEqual(image.sample_count.min(), image.stats.sample_count)
+        self.assertAlmostEqual(image.sample_count.mean(), image.stats.mean_sample_count)
+        few = pt.render(POSITIONS, 0.1, context=self.context, size=(WIDTH, HEIGHT), error=1e-9, samples=20)
+        self.assertEqual(few.stats.max_sample_count, 20)
+
+    def test_the_camera_touches_the_spheres(self):
+        """No sphere sticks out of the view, and one touches its rim: seen from the pinhole, a sphere at x right and z
+        away reaches to the angle atan(x / z) + asin(r / |x, z|)."""
+        radii = np.linspace(0.05, 0.4, len(POSITIONS))
+        for aspect, direction in ((1.5, (0.5, 0.4, 1)), (0.5, (-1, 0.2, 0)), (3.0, (0, -1, 1))):
+            camera = pt.Camera.around(POSITIONS, radii, direction=direction, aspect=aspect, margin=1)
+            right, above, back = camera.axes()
+            ways = POSITIONS - np.array(camera.position)
+            reach = []
+            for axis, half_extent in ((right, aspect * np.tan(camera.vertical_fov / 2)),
+                                      (above, np.tan(camera.vertical_fov / 2))):
+                x, z = np.abs(ways @ axis), -(ways @ back)
+                reach.append((np.arctan2(x, z) + np.arcsin(radii / np.hypot(x, z))).max() - np.arctan(half_extent))
+            self.assertAlmostEqual(max(reach), 0.0)
+            with self.assertRaisesRegex(ValueError, "parallel"):
+                pt.Camera.around(POSITIONS, radii, direction=(0, 1, 0))
+        with self.assertRaisesRegex(ValueError, "no spheres"):
+            pt.render(np.zeros((0, 3)), 1.0)
+
+
+class Readback(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.context = ready(pt.Context())
+        cls.context.accumulate(4)
+        cls.image = cls.context.readback()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.context.close()
+
+    def test_a_new_array(self):
+        self.assertEqual((self.image.shape, self.image.dtype), ((HEIGHT, WIDTH, 3), np.float32))
+        self.assertGreater(self.image.max(), 0.5)
+        rgba = self.context.readback(format=pt.Format.RGBA16F)
+        self.assertEqual((rgba.shape, rgba.dtype), ((HEIGHT, WIDTH, 4), np.float16))
+        np.testing.assert_array_equal(rgba[:, :, :3], self.image.astype(np.float16))
+        self.assertTrue((rgba[:, :, 3] == 1).all())
+
+    def test_a_part_of_a_larger_array(self):
+        for channels, dtype in ((3, np.float32), (4, np.float32), (4, np.float16)):
+            atlas = np.full((50, 50, channels), 7, dtype)
+            part = atlas[10:10 + 2 * HEIGHT:2, 20:20 + WIDTH]
+            self.assertIs(self.context.readback(out=part), part)
+            np.testing.assert_array_equal(part[:, :, :3], self.image.astype(dtype))
+            part[...] = 7
+            self.assertTrue((atlas == 7).all())
+
+    def test_a_rectangle(self):
+        part = self.context.readback(rectangle=(3, 5, 7, 2))
+        np.testing.assert_array_equal(part, self.image[5:7, 3:10])
+
+    def test_other_quantities(self):
+        self.assertTrue(np.isinf(self.context.readback(pt.Quantity.STANDARD_ERROR)).all())
+        self.assertTrue((self.context.readback(pt.Quantity.SAMPLE_COUNT) == 4).all())
+        objects = self.context.readback(pt.Quantity.OBJECT, format=pt.Format.R32UI)
+        self.assertEqual((objects.shape, objects.dtype), ((HEIGHT, WIDTH, 1), np.uint32))
+        met = objects[:, :, 0] != pt.NO_OBJECT
+        np.testing.assert_array_equal(np.isfinite(self.context.readback(pt.Quantity.DEPTH))[:, :, 0], met)
+        self.assertTrue(met.any() and not met.all())
+
+    def test_what_does_not_fit_is_refused(self):
+        plain = np.zeros((HEIGHT, WIDTH, 3), np.float32)
+        locked = plain.copy()
+        locked.flags.writeable = False
+        for words, out in (
+                ("dtype float64", plain.astype(float)), ("dtype >f4", plain.astype(">f4")), ("shape", plain[:, :, 0]),
+                ("shape", plain[:, :, :2]), ("strides", np.asfortranarray(plain)), ("strides", plain[:, ::-1]),
+                ("strides", np.zeros((HEIGHT, 2 * WIDTH, 3), np.float32)[:, ::2]), ("read-only", locked),
+                ("rows -288 bytes apart", plain[::-1]), ("24x15 pixels: must have the 24x16", plain[1:]),
+                ("dtype float16", plain.astype(np.float16))):
+            with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
+                self.context.readback(out=out)
+        with self.assertRaisesRegex(ValueError, "rectangle"):
+            self.context.readback(rectangle=(0, 0, -1, 2))
+        with self.assertRaisesRegex(ValueError, "rectangle"):
+            self.context.readback(rectangle=(-1, 0, 1, 2))
+        np.testing.assert_array_equal(self.context.readback(), self.image)
+
+    def test_rows_of_an_image(self):
+        ready(self.context, SCENE, first_row=4, row_count=5).accumulate(4)
+        np.testing.assert_array_equal(self.context.readback(), self.image[4:9])
+        self.assertEqual(ready(self.context, first_row=4).accumulate(4), pt.Result.OK)
+        np.testing.assert_array_equal(self.context.readback(), self.image[4:])
+        ready(self.context).accumulate(4)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,48 @@
+"""mypy --strict accepts the package and its example, and knows the types of what it gives. Arguments: the package's
+folder."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PACKAGE = pathlib.Path(sys.argv.pop(1))
+
+USES = """
+import numpy as np
+import pt
+
+image = pt.render(np.zeros((2, 3)), 1.0, colors=np.zeros((2, 3), np.uint8))
+reveal_type(image.error)
+reveal_type(pt.Film.load("x") + pt.Film(b""))
+pt.Sphere((0, 0, 0), 1)
+pt.Context().set_camera(pt.RenderSettings(4, 4))
+pt.Context().accumulate("16")
+pt.render(np.zeros((2, 3)), 1.0, sise=(4, 4))
+"""
+
+
+class Types(unittest.TestCase):
+    def check(self, *arguments):
+        """What mypy says, with one cache for all calls."""
+        return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir",
+                               self.folder / "cache", *arguments], text=True, capture_output=True, cwd=self.folder,
+                              env={**os.environ, "MYPYPATH": str(PACKAGE)})
+
+    def test_types(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.folder = pathlib.Path(folder)
+            (self.folder / "uses.py").write_text(USES)
+            done = self.check(PACKAGE / "pt", PACKAGE / "examples" / "particles.py")
+            self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+            said = self.check("uses.py").stdout.splitlines()
+        for line, words in zip(said, ('"builtins.float"', '"pt._film.Film"', 'Missing positional argument "material"',
+                                      'incompatible type "RenderSettings"; expected "Camera"',
+                                      'incompatible type "str"; expected "int"', 'argument "sise"'), strict=True):
+            self.assertIn(words, line)
+
+
+if __name__ == "__main__":
+    unittest.main()

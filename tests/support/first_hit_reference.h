@@ -1,0 +1,166 @@
+// What rays of a scene of pt.h meet first, by formulas of its own in long double, with how far float32 may be from it.
+// Used by the tests of what camera rays meet first.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace first_hits {
+
+using Real = long double;
+using Vector = glm::vec<3, Real>;
+
+constexpr Real rounding = 0x1p-24L; // of float32
+constexpr Real nowhere = std::numeric_limits<Real>::infinity();
+
+inline Vector vector_of(const double (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+struct Ray {
+    Vector direction; // unit; from the camera
+    Real time;
+    Vector start; // where float32 begins to know it, relative to the camera
+};
+
+// Where a ray meets a surface, and by how much float32 may differ.
+struct Meeting {
+    Real distance = nowhere;
+    Real tolerance = 0.0L;        // of the distance
+    bool is_uncertain = false;    // it all but touches the surface, or all but passes it
+    Vector normal{0.0L};          // on the side of the camera
+    Real normal_tolerance = 0.0L; // of each component
+    std::uint32_t object = PT_NO_OBJECT;
+};
+
+// Let u be the rounding. A direction is off by 4 u across itself (two products and two sums for each component, and a
+// normalisation, of which only what differs between components counts), and its length by 4 u.
+//
+// A sphere by its centre c, as seen from the camera, and its radius r: the centre is rounded by u |c|, and c - b d errs
+// by 4 u |c| for d, and by 3 u |c| for its own operations, so that the distance l of the centre from the ray is off by
+// 8 u |c|; b, the way to the point nearest to the centre, by 8 u |c| too. The half chord h = sqrt(r^2 - l^2) is off by
+// (8 u |c| l + 2 u r^2) / h. With l < r that is (8 u |c| + 2 u r) / cosine for the cosine h / r at the surface. Twice that is
+// allowed. The square under the root is off by r (16 u |c| + 4 u r) at most, or l - r by 8 u |c| + 2 u r: within twice that
+// of touching, it may be missed or met.
+//
+// Where a sphere is so large against its height h over the camera that it is held as a plane with a curvature k, nothing
+// of the size of r is rounded: the distance 2 h / q with q = s + sqrt(s^2 - 2 k h) for the slope s errs by u for h and by
+// what q errs, which is 4 u for s and (4 u s + 4 u) / cosine for the root, the cosine at the surface, and q is no less than
+// that cosine: 16 u / cosine^2 of the distance is allowed, and 8 u for all else; within 64 u of touching, as s^2 against
+// 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane is the same with k = 0.
+//
+// In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there.
+inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat) {
+    const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera;
+    const Real r = sphere.radius;
+    const Real along = glm::dot(centre, ray.direction);
+    const Real l = glm::length(centre - along * ray.direction);
+    const Real height = glm::length(centre) - r;
+    Meeting meeting;
+    const Real reach = glm::length(centre - ray.start);
+    const Real touching = is_flat ? 64.0L * rounding * r : (16.0L * reach + 4.0L * r) * rounding;
+    if (height > 0.0L && (along <= 0.0L || l > r)) {
+        meeting.is_uncertain = along > 0.0L && l - r < touching;
+        if (meeting.is_uncertain)
+            meeting.distance = along;
+        return meeting;
+    }
+    meeting.is_uncertain = height > 0.0L && r - l < touching;
+    const Real half_chord = std::sqrt((r - l) * (r + l));
+    // The roots' product is the power of the camera, so that the nearer one does not cancel.
+    meeting.distance = height > 0.0L ? height * (glm::length(centre) + r) / (along + half_chord) : along + half_chord;
+    const Vector from_centre = meeting.distance * ray.direction - centre;
+    const Vector outward = glm::normalize(from_centre);
+    const Real cosine = std::max(std::abs(glm::dot(outward, ray.direction)), rounding);
+    const Real way = glm::length(meeting.distance * ray.direction - ray.start);
+    const Real across = is_flat ? way : reach;
+    meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
+                                : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine);
+    meeting.normal = height > 0.0L ? outward : -outward;
+    // A point that is elsewhere by so much has a normal that is by 1 / r of it; and eight roundings of its own.
+    meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
+    return meeting;
+}
+
+inline Meeting meet_plane(const pt_plane &plane, const Vector &camera, const Ray &ray) {
+    Meeting meeting;
+    const Real length = glm::length(vector_of(plane.normal));
+    Vector normal = vector_of(plane.normal) / length;
+    Real height = glm::dot(normal, camera) + plane.offset / length;
+    normal *= height < 0.0L ? -1.0L : 1.0L;
+    height = std::abs(height);
+    const Real slope = -glm::dot(normal, ray.direction);
+    meeting.is_uncertain = std::abs(slope) < 16.0L * rounding;
+    if (slope <= 0.0L)
+        return meeting;
+    meeting.distance = height / slope;
+    const Real way = glm::length(meeting.distance * ray.direction - ray.start);
+    meeting.tolerance = way * rounding * (8.0L + 16.0L / slope);
+    meeting.normal = normal;
+    meeting.normal_tolerance = 4.0L * rounding;
+    return meeting;
+}
+
+struct View {
+    Vector position, right, up, forward;
+    Real focal_pixels; // how far away the image plane is
+    std::uint32_t width, height;
+    Real shutter_open, shutter_close;
+    Real start_distance = 0.0L;
+
+    View(const pt_camera &camera, const pt_render &render) :
+        position(vector_of(camera.position)),
+        forward(glm::normalize(vector_of(camera.target) - position)),
+        width(render.width),
+        height(render.height),
+        shutter_open(camera.shutter_open),
+        shutter_close(camera.shutter_close) {
+        right = glm::normalize(glm::cross(forward, vector_of(camera.up)));
+        up = glm::cross(right, forward);
+        focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
+    }
+
+    // Through a place in a pixel, at a share of the shutter's time.
+    Ray ray(std::uint32_t column, std::uint32_t row, Real x, Real y, Real share) const {
+        const Real to_right = column + x - width / 2.0L;
+        const Real downwards = row + y - height / 2.0L;
+        return {glm::normalize(focal_pixels * forward + to_right * right - downwards * up),
+                shutter_open + share * (shutter_close - shutter_open), start_distance * forward};
+    }
+};
+
+// The first surface; nothing where float32 may meet another one, or none.
+inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
+    std::vector<Meeting> met;
+    for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {
+        const pt_sphere &sphere = scene.spheres[i];
+        const Vector open = vector_of(sphere.center) + view.shutter_open * vector_of(sphere.motion) - view.position;
+        const bool is_flat = sphere.radius > 32.0L * std::abs(glm::length(open) - sphere.radius);
+        met.push_back(meet_sphere(sphere, view.position, ray, ray.time, is_flat));
+        met.back().object = i;
+    }
+    for (std::uint32_t i = 0; i < scene.plane_count; ++i) {
+        met.push_back(meet_plane(scene.planes[i], view.position, ray));
+        met.back().object = scene.sphere_count + i;
+    }
+    Meeting first;
+    for (const Meeting &each : met)
+        if (!each.is_uncertain && each.distance < first.distance)
+            first = each;
+    for (const Meeting &each : met)
+        if (each.object != first.object &&
+            (each.is_uncertain || each.distance - first.distance <= each.tolerance + first.tolerance) &&
+            each.distance - each.tolerance <= first.distance + first.tolerance && each.distance < nowhere)
+            return std::nullopt;
+    return first;
+}
+
+} // namespace first_hits
