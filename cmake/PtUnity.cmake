@@ -1,5 +1,6 @@
 # With PT_UNITY, the sources of a folder are compiled as one file: most of the time of a compiler, and of clang-tidy, goes
-# into headers. For the presets whose builds are not for use. Names in anonymous namespaces must differ within a file.
+# into headers. For what is built once; who changes sources builds without. Names in anonymous namespaces must differ
+# within a file.
 option(PT_UNITY "Compile the sources of each folder of the library and the program as one file" OFF)
 
 # pt_unite_folders(TARGET [folders that are compiled as one])

@@ -31,7 +31,8 @@ install_packages() { # package...
 
 build() { # preset, whether with tests [cmake --build arguments]
     preset=$1
-    cmake --preset "$preset" -DPT_BUILD_TESTS="$2" || return
+    # In one build, a file for each folder takes a quarter of the compiler's time.
+    cmake --preset "$preset" -DPT_UNITY=ON -DPT_BUILD_TESTS="$2" || return
     shift 2
     cmake --build --preset "$preset" "$@"
 }
