@@ -40,6 +40,11 @@ ImageWindow window_of(const DecodedImage &image) {
             image.full_height};
 }
 
+[[noreturn]] void refuse(const DecodedImage &image, std::size_t pixel, const std::string &what) {
+    throw Failure(ExitCode::file, "cannot read " + image.path + ": pixel " + std::to_string(pixel % image.width) + "," +
+                                      std::to_string(pixel / image.width) + what);
+}
+
 std::vector<float> radiance_of(const DecodedImage &image) {
     if (!image.is_float) {
         throw Failure(ExitCode::file, "cannot read " + image.path +
@@ -48,13 +53,30 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     std::vector<float> radiance = image.layer("");
     const auto bad = std::find_if(radiance.begin(), radiance.end(), [](float value) { return !std::isfinite(value); });
     if (bad != radiance.end()) {
-        const auto pixel = static_cast<std::size_t>(bad - radiance.begin()) / 3;
-        throw Failure(ExitCode::file, "cannot read " + image.path + ": pixel " + std::to_string(pixel % image.width) +
-                                          "," + std::to_string(pixel / image.width) + " is not finite");
+        refuse(image, static_cast<std::size_t>(bad - radiance.begin()) / 3, " is not finite");
     }
     std::transform(radiance.begin(), radiance.end(), radiance.begin(),
                    [](float value) { return std::max(value, 0.0F); });
     return radiance;
+}
+
+// Of each pixel, where the file has a channel of that name and the format takes it; otherwise empty.
+std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
+    const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
+    if (channel == image.channels.end() || format != ImageFormat::png) {
+        return {};
+    }
+    std::vector<float> alpha;
+    alpha.reserve(std::size_t{image.width} * image.height);
+    for (auto i = static_cast<std::size_t>(channel - image.channels.begin()); i < image.values.size();
+         i += image.channels.size()) {
+        const float share = image.values[i];
+        if (!(share >= 0.0F && share <= 1.0F)) { // nor NaN
+            refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
+        }
+        alpha.push_back(share);
+    }
+    return alpha;
 }
 
 // What the file says of its rendering, and what is made of it now.
@@ -94,7 +116,8 @@ int run_tonemap(const TonemapOptions &options) {
     ImageAttributes attributes;
     describe(attributes, image, tone_map);
     ImageWriter writer;
-    write_display_image(writer, target, window, radiance, tone_map, display.png_bits, attributes.attributes());
+    write_display_image(writer, target, window, radiance, tone_map, display.png_bits, attributes.attributes(),
+                        alpha_of(image, target.format));
     if (!options.quiet) {
         print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
                              window_text(window) + "\n" + (stops ? "" : exposure_line(tone_map.exposure)),

@@ -19,6 +19,21 @@ def as_float(number):
     return struct.unpack("f", struct.pack("f", number))[0]
 
 
+def row_exr(channels):
+    """An .exr of one row, not compressed ("OpenEXR File Layout"); channels: the values of each, sorted by name."""
+    width = len(channels["R"])
+    window = struct.pack("<4i", 0, 0, width - 1, 0)
+    listed = b"".join(name.encode() + struct.pack("<x4i", 2, 0, 1, 1) for name in channels) + b"\0"
+    attributes = (("channels", "chlist", listed), ("compression", "compression", b"\0"), ("dataWindow", "box2i", window),
+                  ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
+                  ("pixelAspectRatio", "float", struct.pack("<f", 1)), ("screenWindowCenter", "v2f", bytes(8)),
+                  ("screenWindowWidth", "float", struct.pack("<f", 1)))
+    header = struct.pack("<2I", 20000630, 2) + b"".join(
+        f"{name}\0{kind}\0".encode() + struct.pack("<i", len(value)) + value for name, kind, value in attributes) + b"\0"
+    pixels = b"".join(struct.pack(f"<{width}f", *values) for values in channels.values())
+    return header + struct.pack("<Q2i", len(header) + 8, 0, len(pixels)) + pixels
+
+
 class LayersTest(CommandLineTest):
     def render(self, *options, code=0, error=None, **environment):
         size = () if "--size" in options else SIZE
@@ -105,6 +120,24 @@ class Alpha(LayersTest):
                     for light, signal in zip(colour, found):
                         self.assertAlmostEqual(signal, light * largest, delta=0.51)
 
+    def test_a_png_made_of_an_exr_has_it_too(self):
+        for display in ((), ("--png-bits", "16", "--tonemap", "agx")):
+            self.render("-o", "a.exr", "-o", "a.png", "--alpha", *display)
+            self.expect(0, "tonemap", "a.exr", "b.png", *display)
+            self.assertEqual(read_png(self.path("b.png")), read_png(self.path("a.png")))
+        self.render("-o", "b.exr")
+        for name in "a", "b":
+            self.expect(0, "tonemap", f"{name}.exr", f"{name}.jpg", "--exposure", "0")
+        self.assertEqual(self.contents("a.jpg"), self.contents("b.jpg"))
+
+    def test_what_is_no_share_is_refused(self):
+        for alpha, said in (1.5, "1.500000"), (-0.25, "-0.250000"), (math.nan, "nan"):
+            with open(self.path("other.exr"), "wb") as file:
+                file.write(row_exr({"A": [0.5, alpha], "B": [1, 1], "G": [1, 1], "R": [1, 1]}))
+            self.expect(6, "tonemap", "other.exr", "other.png",
+                        error=f"cannot read other.exr: pixel 1,0: A is {said}, not in [0, 1]")
+        self.assertEqual(self.files(), ["other.exr"])
+
     def test_other_images_have_none(self):
         self.render("-o", "a.png", "-o", "a.exr", "--alpha", "--standard-error", "e.exr")
         self.render("-o", "b.png", "--standard-error", "f.exr")
@@ -159,7 +192,7 @@ class RealDeviceLayers(LayersTest):
                 self.assertEqual(row[4 * x:4 * x + 4], [colour, colour, colour, math.floor(alpha * 255 + 0.5)])
 
     def test_other_commands_read_the_mean(self):
-        self.render("-o", "a.exr", "--layers", ALL, "--alpha")
+        self.render("-o", "a.exr", "--layers", ALL)
         self.render("-o", "b.exr")
         self.expect(0, "compare", "a.exr", "b.exr", "--max-relative-mse", "0")
         for name in "a", "b":
