@@ -3,6 +3,7 @@
 #include "lib/kernel/kernel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pt {
 
@@ -21,14 +22,17 @@ static_assert(gpu::TILE_SIZE * gpu::TILE_SIZE == gpu::WORKGROUP_SIZE);
 
 void Kernel::prepare_tiles() {
     pipelines_.fold_tiles();
-    if (tile_lists_)
+    if (!tile_sets_.empty())
         return;
-    const TileGrid grid = film_.grid();
-    tile_lists_.emplace(device_, vulkan::BufferUse::HostWritten,
-                        grid.count() * device_.policy().queue_depth * sizeof(std::uint32_t), "lists of tiles");
+    if (!tile_lists_)
+        tile_lists_.emplace(device_, vulkan::BufferUse::HostWritten,
+                            film_.grid().count() * device_.policy().queue_depth * sizeof(std::uint32_t),
+                            "lists of tiles");
     const vulkan::ComputePipeline &fold = pipelines_.fold_tiles();
+    std::vector<vulkan::DescriptorSet> sets; // none is kept if one fails
     for (const DeviceFilm::Strip &strip : film_.strips())
-        tile_sets_.push_back(bound(fold, strip, strip.words));
+        sets.push_back(bound(fold, strip, strip.words));
+    tile_sets_ = std::move(sets);
 }
 
 // Returns the first of the entries. There is a list for each slice that may be under way.

@@ -57,8 +57,14 @@ void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
         job.even = std::make_unique<Accumulation>(devices_, samples_.of(0), settings_->first_sample, wanted.count,
                                                   progress, work_);
     job_ = std::move(job);
-    if (!is_even)
+    if (is_even)
+        return;
+    try {
         tell_tiles_apart();
+    } catch (...) {
+        job_.reset(); // nothing has been begun
+        throw;
+    }
 }
 
 // A look takes the time of more samples where paths are short.

@@ -52,6 +52,8 @@ const TileSamples &TileAccumulation::tidy_samples() {
 }
 
 void TileAccumulation::deal() {
+    if (begun_)
+        start_begun();
     for (bool dealt = true; dealt;) {
         dealt = false;
         for (const auto &device : devices())
@@ -72,28 +74,49 @@ bool TileAccumulation::deal_to(RenderDevice &device) {
     const std::span<const std::uint32_t> left = std::span(task.tiles).subspan(task.next_tile);
     const TileSlice slice{left.first(std::min(device.affordable_tiles(task.chunk.count()), left.size())), task.before,
                           task.chunk, true};
-    TileSamples with_slice = samples_; // before anything is started: what is must be counted
-    with_slice.add(slice.tiles, task.chunk);
-    fold_on_others(device, slice);
-    device.start_tiles(slice);
-    samples_ = std::move(with_slice);
-    task.next_tile += slice.tiles.size();
-    if (task.next_tile == task.tiles.size()) {
-        task.before = task.before.empty() ? task.chunk : hull_of(task.before, task.chunk);
-        task.samples.first = task.chunk.end;
-        task.chunk = {};
-        task.next_tile = 0;
-        if (task.samples.empty())
-            tasks_.pop_back();
+    Begun next{slice, &device, samples_}; // before anything is started: what is must be counted
+    next.samples.add(slice.tiles, task.chunk);
+    begun_ = std::move(next);
+    try {
+        start_begun();
+    } catch (...) {
+        if (!begun_->is_partly_started)
+            begun_.reset();
+        throw;
     }
     return true;
 }
 
-// So that the films of all devices have the same samples in each part, and add up part by part.
-void TileAccumulation::fold_on_others(const RenderDevice &device, const TileSlice &slice) const {
-    for (const auto &other : devices())
-        if (other.get() != &device && slice.moves_split())
-            other->start_tiles({slice.tiles, slice.before, slice.samples, false});
+// One device takes the samples of the slice. The others fold, so that the films of all have the same samples in each part,
+// and add up part by part.
+void TileAccumulation::start_begun() {
+    for (; begun_->next_device < devices().size(); ++begun_->next_device) {
+        RenderDevice &device = *devices()[begun_->next_device];
+        TileSlice slice = begun_->slice;
+        slice.takes = &device == begun_->taker;
+        if (slice.takes || slice.moves_split()) {
+            device.start_tiles(slice);
+            begun_->is_partly_started = true;
+        }
+    }
+    samples_ = std::move(begun_->samples);
+    const std::size_t tile_count = begun_->slice.tiles.size();
+    begun_.reset();
+    leave_behind(tile_count);
+}
+
+// Goes to the tiles behind these, or to the next samples of all.
+void TileAccumulation::leave_behind(std::size_t tile_count) {
+    Task &task = tasks_.back();
+    task.next_tile += tile_count;
+    if (task.next_tile < task.tiles.size())
+        return;
+    task.before = task.before.empty() ? task.chunk : hull_of(task.before, task.chunk);
+    task.samples.first = task.chunk.end;
+    task.chunk = {};
+    task.next_tile = 0;
+    if (task.samples.empty())
+        tasks_.pop_back();
 }
 
 } // namespace pt

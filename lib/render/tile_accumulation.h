@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,14 +43,25 @@ private:
         std::size_t next_tile = 0;        // that takes it next
     };
 
+    // A slice that the devices start one after the other. Where one fails to, complete() goes on from there.
+    struct Begun {
+        TileSlice slice;
+        const RenderDevice *taker; // of its samples
+        TileSamples samples;       // with those of the slice
+        std::size_t next_device = 0;
+        bool is_partly_started = false;
+    };
+
     Task &task_of(std::uint32_t set, std::uint64_t wanted);
     void deal() override;
     bool deal_to(RenderDevice &device);
-    void fold_on_others(const RenderDevice &device, const TileSlice &slice) const;
+    void start_begun();
+    void leave_behind(std::size_t tile_count);
 
     TileSamples samples_; // that the films hold or have begun
     std::uint32_t first_sample_;
-    std::vector<Task> tasks_; // the last is under way
+    std::vector<Task> tasks_;    // the last is under way
+    std::optional<Begun> begun_; // of the last task
 };
 
 } // namespace pt

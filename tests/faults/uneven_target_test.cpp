@@ -1,0 +1,156 @@
+// Host memory and Vulkan calls that fail while tiles are given different numbers of samples: the call that is made again
+// ends with the bytes of one that nothing disturbed.
+#include "tests/faults/allocations.h"
+#include "tests/faults/vulkan_calls.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/film.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace {
+
+using namespace faults;
+
+using FilmBytes = std::vector<std::byte>;
+
+constexpr uint32_t uneven_width = 40;
+constexpr uint32_t uneven_height = 24;
+
+// Without the layer, whose own calls and memory would count.
+Context context_of(uint32_t device_count) {
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.submit_milliseconds = 20;
+    pt_context *context = nullptr;
+    EXPECT_EQ(create_shared(device_count, info, &context), PT_OK) << pt_last_error(nullptr);
+    return Context(context);
+}
+
+void begin_picture(pt_context *context) {
+    CourseworkScene coursework;
+    const pt_scene scene = coursework.scene();
+    const pt_camera camera = CourseworkScene::camera();
+    const pt_render render = render_of(uneven_width, uneven_height, 2);
+    ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
+    ASSERT_EQ(pt_set_render(context, &render), PT_OK) << pt_last_error(context);
+}
+
+pt_result take_to_target(pt_context *context) {
+    const InLibrary in_library;
+    pt_accumulate_info info{};
+    info.struct_size = sizeof info;
+    info.sample_count = 1U << 20;
+    info.target_error = 0.03;
+    return pt_accumulate(context, &info);
+}
+
+FilmBytes film_bytes(pt_context *context) {
+    uint64_t size = 0;
+    EXPECT_EQ(pt_save_film(context, nullptr, &size), PT_OK) << pt_last_error(context);
+    FilmBytes bytes(size);
+    EXPECT_EQ(pt_save_film(context, bytes.data(), &size), PT_OK) << pt_last_error(context);
+    return bytes;
+}
+
+pt_stats stats_of(pt_context *context) {
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    EXPECT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
+    return stats;
+}
+
+// Every place at first, then every eighth: what repeats itself from round to round is met several times all the same.
+std::size_t place_after(std::size_t place) {
+    return place + 1 + place / 8;
+}
+
+class UnevenTargetTest : public testing::TestWithParam<uint32_t> {
+protected:
+    void SetUp() override {
+        const Context undisturbed = context_of(1);
+        begin_picture(undisturbed.get());
+        ASSERT_EQ(take_to_target(undisturbed.get()), PT_TARGET_REACHED) << pt_last_error(undisturbed.get());
+        const pt_stats stats = stats_of(undisturbed.get());
+        ASSERT_LT(stats.sample_count, stats.max_sample_count) << "all tiles have the same";
+        expected_ = film_bytes(undisturbed.get());
+        context_ = context_of(GetParam());
+    }
+
+    void TearDown() override {
+        context_.reset();
+        heal_devices();
+        forget_objects(); // of a device that was lost
+    }
+
+    // A picture whose call is disturbed, and made again if that made it fail.
+    void expect_bytes_after(pt_result disturbed) {
+        if (disturbed == PT_ERROR_DEVICE_LOST) {
+            context_.reset();
+            heal_devices();
+            context_ = context_of(GetParam());
+            return;
+        }
+        if (disturbed < PT_OK) {
+            EXPECT_STRNE(pt_last_error(context()), "");
+            EXPECT_EQ(take_to_target(context()), PT_TARGET_REACHED) << pt_last_error(context());
+        }
+        EXPECT_TRUE(film_bytes(context()) == expected_) << "after " << pt_result_name(disturbed);
+    }
+
+    pt_context *context() const { return context_.get(); }
+
+private:
+    FilmBytes expected_;
+    Context context_;
+};
+
+TEST_P(UnevenTargetTest, AnyAllocationMayFail) {
+    std::size_t failures = 0;
+    bool reached = true;
+    for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
+        SCOPED_TRACE("allocation " + std::to_string(place));
+        begin_picture(context());
+        fail_allocation(place, false);
+        const pt_result result = take_to_target(context());
+        reached = allocation_failed();
+        if (reached && allocation_threw()) {
+            EXPECT_EQ(result, PT_ERROR_OUT_OF_HOST_MEMORY);
+            ++failures;
+        }
+        fail_allocation(0, false);
+        expect_bytes_after(result);
+    }
+    EXPECT_GT(failures, 10U);
+}
+
+TEST_P(UnevenTargetTest, AnyVulkanCallMayFail) {
+    std::size_t failures = 0;
+    bool reached = true;
+    for (std::size_t place = 1; reached && !HasFatalFailure(); place = place_after(place)) {
+        for (std::size_t error = 0; error < 2; ++error) { // of memory; the others lose the device, and with it the film
+            SCOPED_TRACE("call " + std::to_string(place) + ", error " + std::to_string(error));
+            begin_picture(context());
+            fail_call(place, error);
+            const pt_result result = take_to_target(context());
+            const CallFault fault = call_fault();
+            SCOPED_TRACE(fault.function);
+            reached = !fault.function.empty();
+            fail_call(0, 0);
+            failures += result < PT_OK && result != PT_ERROR_DEVICE_LOST ? 1 : 0;
+            expect_bytes_after(result);
+        }
+    }
+    EXPECT_GT(failures, 10U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Devices, UnevenTargetTest, testing::Values(1U, 2U));
+
+} // namespace
