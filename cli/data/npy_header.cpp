@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
