@@ -95,7 +95,8 @@ private:
         check_names(options);
         std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-        const SceneFile file = parse_scene(text_.text, text_.path, overrides);
+        SceneFile file = parse_scene(text_.text, text_.path, overrides);
+        load_particles(file);
         RenderSettings settings = merge_settings(options, file);
         settings.render.seed += frame;
         check_outputs(options, settings);

@@ -135,7 +135,9 @@ void check_sources_are_kept(const RenderOptions &options) {
 
 SceneFile read_scene(const RenderOptions &options) {
     const SceneText scene = read_scene_text(options.scene);
-    return parse_scene(scene.text, scene.path, options.overrides);
+    SceneFile file = parse_scene(scene.text, scene.path, options.overrides);
+    load_particles(file);
+    return file;
 }
 
 void check_names(const RenderOptions &options) {

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <system_error>
 #include <utility>
 
@@ -68,6 +69,21 @@ pt_scene SceneFile::scene() const {
     return scene;
 }
 
+std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
+    std::vector<pt_sphere_array> arrays;
+    std::transform(particles.begin(), particles.end(), std::back_inserter(arrays),
+                   [](const ParticleEntry &entry) { return entry.spheres(); });
+    return arrays;
+}
+
+std::size_t SceneFile::surface_count() const {
+    std::size_t count = spheres.size() + planes.size();
+    for (const ParticleEntry &entry : particles) {
+        count += entry.positions.size() / 3;
+    }
+    return count;
+}
+
 std::string SceneFile::explain(const BrokenRule &rule) const {
     return explain_rule(*this, read_again(*this), rule);
 }
@@ -117,7 +133,9 @@ SceneText read_scene_text(const std::string &path) {
 
 SceneFile read_scene_file(const std::string &path) {
     const SceneText scene = read_scene_text(path);
-    return parse_scene(scene.text, scene.path);
+    SceneFile file = parse_scene(scene.text, scene.path);
+    load_particles(file);
+    return file;
 }
 
 } // namespace cli

@@ -8,6 +8,7 @@
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 #include "cli/scene/animation.h"
+#include "cli/scene/particle_section.h"
 
 #include <pt/pt.h>
 
@@ -37,6 +38,7 @@ struct SceneFile {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
+    std::vector<ParticleEntry> particles; // without positions before load_particles
     pt_camera camera;
     std::vector<AnimatedValue> animation;
 
@@ -51,8 +53,9 @@ struct SceneFile {
     std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
 
-    pt_scene scene() const; // points into this object
-    std::size_t surface_count() const { return spheres.size() + planes.size(); }
+    pt_scene scene() const;                             // points into this object, and has no particles
+    std::vector<pt_sphere_array> sphere_arrays() const; // these are in them, one array an entry
+    std::size_t surface_count() const;
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
     // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".

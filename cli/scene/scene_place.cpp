@@ -23,6 +23,9 @@ JsonPath renamed_path(const FieldName &name) {
 
 // Of what the file calls as pt.h does, but for materials, which have names there; empty if it is none of the file's.
 JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
+    if (rule.subject == "sphere_arrays" && rule.index) {
+        return {{"particles", 0, false}, {{}, *rule.index, true}, {rule.member, 0, false}};
+    }
     static constexpr std::array<std::string_view, 5> sections{"camera", "render", "materials", "spheres", "planes"};
     if (std::find(sections.begin(), sections.end(), rule.subject) == sections.end()) {
         return {};

@@ -14,12 +14,13 @@ void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
         json::value_t kind;
         ItemReader read_item;
     };
-    static constexpr std::array<Section, 7> sections{{
+    static constexpr std::array<Section, 8> sections{{
         {"camera", json::value_t::object, &SceneReader::camera_item},
         {"film", json::value_t::object, &SceneReader::film_item},
         {"render", json::value_t::object, &SceneReader::render_item},
         {"materials", json::value_t::object, &SceneReader::material_item},
         {"spheres", json::value_t::array, &SceneReader::sphere_item},
+        {"particles", json::value_t::array, &SceneReader::particle_item},
         {"planes", json::value_t::array, &SceneReader::plane_item},
         {"animation", json::value_t::object, &SceneReader::animation_item},
     }};

@@ -32,6 +32,7 @@ private:
     }
     void material_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.material(place, value); }
     void sphere_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.sphere(place, value); }
+    void particle_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.particles(place, value); }
     void plane_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.plane(place, value); }
 
     SceneFile &scene_;

@@ -1,6 +1,8 @@
 #include "cli/scene/scene_schema.h"
 
 #include "cli/base/method_names.h"
+#include "cli/data/number_colours.h"
+#include "cli/data/particle_file.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 
@@ -131,6 +133,32 @@ Schema spheres() {
                           {"center", "radius", "material"}));
 }
 
+Schema particles() {
+    const Schema text{{"type", "string"}};
+    const Schema range = array_of({{"type", "number"}}, 2);
+    const Schema scale{{"type", "number"}};
+    const Schema radius{
+        {"anyOf",
+         {number(least_length, largest_length), object({{"column", text}, {"scale", scale}}, {"column"}),
+          object({{"elements", {{"enum", {"van-der-waals", "covalent"}}}}, {"scale", scale}}, {"elements"})}}};
+    const Schema colours{
+        {"anyOf",
+         {number(0.0, 1.0),
+          array_of(number(0.0, 1.0), 3),
+          {{"const", "type"}},
+          object({{"columns", array_of(text, 3)}, {"map", one_of(colour_map_names)}, {"range", range}}, {"columns"}),
+          object({{"column", text}, {"map", one_of(colour_map_names)}, {"range", range}}, {"column"})}}};
+    return list_of("Spheres at the particles of a file",
+                   object({{"file", described("Relative to the scene's folder", text)},
+                           {"format", described("Default: by its first bytes or its name", one_of(particle_formats))},
+                           {"frame", described("From 0, or from the last, -1, on; default -1", {{"type", "integer"}})},
+                           {"where", list_of("Conditions that all hold, like z < 5", text)},
+                           {"radius", radius},
+                           {"color", described("Multiplies the material's diffuse; default 1", colours)},
+                           {"material", text}},
+                          {"file", "radius", "material"}));
+}
+
 Schema planes() {
     return list_of("Where dot(normal, x) + offset = 0", object({{"normal", described("Of any length", direction())},
                                                                 {"offset", {{"type", "number"}}},
@@ -157,6 +185,7 @@ nlohmann::ordered_json scene_schema() {
                             {"render", render()},
                             {"materials", materials()},
                             {"spheres", spheres()},
+                            {"particles", particles()},
                             {"planes", planes()},
                             {"animation", animation()}});
     schema["$schema"] = "http://json-schema.org/draft-07/schema#";

@@ -2,6 +2,8 @@
 
 #include "cli/base/exit_code.h"
 
+#include <vector>
+
 namespace cli {
 namespace {
 
@@ -32,6 +34,9 @@ void require_render(const Context &context, const SceneFile &file, const RenderS
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
     std::function<bool(double)> listener = goes_on; // the library's pointer is to what may change
     pt_scene scene = file.scene();
+    const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
+    scene.sphere_arrays = arrays.data();
+    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
     scene.progress = &receive_share;
     scene.progress_user = &listener;
     const pt_result result = pt_set_scene(context.get(), &scene);

@@ -3,6 +3,7 @@
 #include "cli/base/store.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -40,6 +41,13 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
     scene_.spheres.push_back(sphere);
 }
 
+void SurfaceSections::particles(const JsonPlace &place, const json &value) {
+    ParticleEntry entry = read_particle_entry(place, value);
+    const JsonObject object(value, place, {"file", "format", "frame", "where", "radius", "color", "material"});
+    entry.material = references_.number(place.member("material"), object.require("material"));
+    scene_.particles.push_back(std::move(entry));
+}
+
 void SurfaceSections::plane(const JsonPlace &place, const json &value) {
     const JsonObject object(value, place, {"normal", "offset", "material"});
     pt_plane plane{};
@@ -53,6 +61,9 @@ void SurfaceSections::resolve_materials() {
     const std::vector<std::uint32_t> indices = references_.indices(scene_.material_names);
     for (pt_sphere &sphere : scene_.spheres) {
         sphere.material = indices[sphere.material];
+    }
+    for (ParticleEntry &entry : scene_.particles) {
+        entry.material = indices[entry.material];
     }
     for (pt_plane &plane : scene_.planes) {
         plane.material = indices[plane.material];

@@ -38,6 +38,9 @@ std::vector<bool> used_materials(const SceneFile &scene) {
     for (const pt_sphere &sphere : scene.spheres) {
         used[sphere.material] = true;
     }
+    for (const ParticleEntry &entry : scene.particles) {
+        used[entry.material] = true;
+    }
     for (const pt_plane &plane : scene.planes) {
         used[plane.material] = true;
     }
@@ -128,7 +131,10 @@ private:
             const auto [low, high] = std::minmax({height(open_), height(close_)});
             return emits(material_of(lamp)) && low <= ball.radius && high >= -ball.radius;
         };
-        return std::any_of(scene_.spheres.begin(), scene_.spheres.end(), sphere_reaches_in) ||
+        // Where particles shine is not looked at: they may be millions.
+        const auto particles_shine = [this](const ParticleEntry &entry) { return emits(material_of(entry)); };
+        return std::any_of(scene_.particles.begin(), scene_.particles.end(), particles_shine) ||
+               std::any_of(scene_.spheres.begin(), scene_.spheres.end(), sphere_reaches_in) ||
                std::any_of(scene_.planes.begin(), scene_.planes.end(), plane_reaches_in);
     }
 
