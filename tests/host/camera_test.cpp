@@ -61,7 +61,8 @@ TEST_P(BrokenCamera, IsRefusedWithMessage) {
 INSTANTIATE_TEST_SUITE_P(
     Rules, BrokenCamera,
     testing::Values(
-        CameraCase{"Reserved", [](pt_camera &c) { c.reserved = 2; }, "camera.reserved = 2: must be 0"},
+        CameraCase{"Reserved", [](pt_camera &c) { c.projection = 2; },
+                   "camera.projection = 2: must be a PT_PROJECTION_*: 0 (perspective) or 1 (orthographic)"},
         CameraCase{"PositionNan", [](pt_camera &c) { c.position[1] = camera_nan; },
                    "camera.position[1] = nan: must be finite"},
         CameraCase{"PositionLarge", [](pt_camera &c) { c.position[0] = 2e18; },
