@@ -41,7 +41,7 @@ const char *shutter_rule(double value) {
 pt_camera with_defaults(pt_camera camera) {
     if (vector(camera.up) == glm::dvec3(0.0))
         camera.up[1] = 1.0;
-    if (camera.vertical_fov == 0.0 && camera.projection == PT_PROJECTION_PERSPECTIVE)
+    if (camera.vertical_fov == 0.0 && camera.projection != PT_PROJECTION_ORTHOGRAPHIC)
         camera.vertical_fov = default_vertical_fov;
     if (camera.shutter_open == 0.0 && camera.shutter_close == 0.0)
         camera.shutter_close = 1.0;

@@ -61,7 +61,7 @@ TEST_P(BrokenCamera, IsRefusedWithMessage) {
 INSTANTIATE_TEST_SUITE_P(
     Rules, BrokenCamera,
     testing::Values(
-        CameraCase{"Reserved", [](pt_camera &c) { c.projection = 2; },
+        CameraCase{"ProjectionUnknown", [](pt_camera &c) { c.projection = 2; },
                    "camera.projection = 2: must be a PT_PROJECTION_*: 0 (perspective) or 1 (orthographic)"},
         CameraCase{"PositionNan", [](pt_camera &c) { c.position[1] = camera_nan; },
                    "camera.position[1] = nan: must be finite"},
