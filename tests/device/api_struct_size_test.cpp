@@ -111,7 +111,7 @@ TEST_F(StructSizeTest, Scene) {
 
 TEST_F(StructSizeTest, Camera) {
     const auto call = [&](const pt_camera &camera) { return outcome(pt_set_camera(context(), &camera)); };
-    const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75};
+    const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75, 0};
     EXPECT_EQ(call(camera).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(camera, call), none);
     expect_tail_refused(camera, "camera", call);
