@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import importlib
 import json
 import os
 import pathlib
@@ -78,20 +79,20 @@ def run_program(*arguments: str) -> str:
 @contextlib.contextmanager
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
     """A client of it."""
-    from distributed import Client, LocalCluster, Security
+    dask: Any = importlib.import_module("distributed")  # which has no types, and takes half a second
     if arguments.scheduler:
         security = None
         if arguments.tls:
             ca, certificate, key = arguments.tls
-            security = Security(tls_ca_file=ca, tls_client_cert=certificate, tls_client_key=key, require_encryption=True)
-        with Client(arguments.scheduler, security=security) as client:
+            security = dask.Security(tls_ca_file=ca, tls_client_cert=certificate, tls_client_key=key, require_encryption=True)
+        with dask.Client(arguments.scheduler, security=security) as client:
             yield client
         return
     count = arguments.local_workers or 2
     # Each takes its share of the processors; drivers take all of them else.
     os.environ.setdefault("LP_NUM_THREADS", str(max((os.cpu_count() or count) // count, 1)))
-    with LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
-                      host="127.0.0.1") as local, Client(local) as client:
+    with dask.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
+                      host="127.0.0.1") as local, dask.Client(local) as client:
         yield client
 
 
