@@ -164,10 +164,12 @@ class Parts(unittest.TestCase):
         import numpy as np
         part = Part(0, 100, np.arange(50, dtype=np.uint32))
         for work, least in ((1, 1), (700, 1), (700, 40), (99, 50), (10**9, 1)):
-            pieces, rest = [], part
-            while rest is not None:
-                piece, rest = rest.split(work, least)
+            pieces, rest = [], [part]
+            while rest:
+                piece, others = rest.pop().split(work, least)
+                self.assertLessEqual(piece.work, max(work, least))
                 pieces.append(piece)
+                rest += others
             taken = np.zeros((50, 100), int)
             for piece in pieces:
                 taken[piece.tiles, piece.first:piece.end] += 1

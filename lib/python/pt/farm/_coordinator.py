@@ -189,8 +189,7 @@ class _Coordinator:
                     share = member.speed.share(self._options.part_seconds, remaining, speeds)
                     assert member.facts is not None
                     part, rest = part.split(share, LEAST_TILES[member.facts.is_cpu])
-                    if rest:
-                        self._waiting.appendleft((None, rest))
+                    self._waiting.extendleft((None, each) for each in rest)
                     number, self._next_number = self._next_number, self._next_number + 1
                     self._open.add(number)
                     remaining -= part.work

@@ -44,8 +44,9 @@ def job_of(description: Mapping[str, Any], device: str | None) -> Job:
     materials = [Material(tuple(m[0:3]), tuple(m[3:6]), tuple(m[6:9]), m[9]) for m in description["materials"]]
     spheres = [Sphere(tuple(s[0:3]), s[3], s[7], tuple(s[4:7])) for s in description["spheres"]]
     planes = [Plane(tuple(p[0:3]), p[3], p[4]) for p in description["planes"]]
-    settings = RenderSettings(**{**render, "estimator": Estimator(render["estimator"]),
-                                 "sampler": Sampler(render["sampler"])})
+    numbers: dict[str, Any] = {**render, "estimator": Estimator(render["estimator"]),
+                               "sampler": Sampler(render["sampler"])}
+    shutter_open, shutter_close = camera["shutter"]
     return Job(Scene(spheres, planes, materials=materials),
                Camera(tuple(camera["position"]), tuple(camera["target"]), tuple(camera["up"]), camera["vertical_fov"],
-                      tuple(camera["shutter"])), settings, device, description["environment"])
+                      (shutter_open, shutter_close)), RenderSettings(**numbers), device, description["environment"])

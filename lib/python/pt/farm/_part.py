@@ -27,18 +27,20 @@ class Part:
         """Samples of tiles."""
         return (self.end - self.first) * len(self.tiles)
 
-    def split(self, work: int, least_tiles: int) -> tuple[Part, Part | None]:
+    def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
         """A part of about that work, and the rest. Rather fewer tiles than fewer samples, as a film's size goes by its
         tiles; but no fewer tiles than keep a device busy."""
+        samples = self.end - self.first
         if self.work <= work:
-            return self, None
-        count = max(work // (self.end - self.first), min(least_tiles, len(self.tiles)))
-        if count < len(self.tiles):
-            return (Part(self.first, self.end, self.tiles[:count]), Part(self.first, self.end, self.tiles[count:]))
-        middle = self.first + max(work // len(self.tiles), 1)
-        if middle >= self.end:
-            return self, None
-        return Part(self.first, middle, self.tiles), Part(middle, self.end, self.tiles)
+            return self, []
+        tiles = min(max(work // samples, least_tiles), len(self.tiles))
+        middle = self.first + max(min(work // tiles, samples), 1)
+        rest = []
+        if tiles < len(self.tiles):
+            rest.append(Part(self.first, self.end, self.tiles[tiles:]))
+        if middle < self.end:
+            rest.append(Part(middle, self.end, self.tiles[:tiles]))
+        return Part(self.first, middle, self.tiles[:tiles]), rest
 
 
 def grid_shape(width: int, height: int) -> tuple[int, int]:
