@@ -246,7 +246,7 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     renderer.set_camera(pt::validated_camera(valid_camera()));
     renderer.set_render(pt::validated_render(valid_render()));
     const auto take_a_sample = [&] {
-        EXPECT_EQ(renderer.accumulate({1, 0.0, PT_SAMPLING_BEST}, {nullptr, nullptr}), PT_OK);
+        EXPECT_EQ(renderer.accumulate({1, 0.0, PT_SAMPLING_BEST, {}}, {nullptr, nullptr}), PT_OK);
     };
     take_a_sample();
 
