@@ -4,7 +4,9 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
+#include "cli/base/report_file.h"
 #include "cli/base/vector_width.h"
+#include "cli/render/description.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_picture.h"
 #include "cli/scene/animation_section.h"
@@ -86,19 +88,39 @@ public:
         return static_cast<int>(is_target_missed_ ? ExitCode::target_missed : ExitCode::done);
     }
 
+    int describe() const {
+        std::string lines;
+        for (std::uint64_t frame = options_.frames->first; frame <= options_.frames->last; ++frame) {
+            const auto number = static_cast<std::uint32_t>(frame);
+            const SceneFile file = scene_of(number);
+            lines += description_line(description_of(file, settings_of(options_, file, number), number));
+        }
+        write_report_file(options_.description, lines);
+        return static_cast<int>(ExitCode::done);
+    }
+
 private:
+    SceneFile scene_of(std::uint32_t frame) const {
+        std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
+        overrides.insert(overrides.end(), options_.overrides.begin(), options_.overrides.end());
+        return parse_scene(text_.text, text_.path, overrides);
+    }
+
     // The seed differs from frame to frame, or all would have the same noise, which would seem to stand before the
     // picture.
+    static RenderSettings settings_of(const RenderOptions &options, const SceneFile &file, std::uint32_t frame) {
+        RenderSettings settings = merge_settings(options, file);
+        settings.render.seed += frame;
+        return settings;
+    }
+
     Outcome render(const RenderOptions &options, std::uint32_t frame) {
         RenderTimes times{};
         times.start = std::chrono::steady_clock::now();
         check_names(options);
-        std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
-        overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-        SceneFile file = parse_scene(text_.text, text_.path, overrides);
+        SceneFile file = scene_of(frame);
         load_particles(file);
-        RenderSettings settings = merge_settings(options, file);
-        settings.render.seed += frame;
+        const RenderSettings settings = settings_of(options, file, frame);
         check_outputs(options, settings);
         times.create_start = std::chrono::steady_clock::now();
         if (!context_) {
@@ -123,7 +145,8 @@ private:
 } // namespace
 
 int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
-    return FramesRender(options, log, viewer).run();
+    FramesRender frames(options, log, viewer);
+    return options.description.empty() ? frames.run() : frames.describe();
 }
 
 } // namespace cli

@@ -54,6 +54,12 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
                     "Write the facts of the rendering as JSON; - is standard output, the summary then goes to stderr")
         ->type_name("JSON")
         ->group(group);
+    command
+        .add_option("--describe", options.description,
+                    "Render nothing, and write scene, camera and settings as numbers, an object of JSON in a line for "
+                    "each frame: for programs that render them; - is standard output")
+        ->type_name("JSON")
+        ->group(group);
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {

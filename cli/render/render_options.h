@@ -28,6 +28,7 @@ struct RenderOptions {
     std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
     bool alpha = false;
     std::string stats;
+    std::string description; // path of it, in place of a rendering; empty: none
     std::string film;       // path of the film; empty: none
     std::string checkpoint; // likewise
     bool resume = false;

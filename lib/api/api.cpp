@@ -84,10 +84,26 @@ pt_accumulate_info validated_accumulate(const pt_accumulate_info *info, bool may
     subject.require(accumulate.sampling != PT_SAMPLING_ADAPTIVE || accumulate.target_error > 0.0, "sampling",
                     accumulate.sampling, "needs a target_error > 0, which ends it");
     subject.require(accumulate.reserved == 0, "reserved", accumulate.reserved, "must be 0");
+    subject.require(accumulate.reserved2 == 0, "reserved2", accumulate.reserved2, "must be 0");
+    subject.require((accumulate.tile_samples == nullptr) == (accumulate.tile_count == 0), "tile_count",
+                    accumulate.tile_count, "must be 0 where tile_samples is NULL, and only there");
+    subject.require(!accumulate.tile_samples || accumulate.target_error == 0.0, "target_error", accumulate.target_error,
+                    "must be 0 beside tile_samples");
+    for (std::uint32_t tile = 0; accumulate.tile_samples && tile < accumulate.tile_count; ++tile)
+        if (accumulate.tile_samples[tile] > accumulate.sample_count) {
+            subject.refuse("tile_samples", std::to_string(accumulate.tile_samples[tile]),
+                           "must be at most sample_count, in tile " + std::to_string(tile) + " too");
+            break;
+        }
     if (accumulate.progress && !may_call_back)
         subject.refuse("progress", "a function", "must be NULL for pt_start: pt_poll says how far the samples are");
     violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
     return accumulate;
+}
+
+SamplesWanted samples_wanted(const pt_accumulate_info &info) {
+    return {
+        info.sample_count, info.target_error, info.sampling, {info.tile_samples, info.tile_samples + info.tile_count}};
 }
 
 // What is in use cannot be freed, so that pt_destroy can only say so. It does once: the log function itself may call
@@ -235,15 +251,14 @@ pt_result pt_prepare(pt_context *context) {
 pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::validated_accumulate(info, true);
-        return renderer.accumulate({accumulate.sample_count, accumulate.target_error, accumulate.sampling},
-                                   {accumulate.progress, accumulate.progress_user});
+        return renderer.accumulate(pt::samples_wanted(accumulate), {accumulate.progress, accumulate.progress_user});
     });
 }
 
 pt_result pt_start(pt_context *context, const pt_accumulate_info *info) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
         const pt_accumulate_info accumulate = pt::validated_accumulate(info, false);
-        return renderer.start({accumulate.sample_count, accumulate.target_error, accumulate.sampling});
+        return renderer.start(pt::samples_wanted(accumulate));
     });
 }
 

@@ -11,6 +11,7 @@
 #include <pt/film.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -86,6 +87,36 @@ pt_stats stats_of(const Film &film, bool with_error) {
     stats.rejected_samples = film.rejected_samples();
     set_error(stats, error);
     return stats;
+}
+
+// Goals of all tiles: those that a step does not name keep what they have.
+pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
+    const TileSamples samples = film.samples_by_tile();
+    const std::size_t tile_count = samples.grid().count();
+    if (!goals) {
+        count = static_cast<std::uint32_t>(tile_count);
+        return PT_OK;
+    }
+    if (count != tile_count)
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    BrokenRule{.subject = "count",
+                               .value = std::to_string(count),
+                               .rule = "must be the number of tiles, " + std::to_string(tile_count)});
+    const std::optional<TileStep> step = film.plan(samples, target_error, most, may_miss_lamps(film.facts()));
+    for (std::size_t tile = 0; tile < tile_count; ++tile)
+        goals[tile] = static_cast<std::uint32_t>(samples.of(tile).count());
+    if (!step)
+        return PT_TARGET_REACHED;
+    for (const std::uint32_t tile : step->tiles)
+        goals[tile] = static_cast<std::uint32_t>(step->goal(tile));
+    return step->tiles.empty() ? PT_OK : PT_PENDING;
+}
+
+void check_target_error(double target_error) {
+    if (!(std::isfinite(target_error) && target_error > 0.0))
+        throw Error(PT_ERROR_INVALID_ARGUMENT, BrokenRule{.subject = "target_error",
+                                                          .value = number_text(target_error),
+                                                          .rule = "must be finite and > 0"});
 }
 
 pt_film_info info_of(const Film &film) {
@@ -188,5 +219,14 @@ pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
         pt::require_not_null(film, "film");
         const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
         pt::copy_out(pt::stats_of(film->film, with_error), stats, "stats");
+    });
+}
+
+pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::require_not_null(count, "count");
+        pt::check_target_error(target_error);
+        return pt::write_plan(film->film, target_error, most, goals, *count);
     });
 }

@@ -226,6 +226,34 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
 
+TileSamples Film::samples_by_tile() const {
+    std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_);
+    if (!samples)
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles cut squares of 8 pixels from its top left on");
+    return std::move(*samples);
+}
+
+// Region by region, also where all tiles have the same samples, as a context looks that may tell them apart.
+std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
+                                   bool may_miss_lamps) {
+    const double unit = std::ldexp(1.0, facts_.unit_exponent);
+    UnevenErrors errors;
+    const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
+    const auto look_at_tiles = [&] { return errors.tile_squares(samples, unit, read_rows); };
+    const auto look = [&]() -> AdaptivePlan::Error {
+        ErrorEstimate error = unknown_error();
+        if (samples.least() >= min_estimate_samples) {
+            ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
+            for (const RegionErrors &region : errors.regions(samples, unit, read_rows))
+                estimator.add(region);
+            if (!hides_error(estimator.rejected(), samples.total()))
+                error = estimator.result();
+        }
+        return {error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
+    };
+    return AdaptivePlan(target_error, most, look, look_at_tiles).next(samples, header_.round);
+}
+
 std::uint64_t Film::rejected_samples() const {
     std::uint64_t rejected = 0;
     for (const Tile &tile : tiles_)

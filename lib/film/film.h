@@ -2,6 +2,7 @@
 // read as an image and written again, without a device. Behind pt_film.
 #pragma once
 
+#include "lib/film/adaptive_plan.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
 #include "lib/film/film_facts.h"
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,6 +59,13 @@ public:
 
     // Left out of all pixels.
     std::uint64_t rejected_samples() const;
+
+    // Its samples by tile of a grid over its bounds. Throws PT_ERROR_INCOMPATIBLE if its tiles cut those of the grid.
+    TileSamples samples_by_tile() const;
+
+    // What they are to take next (adaptive_plan.h): moves the round on where it is over.
+    std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most,
+                                 bool may_miss_lamps);
 
 private:
     struct Tile {

@@ -59,9 +59,10 @@ std::vector<pt_device_info> list_devices();
 // that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
 // What pt_accumulate is asked for.
 struct SamplesWanted {
-    std::uint32_t count;    // more in every pixel, or with a target error at most
-    double target_error;    // relative; 0: none
-    std::uint32_t sampling; // PT_SAMPLING_*
+    std::uint32_t count;                // more in every pixel, or with a target error at most
+    double target_error;                // relative; 0: none
+    std::uint32_t sampling;             // PT_SAMPLING_*
+    std::vector<std::uint32_t> by_tile; // more in each tile, without a target error; empty: in all alike
 };
 
 class Renderer {
@@ -160,6 +161,7 @@ private:
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
     std::uint64_t adaptive_from() const;
+    void require_tiles(const SamplesWanted &wanted) const;
     void begin(const SamplesWanted &wanted, const Progress &progress);
     void tell_tiles_apart();
     Advance go_on(std::uint64_t nanoseconds);

@@ -112,7 +112,7 @@ FilmHeader Renderer::film_header() const {
 }
 
 void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) const {
-    save(FilmView::films(devices_), samples_, header, bytes);
+    save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
 // A pass under way, of which no sample is counted yet, ends where the film brings its sample.

@@ -23,6 +23,16 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
                                                   .rule = reason + std::to_string(number) + ")"}};
 }
 
+// Samples of all pixels together, the most that there may be; at least one, for shares of it.
+std::uint64_t amount_of(const SamplesWanted &wanted, const TileGrid &grid) {
+    std::uint64_t amount = 0;
+    for (std::size_t tile = 0; tile < wanted.by_tile.size(); ++tile)
+        amount += wanted.by_tile[tile] * grid.pixels(tile).pixel_count();
+    if (wanted.by_tile.empty())
+        amount = std::uint64_t{wanted.count} * grid.width * grid.height;
+    return std::max<std::uint64_t>(amount, 1);
+}
+
 } // namespace
 
 // The next sample is the first from first_sample on that the film lacks.
@@ -44,15 +54,30 @@ bool Renderer::is_adaptive(const SamplesWanted &wanted) const {
            std::ranges::all_of(devices_, [](const auto &device) { return device->has_whole_regions(); });
 }
 
+void Renderer::require_tiles(const SamplesWanted &wanted) const {
+    if (wanted.by_tile.empty())
+        return;
+    const std::size_t count = samples_.grid().count();
+    if (wanted.by_tile.size() != count)
+        throw Error(PT_ERROR_INVALID_ARGUMENT,
+                    BrokenRule{.subject = "accumulate",
+                               .member = "tile_count",
+                               .value = std::to_string(wanted.by_tile.size()),
+                               .rule = "must be the number of tiles, " + std::to_string(count)});
+    if (!std::ranges::all_of(devices_, [](const auto &device) { return device->has_whole_regions(); }))
+        throw Error(PT_ERROR_UNSUPPORTED, "accumulate.tile_samples: this device holds films in parts that cut tiles");
+}
+
 void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
     require_settings();
+    require_tiles(wanted);
     require_room_for(wanted.count);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
     const std::uint64_t most = samples_.most() + wanted.count;
     const std::uint64_t apart_from = is_adaptive(wanted) ? adaptive_from() : most;
     Job job{wanted, progress, most, std::min(most, apart_from), nullptr, nullptr, {}};
-    const bool is_even = samples_.even() && samples_.of(0).count() < job.even_count;
+    const bool is_even = wanted.by_tile.empty() && samples_.even() && samples_.of(0).count() < job.even_count;
     if (is_even)
         job.even = std::make_unique<Accumulation>(devices_, samples_.of(0), settings_->first_sample, wanted.count,
                                                   progress, work_);
@@ -85,12 +110,11 @@ void Renderer::tell_tiles_apart() {
     forget_error(); // of an even film, without those of tiles
     if (!is_adaptive(job_->wanted))
         for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
-            job_->goals.push_back(samples_.of(tile).count() + job_->wanted.count);
-    const std::uint64_t pixels = std::uint64_t{samples_.grid().width} * samples_.grid().height;
+            job_->goals.push_back(samples_.of(tile).count() +
+                                  (job_->wanted.by_tile.empty() ? job_->wanted.count : job_->wanted.by_tile[tile]));
     job_->uneven = std::make_unique<TileAccumulation>(
         devices_, samples_, settings_->first_sample,
-        SampleDealing::Amount{std::max<std::uint64_t>(job_->wanted.count, 1) * pixels,
-                              job_->even ? job_->even->pixels_done() : 0},
+        SampleDealing::Amount{amount_of(job_->wanted, samples_.grid()), job_->even ? job_->even->pixels_done() : 0},
         job_->progress, work_);
     job_->even.reset();
 }

@@ -44,10 +44,9 @@ void for_each_row(const Rectangle &tile, const RowsInTile &rows, std::uint32_t f
 } // namespace
 
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
-          std::span<std::byte> bytes) {
+          const Rectangle &origin, std::span<std::byte> bytes) {
     FilmWriter writer(header, bytes);
     const std::uint32_t width = samples.grid().width;
-    const Rectangle origin = bounds_of(header.tiles);
     std::uint32_t row = 0;
     PixelSums part;
     read_films(films, samples, rows_of_piece(width) * width, [&](const PixelSums &sums) {

@@ -13,9 +13,9 @@
 namespace pt {
 
 // Writes the sum of films of one size, which together hold these samples and those of the header, to memory of the size
-// that FilmLayout asks for.
+// that FilmLayout asks for. origin: the pixels of the image that the films have room for; the header may lack some.
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
-          std::span<std::byte> bytes);
+          const Rectangle &origin, std::span<std::byte> bytes);
 
 // Throws PT_ERROR_INCOMPATIBLE if an even film has samples that a context has already.
 void require_addable(const FilmReader &film, const SampleSet &present);

@@ -107,7 +107,7 @@ def allowed_types(declared):
     if kind == "char *":
         return {"c_char_p"}
     if kind.endswith(" *"):
-        return {"c_void_p", f"LP_{kind[:-2]}"}
+        return {"c_void_p", f"LP_{NUMBERS.get(kind[:-2], kind[:-2])}"}
     if bracket:
         return {f"{NUMBERS[kind]}_Array_{count[:-1]}"}
     return {NUMBERS.get(kind, "CFunctionType" if kind.endswith("_fn") else kind)}

@@ -90,7 +90,7 @@ TEST_F(ExactLight, LastSampleNumbers) {
                 EXPECT_TRUE(agrees(image.red(x, y), wall, samples)) << image.red(x, y) << " sampler " << sampler;
                 EXPECT_FALSE(agrees(image.red(x, y), {0.515, wall.relative_std}, samples)) << "3% must show";
             }
-        const pt_accumulate_info beyond{sizeof beyond, 1, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info beyond{sizeof beyond, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(context(), &beyond), PT_ERROR_INVALID_ARGUMENT);
     }
 }

@@ -191,7 +191,7 @@ TEST_F(ErrorsTest, BelongToWhoMayLookAtThem) {
         found.refused = pt_get_broken_rule(found.context, 0, nullptr);
         return 1;
     };
-    const pt_accumulate_info info{sizeof info, 1, look, &seen, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1, look, &seen, 0, 0, 0, nullptr, 0, 0};
     EXPECT_GE(pt_accumulate(context(), &info), PT_OK) << message();
     EXPECT_EQ(seen.before, 1U);
     EXPECT_EQ(seen.elsewhere, 0U);

@@ -43,7 +43,7 @@ inline pt_render valid_render() {
 }
 
 inline pt_accumulate_info samples(uint32_t count) {
-    return {sizeof(pt_accumulate_info), count, nullptr, nullptr, 0, 0, 0};
+    return {sizeof(pt_accumulate_info), count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
 }
 
 inline pt_image tight_image(std::vector<float> &pixels) {

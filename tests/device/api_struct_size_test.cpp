@@ -135,7 +135,7 @@ TEST_F(StructSizeTest, AccumulateInfo) {
     set_all();
     const auto call = [&](const pt_accumulate_info &info) { return outcome(pt_accumulate(context(), &info)); };
     const pt_progress_fn go_on = [](void *, double) -> int32_t { return 0; };
-    const pt_accumulate_info info{sizeof info, 1, go_on, nullptr, 1e-9, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1, go_on, nullptr, 1e-9, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(call(info).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(info, call), none);
     expect_tail_refused(info, "accumulate", call);

@@ -263,7 +263,7 @@ struct Progress {
 TEST_F(ApiTest, ProgressRisesToOneOnTheCallingThread) {
     set_all();
     Progress progress;
-    const pt_accumulate_info info{sizeof info, 5000, &Progress::call, &progress, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, 5000, &Progress::call, &progress, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << message();
     ASSERT_FALSE(progress.fractions.empty());
     EXPECT_TRUE(std::is_sorted(progress.fractions.begin(), progress.fractions.end()));
@@ -276,7 +276,7 @@ TEST_F(ApiTest, ProgressCancels) {
     set_all();
     Progress progress;
     progress.stop_after = 2;
-    const pt_accumulate_info info{sizeof info, 1U << 30, &Progress::call, &progress, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1U << 30, &Progress::call, &progress, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(context(), &info), PT_CANCELLED) << message();
     EXPECT_EQ(progress.fractions.size(), 2U);
     const uint32_t kept = stats().sample_count;
@@ -324,6 +324,9 @@ TEST_F(ApiTest, ProgressThatThrowsIsAnErrorThatKeepsTheFilmWhole) {
                                   [](void *, double) -> int32_t { throw std::runtime_error("thrown by a callback"); },
                                   nullptr,
                                   0,
+                                  0,
+                                  0,
+                                  nullptr,
                                   0,
                                   0};
     expect_failure(pt_accumulate(context(), &info), PT_ERROR_INTERNAL, "thrown by a callback");

@@ -148,7 +148,7 @@ TEST_F(ExactnessTest, SliceTargetsKeepTheBits) {
     for (int i = 0; i < 3; ++i) {
         Context other = create_context([&](pt_create_info &info) { info.submit_milliseconds = targets[i]; });
         set_up_coursework(other.get(), 6);
-        const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info samples{sizeof samples, 24, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(other.get(), &samples), PT_OK) << pt_last_error(other.get());
         images[i].resize(width * height * 3);
         const pt_image image = image_target(images[i]);
@@ -173,7 +173,8 @@ TEST_F(ExactnessTest, CancellingKeepsWholeSamplesAndResumes) {
     int cancelled = 0;
     for (uint32_t done = 0; done < 48;) {
         Stopper stopper{3};
-        const pt_accumulate_info samples{sizeof samples, 48 - done, &Stopper::progress, &stopper, 0, 0, 0};
+        const pt_accumulate_info samples{
+            sizeof samples, 48 - done, &Stopper::progress, &stopper, 0, 0, 0, nullptr, 0, 0};
         const pt_result result = pt_accumulate(other.get(), &samples);
         ASSERT_GE(result, PT_OK) << pt_last_error(other.get());
         cancelled += result == PT_CANCELLED;
@@ -200,7 +201,8 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.07;
     set_up_coursework(context(), 3);
-    const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0};
+    const pt_accumulate_info until_target{sizeof until_target, most, nullptr, nullptr, target,
+                                          PT_SAMPLING_UNIFORM, 0,    nullptr, 0,       0};
     ASSERT_EQ(pt_accumulate(context(), &until_target), PT_TARGET_REACHED) << pt_last_error(context());
     const pt_stats reached = stats();
     EXPECT_GT(reached.sample_count, 16U);
@@ -215,13 +217,14 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
 
     Context other = create_context([](pt_create_info &info) { info.submit_milliseconds = 1; });
     set_up_coursework(other.get(), 3);
-    const pt_accumulate_info few{sizeof few, 7, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0};
+    const pt_accumulate_info few{sizeof few, 7, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(other.get(), &few), PT_OK) << pt_last_error(other.get());
     pt_result result = PT_CANCELLED;
     int cancelled = 0;
     for (; result == PT_CANCELLED; ++cancelled) {
         Stopper stopper{5};
-        const pt_accumulate_info info{sizeof info, most, &Stopper::progress, &stopper, target, PT_SAMPLING_UNIFORM, 0};
+        const pt_accumulate_info info{
+            sizeof info, most, &Stopper::progress, &stopper, target, PT_SAMPLING_UNIFORM, 0, nullptr, 0, 0};
         result = pt_accumulate(other.get(), &info);
     }
     ASSERT_EQ(result, PT_TARGET_REACHED) << pt_last_error(other.get());
@@ -244,7 +247,7 @@ TEST_F(ExactnessTest, TheTargetErrorIsReachedAtTheSameSample) {
 TEST_F(ExactnessTest, SamplesMayRunOutBeforeTheTargetErrorIsReached) {
     set_up_coursework(context(), 3);
     for (const double target : {1e-9, 1e9}) {
-        const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0};
+        const pt_accumulate_info info{sizeof info, 8, nullptr, nullptr, target, PT_SAMPLING_UNIFORM, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
     EXPECT_EQ(stats().sample_count, 16U);

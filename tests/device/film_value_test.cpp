@@ -32,7 +32,7 @@ protected:
         ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
         ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
         ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 

@@ -41,7 +41,7 @@ protected:
                 return 0;
             }
         } once{action};
-        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, 1, &Once::progress, &once, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(context(), &info), expected) << message();
         EXPECT_TRUE(once.done);
     }
@@ -156,6 +156,9 @@ TEST_F(InUseTest, AContextInUseIsNotDestroyed) {
                                   },
                                   other.get(),
                                   0,
+                                  0,
+                                  0,
+                                  nullptr,
                                   0,
                                   0};
     EXPECT_GE(pt_accumulate(other.get(), &info), PT_OK) << pt_last_error(other.get());

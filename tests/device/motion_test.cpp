@@ -279,7 +279,7 @@ TEST_F(HugeMotion, IsTheMeanOfFrozenTimes) {
 TEST_F(HugeMotion, IsRefusedWhereItIsTooLong) {
     const pt_render render = render_of(8, 8, 2);
     ASSERT_EQ(pt_set_render(context(), &render), PT_OK);
-    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     set_up_floor({1e7, {312499, 0, 0}});
     EXPECT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     set_up_floor({1e7, {312501, 0, 0}});

@@ -114,7 +114,7 @@ TEST_F(OwnVulkanTest, WhatEndsBetweenPollsIsNotTakenForSlow) {
     ASSERT_EQ(pt_set_scene(context, &scene), PT_OK) << pt_last_error(context);
     ASSERT_EQ(pt_set_camera(context, &camera), PT_OK) << pt_last_error(context);
     ASSERT_EQ(pt_set_render(context, &settings), PT_OK) << pt_last_error(context);
-    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_start(context, &one), PT_PENDING) << "what is started is left to a poll";
     caller().device().waitIdle();
     std::this_thread::sleep_for(std::chrono::milliseconds{60});
@@ -187,7 +187,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     const Context context = context_on(vulkan);
     const std::vector<float> image = render(context.get(), 0);
     const std::uint64_t locks = observer.mutex.locks;
-    const pt_accumulate_info more{sizeof more, samples, &Observer::progress, &observer, 0, 0, 0};
+    const pt_accumulate_info more{sizeof more, samples, &Observer::progress, &observer, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_accumulate(context.get(), &more), PT_OK);
     pt_stats stats{};
     stats.struct_size = sizeof stats;
@@ -231,13 +231,13 @@ TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     };
     const std::uint64_t submissions = stats().submit_count;
     const std::uint64_t locks = mutex.locks;
-    const pt_accumulate_info to_a_target{sizeof to_a_target, 4096, nullptr, nullptr, 0.1, 0, 0};
+    const pt_accumulate_info to_a_target{sizeof to_a_target, 4096, nullptr, nullptr, 0.1, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(created, &to_a_target), PT_TARGET_REACHED) << pt_last_error(created);
     const std::uint64_t reached = mutex.locks;
     EXPECT_GT(stats().sample_count, 20U) << "several looks";
     EXPECT_EQ(reached - locks, stats().submit_count - submissions);
     EXPECT_EQ(mutex.locks, reached) << "it is known";
-    const pt_accumulate_info eight{sizeof eight, 8, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info eight{sizeof eight, 8, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(created, &eight), PT_OK) << pt_last_error(created);
     const std::uint64_t before = mutex.locks;
     EXPECT_GT(stats().relative_rmse, 0.0);

@@ -59,7 +59,7 @@ protected:
     }
 
     static pt_result start(pt_context *on, uint32_t count, double target_error = 0.0) {
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, target_error, 0, 0};
+        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, target_error, 0, 0, nullptr, 0, 0};
         return pt_start(on, &info);
     }
 
@@ -179,7 +179,7 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     constexpr double target = 0.1;
     for (const bool like_gpus : {false, true}) {
         const Context waits = context_for({1, 50, like_gpus});
-        const pt_accumulate_info info{sizeof info, most, nullptr, nullptr, target, 0, 0};
+        const pt_accumulate_info info{sizeof info, most, nullptr, nullptr, target, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(waits.get(), &info), PT_TARGET_REACHED) << pt_last_error(waits.get());
         const uint32_t reached = stats_of(waits.get()).sample_count;
         EXPECT_GT(reached, 16U);
@@ -205,7 +205,7 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCountAfterCancellations) {
     constexpr double target = 0.1;
     for (const bool like_gpus : {false, true}) {
         const Context waits = context_for({1, 50, like_gpus});
-        const pt_accumulate_info info{sizeof info, most, nullptr, nullptr, target, 0, 0};
+        const pt_accumulate_info info{sizeof info, most, nullptr, nullptr, target, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(waits.get(), &info), PT_TARGET_REACHED) << pt_last_error(waits.get());
         const Context on = context_for({1, 1, like_gpus});
         pt_result result = PT_CANCELLED;

@@ -257,7 +257,7 @@ TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
         image.signal_semaphore = handle_of(semaphore);
         EXPECT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
     };
-    const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     start(semaphores[0]);
     EXPECT_EQ(pt_accumulate(context(), &more), PT_OK) << pt_last_error(context());
     caller_->device().waitIdle();

@@ -198,7 +198,7 @@ TEST_F(ReloadTest, WorkUnderWayGoesOnOrIsDiscarded) {
         info.submit_milliseconds = 1;
     });
     set_all_on(slow.get());
-    const pt_accumulate_info stopped{sizeof stopped, 100'000'000, &stop, nullptr, 0, 0, 0};
+    const pt_accumulate_info stopped{sizeof stopped, 100'000'000, &stop, nullptr, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_accumulate(slow.get(), &stopped), PT_CANCELLED);
     const uint32_t before = sample_count_of(slow.get());
     ASSERT_EQ(pt_reload_shaders(slow.get()), PT_OK);
@@ -246,7 +246,7 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
     renderer.set_camera(pt::validated_camera(valid_camera()));
     renderer.set_render(pt::validated_render(valid_render()));
     const auto take_a_sample = [&] {
-        EXPECT_EQ(renderer.accumulate({1, 0.0, PT_SAMPLING_BEST}, {nullptr, nullptr}), PT_OK);
+        EXPECT_EQ(renderer.accumulate({1, 0.0, PT_SAMPLING_BEST, {}}, {nullptr, nullptr}), PT_OK);
     };
     take_a_sample();
 

@@ -34,7 +34,7 @@ protected:
         EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
         EXPECT_EQ(pt_set_camera(on, &camera), PT_OK) << pt_last_error(on);
         EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
-        const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info samples{sizeof samples, 17, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(on, &samples), PT_OK) << pt_last_error(on);
         Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};
         const pt_image image = image_target(outcome.image);

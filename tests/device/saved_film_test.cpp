@@ -53,7 +53,7 @@ protected:
     }
 
     static void accumulate_on(pt_context *context, uint32_t count) {
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
     }
 
@@ -159,7 +159,7 @@ TEST_F(SavedFilm, FilmsReachToTheLastIndex) {
     EXPECT_EQ(add(context(), last), PT_ERROR_INCOMPATIBLE);
     accumulate_on(context(), 23);
     EXPECT_TRUE(picture_of(context()) == expected);
-    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_accumulate(context(), &one), PT_ERROR_INVALID_ARGUMENT);
 }
 
@@ -194,7 +194,7 @@ TEST_F(SavedFilm, AddsWhileASampleIsUnderWay) {
         const Context cut = create_context([](pt_create_info &) {}, create);
         set_up(cut.get(), SavedFilm::settings(0));
         accumulate_on(cut.get(), 4);
-        const pt_accumulate_info one{sizeof one, 1, stop_at_once, nullptr, 0, 0, 0};
+        const pt_accumulate_info one{sizeof one, 1, stop_at_once, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(cut.get(), &one), PT_CANCELLED) << pt_last_error(cut.get());
         ASSERT_EQ(add(cut.get(), rest), PT_OK) << pt_last_error(cut.get());
         if (first == 5)

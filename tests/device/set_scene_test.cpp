@@ -90,7 +90,7 @@ protected:
     }
 
     static std::vector<char> film_of(pt_context *on, std::uint32_t sample_count) {
-        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
         std::uint64_t size = 0;
         EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);

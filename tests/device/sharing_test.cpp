@@ -40,7 +40,7 @@ protected:
 
     static pt_result accumulate_on(pt_context *on, uint32_t samples, pt_progress_fn progress = nullptr,
                                    void *user = nullptr) {
-        const pt_accumulate_info info{sizeof info, samples, progress, user, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, samples, progress, user, 0, 0, 0, nullptr, 0, 0};
         return pt_accumulate(on, &info);
     }
 
@@ -150,7 +150,7 @@ TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
         for (const uint32_t devices : {1U, 2U}) {
             const Context shared = context_on(devices, 5, like_gpus);
             set_up(shared.get());
-            const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2, 0, 0};
+            const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2, 0, 0, nullptr, 0, 0};
             ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
             found[devices - 1] = stats_of(shared.get());
         }

@@ -201,7 +201,7 @@ TEST_F(SphereArrayRender, NamesASphereThatThisCameraCannotSee) {
     scene.sphere_arrays = &array;
     scene.sphere_array_count = 1;
     set_scene(scene);
-    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info one{sizeof one, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_accumulate(context(), &one), PT_ERROR_UNSUPPORTED);
     pt_broken_rule rule{};
     rule.struct_size = sizeof rule;

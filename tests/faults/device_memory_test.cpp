@@ -47,7 +47,7 @@ public:
     }
 
     pt_result accumulate(uint32_t sample_count) {
-        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         return pt_accumulate(context_, &info);
     }
 

@@ -314,7 +314,7 @@ void Life::destroy() {
 void Life::expect_lost() {
     const std::string message = pt_last_error(context_);
     const pt_camera the_camera = camera();
-    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     pt_image image{};
     image.struct_size = sizeof image;
     for (int i = 0; i < 2; ++i) {
@@ -369,7 +369,7 @@ ExpectedImages undisturbed_images() {
     EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
     ExpectedImages images;
     for (uint32_t count = 1; count <= 18; ++count) {
-        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         EXPECT_EQ(pt_accumulate(context, &info), PT_OK) << pt_last_error(context);
         for (const uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR}) {
             Image image(std::size_t{width} * height * 3);
@@ -380,7 +380,7 @@ ExpectedImages undisturbed_images() {
     }
     images.film = film_of(context);
     the_render.first_sample = 1;
-    const pt_accumulate_info others{sizeof others, other_film_end - 1, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info others{sizeof others, other_film_end - 1, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_set_render(context, &the_render), PT_OK) << pt_last_error(context);
     EXPECT_EQ(pt_accumulate(context, &others), PT_OK) << pt_last_error(context);
     images.other_film = film_of(context);

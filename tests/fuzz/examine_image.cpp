@@ -102,7 +102,7 @@ void require_done(pt_result result) {
 }
 
 void take_samples(std::uint32_t count) {
-    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     require_done(pt_accumulate(context(), &info));
 }
 

@@ -65,7 +65,7 @@ public:
     pt_result add(const Bytes &film) { return pt_add_film(context_, film.data(), film.size()); }
 
     void take(std::uint32_t count) {
-        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         done(pt_accumulate(context_, &info));
     }
 

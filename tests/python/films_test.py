@@ -126,5 +126,53 @@ class Films(unittest.TestCase):
             hash(first)
 
 
+class Plans(unittest.TestCase):
+    """One decides, others take the samples of some tiles: the film of one context with a target error."""
+
+    ERROR, MOST, SHAPE = 0.006, 4096, {"width": 136, "height": 100}
+
+    def setUp(self):
+        self.context = pt.Context()
+        self.addCleanup(self.context.close)
+
+    def tiles(self, first, counts):
+        ready(self.context, first_sample=first, **self.SHAPE).accumulate_tiles(counts)
+        return self.context.film()
+
+    def test_tiles_add_to_one_rendering(self):
+        ready(self.context, **self.SHAPE).accumulate(24)
+        whole = self.context.film()
+        below = np.zeros((13, 17), np.uint32)
+        below[6:, 3:] = 24  # neither the first row nor the first column
+        parts = [self.tiles(0, below), self.tiles(0, np.where(below, 0, 9)), self.tiles(9, np.where(below, 0, 15))]
+        self.assertEqual(sum(parts), whole)
+        self.assertNotEqual(parts[0] + parts[1], whole)
+
+    def test_plans_end_where_a_context_does(self):
+        ready(self.context, **self.SHAPE).accumulate(self.MOST, target_error=self.ERROR)
+        one = self.context.film()
+        self.assertGreater(len(one.tiles), 1)
+        film, rounds = self.tiles(0, np.full((13, 17), 16)), 0
+        counts = np.full((13, 17), 16, np.uint32)
+        while True:
+            result, goals = film.plan(self.ERROR, self.MOST)
+            if result != pt.Result.PENDING:
+                break
+            for first in np.unique(counts[goals > counts]):
+                film += self.tiles(int(first), np.where(counts == first, goals - counts, 0))
+            counts, rounds = goals, rounds + 1
+        self.assertEqual((result, film), (pt.Result.TARGET_REACHED, one))
+        self.assertGreater(rounds, 2)
+
+    def test_rules(self):
+        ready(self.context, **self.SHAPE)
+        with self.assertRaisesRegex(pt.InvalidArgumentError, "tile_count = 3: must be the number of tiles, 221"):
+            self.context.accumulate_tiles([1, 2, 3])
+        film = self.tiles(0, np.full((13, 17), 16))
+        for error in (0.0, -1.0, float("nan"), float("inf")):
+            with self.assertRaisesRegex(pt.InvalidArgumentError, "target_error = .*: must be finite and > 0"):
+                film.plan(error, 64)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -60,7 +60,7 @@ protected:
     }
 
     void accumulate(std::uint32_t sample_count) {
-        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, sample_count, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 

@@ -55,7 +55,7 @@ pt_context *ready_context(uint64_t seed) {
 // A context's life; returns the result of pt_accumulate, and the image if there is room for it.
 pt_result live(uint64_t seed, uint32_t sample_count, Progress &progress, Image *image = nullptr) {
     pt_context *const context = ready_context(seed);
-    const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0};
+    const pt_accumulate_info info{sizeof info, sample_count, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
     const pt_result result = pt_accumulate(context, &info);
     EXPECT_GE(result, PT_OK) << pt_last_error(context);
     if (image) {
@@ -100,7 +100,7 @@ TEST(ThreadsTest, ASecondThreadIsRefused) {
     Progress progress;
     pt_result result = PT_OK;
     std::thread renders([&] {
-        const pt_accumulate_info info{sizeof info, UINT32_MAX, &Progress::report, &progress, 0, 0, 0};
+        const pt_accumulate_info info{sizeof info, UINT32_MAX, &Progress::report, &progress, 0, 0, 0, nullptr, 0, 0};
         result = pt_accumulate(context, &info);
     });
     while (progress.calls == 0)

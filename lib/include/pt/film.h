@@ -142,6 +142,23 @@ PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sampl
  * are 0. One thread at a time per film. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
 
+/** Says what a film takes next on its way to a target error, as pt_accumulate decides it with PT_SAMPLING_ADAPTIVE: so
+ * one machine can decide, and others take the samples (pt_accumulate_info.tile_samples), however they share them.
+ *
+ * The film has all pixels of an image, or of whole rows of one from a multiple of 8 on. target_error is > 0 and finite,
+ * most the samples that a pixel may have. goals == NULL: *count receives the number of tiles, squares of 8 x 8 pixels as
+ * pt_accumulate_info has them. Else *count is how many elements goals has, which must be that number, and goals receives
+ * for each tile how many samples its pixels are to have, no fewer than they have. What has been decided stays in the
+ * film: later calls, on it or on what was saved of it, go on from there.
+ *
+ * PT_PENDING: there are tiles that are to take more. PT_TARGET_REACHED: the film has the target error. PT_OK: it has not,
+ * and no tile may take more. The same samples give the same answers, whoever took them in whatever parts. On a CPU a
+ * context with as many samples at the most comes to the same film; GPUs tell tiles apart later, and round otherwise.
+ *
+ * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_INCOMPATIBLE: the film has tiles that are no such squares
+ * together. */
+PT_API pt_result pt_plan_film(pt_film *film, double target_error, uint32_t most, uint32_t *goals, uint32_t *count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -276,6 +276,14 @@ typedef struct pt_accumulate_info {
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
     uint32_t reserved; /**< 0 */
+    /** NULL: all pixels alike, or as the target error decides. Else how many samples each tile takes, from none to
+     * sample_count, and there is no target error: for pt_render.first_sample and the next that the tile has not. Tiles are
+     * squares of 8 x 8 pixels from the top left of what is rendered on, smaller at its edges, row by row. So machines
+     * share what a film is to take next (pt_plan_film). PT_ERROR_UNSUPPORTED: a device that holds films in parts which
+     * cut tiles. Read by the call alone. */
+    const uint32_t *tile_samples;
+    uint32_t tile_count; /**< elements of tile_samples: all tiles of what is rendered, or 0 */
+    uint32_t reserved2;  /**< 0 */
 } pt_accumulate_info;
 
 /** Values of pt_image.quantity. */

@@ -8,6 +8,7 @@ import weakref
 from types import TracebackType
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
@@ -149,6 +150,20 @@ class Context:
         guard = self._guard()
         info = structs.pt_accumulate_info(sample_count=sample_count, target_error=target_error, sampling=sampling,
                                           progress=guard.progress(progress))
+        return self._call("pt_accumulate", info, guard=guard)
+
+    def accumulate_tiles(self, samples: npt.ArrayLike, *, progress: Progress | None = None) -> Result:
+        """Adds samples to some tiles, so that machines can share what Film.plan says.
+
+        samples    by tile, how many samples its pixels take, 0 for none: squares of 8 x 8 pixels from the top left of
+                   what is rendered on, smaller at its edges; shape (rows, columns) or flat
+        progress   as of accumulate
+        """
+        counts = np.ascontiguousarray(samples, dtype=np.uint32).ravel()
+        guard = self._guard()
+        info = structs.pt_accumulate_info(
+            sample_count=int(counts.max(initial=0)), progress=guard.progress(progress),
+            tile_samples=counts.ctypes.data_as(ctypes.POINTER(ctypes.c_uint32)), tile_count=len(counts))
         return self._call("pt_accumulate", info, guard=guard)
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
@@ -21,6 +22,7 @@ from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._stats import Stats, stats_of
 
+TILE_SIDE = 8  # pixels
 ZSTD_MAGIC = bytes.fromhex("28b52ffd")
 
 
@@ -163,6 +165,23 @@ class Film:
         with self._lock:
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
                          self.readback(Quantity.SAMPLE_COUNT), self.stats())
+
+    def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
+        """What the film takes next on its way to a target error, as Context.accumulate decides it: so that one machine
+        can decide, and others take the samples (Context.accumulate_tiles).
+
+        target_error   > 0; 0.01 is 1%
+        most           samples that a pixel may have
+
+        Result.PENDING, with the samples that each tile of 8 x 8 pixels is to have: shape (rows, columns). Or
+        Result.TARGET_REACHED, or Result.OK where no tile may take more, with those that they have. What has been
+        decided stays in the film. IncompatibleError: its tiles are no such squares together."""
+        with self._lock:
+            info, count = self.info, ctypes.c_uint32()
+            self._call("pt_plan_film", target_error, most, None, count)
+            goals = np.zeros((-(-info.rows // TILE_SIDE), -(-info.columns // TILE_SIDE)), np.uint32)
+            pointer = goals.ctypes.data_as(ctypes.POINTER(ctypes.c_uint32))
+            return self._call("pt_plan_film", target_error, most, pointer, count), goals
 
     def _tile(self, index: int) -> FilmTile:
         tile = structs.pt_film_tile()

@@ -6,7 +6,7 @@ import ctypes
 import functools
 import os
 import pathlib
-from ctypes import POINTER, c_char_p, c_int32, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_char_p, c_double, c_int32, c_uint32, c_uint64, c_void_p
 from typing import Any, Final
 
 from pt import _structs as structs
@@ -45,6 +45,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_get_film_info": [c_void_p, POINTER(structs.pt_film_info)],
     "pt_get_film_tile": [c_void_p, c_uint32, POINTER(structs.pt_film_tile)],
     "pt_get_film_ranges": [c_void_p, c_uint32, POINTER(structs.pt_sample_range), POINTER(c_uint32)],
+    "pt_plan_film": [c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(c_uint32)],
     "pt_get_film_stats": [c_void_p, POINTER(structs.pt_stats)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {

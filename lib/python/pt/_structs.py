@@ -62,7 +62,8 @@ class pt_render(Sized):
 
 class pt_accumulate_info(Sized):
     _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("progress", pt_progress_fn),
-                ("progress_user", c_void_p), ("target_error", c_double), ("sampling", c_uint32), ("reserved", c_uint32)]
+                ("progress_user", c_void_p), ("target_error", c_double), ("sampling", c_uint32), ("reserved", c_uint32),
+                ("tile_samples", POINTER(c_uint32)), ("tile_count", c_uint32), ("reserved2", c_uint32)]
 
 
 class pt_image(Sized):

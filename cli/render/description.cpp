@@ -1,0 +1,107 @@
+#include "cli/render/description.h"
+
+#include "cli/base/vector_width.h"
+
+#include <cstdlib>
+
+namespace cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Numbers one after the other, those of vectors too.
+template <std::size_t Count, typename Number>
+void append(Json &row, const Number (&vector)[Count]) {
+    for (const Number component : vector) {
+        row.push_back(component);
+    }
+}
+
+Json materials_of(const SceneFile &file) {
+    Json rows = Json::array();
+    for (const pt_material &material : file.materials) {
+        Json &row = rows.emplace_back(Json::array());
+        append(row, material.diffuse);
+        append(row, material.specular);
+        append(row, material.emission);
+        row.push_back(material.glossiness);
+    }
+    return rows;
+}
+
+Json spheres_of(const SceneFile &file) {
+    Json rows = Json::array();
+    for (const pt_sphere &sphere : file.spheres) {
+        Json &row = rows.emplace_back(Json::array());
+        append(row, sphere.center);
+        row.push_back(sphere.radius);
+        append(row, sphere.motion);
+        row.push_back(sphere.material);
+    }
+    return rows;
+}
+
+Json planes_of(const SceneFile &file) {
+    Json rows = Json::array();
+    for (const pt_plane &plane : file.planes) {
+        Json &row = rows.emplace_back(Json::array());
+        append(row, plane.normal);
+        row.push_back(plane.offset);
+        row.push_back(plane.material);
+    }
+    return rows;
+}
+
+// Of the driver's variables, those that the program would set or the user has set.
+Json environment_of(const SceneFile &file) {
+    choose_vector_width(file.surface_count());
+    Json variables = Json::object();
+    for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR"}) {
+        if (const char *value = std::getenv(name)) {
+            variables[name] = value;
+        }
+    }
+    return variables;
+}
+
+} // namespace
+
+Json description_of(const SceneFile &file, const RenderSettings &settings, std::optional<std::uint32_t> frame) {
+    const pt_camera &camera = file.camera;
+    const pt_render &render = settings.render;
+    const std::optional<double> &stops = settings.exposure.stops;
+    return {
+        {"frame", frame ? Json(*frame) : Json(nullptr)},
+        {"materials", materials_of(file)},
+        {"spheres", spheres_of(file)},
+        {"planes", planes_of(file)},
+        {"camera",
+         {{"position", camera.position},
+          {"target", camera.target},
+          {"up", camera.up},
+          {"vertical_fov", camera.vertical_fov},
+          {"shutter", {camera.shutter_open, camera.shutter_close}}}},
+        {"render",
+         {{"width", render.width},
+          {"height", render.height},
+          {"max_path_length", render.max_path_length},
+          {"seed", render.seed},
+          {"first_sample", render.first_sample},
+          {"estimator", render.estimator},
+          {"sampler", render.sampler}}},
+        {"samples", settings.sample_count},
+        {"target_error", settings.target_error},
+        {"sampling", settings.sampling},
+        {"display",
+         {{"exposure", stops ? Json(*stops) : Json("auto")},
+          {"tonemap", tone_curve_names.at(static_cast<std::size_t>(settings.tone_curve))},
+          {"gamma", settings.gamma ? Json(*settings.gamma) : Json(nullptr)}}},
+        {"environment", environment_of(file)},
+    };
+}
+
+std::string description_line(const Json &description) {
+    return description.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace cli

@@ -1,0 +1,16 @@
+"""One picture on many machines: Dask (distributed) runs the workers, and films add up exactly.
+
+    from distributed import Client
+    from pt import farm
+    with Client("tcp://scheduler:8786") as client:
+        result = farm.render(client, farm.Job(scene, camera, settings), 1000, target_error=0.01)
+    result.film.image().save("picture.png")
+
+The program for scene files is pt-farm. lib/python/FARM.md tells what may die, what is promised, and whom to trust.
+"""
+
+from pt.farm._coordinator import FarmError, Options, Result, render
+from pt.farm._job import Job
+from pt.farm._progress import Progress
+
+__all__ = ["FarmError", "Job", "Options", "Progress", "Result", "render"]

@@ -1,0 +1,84 @@
+"""Parts of the work: the same samples of some tiles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._film import TILE_SIDE, Film
+
+Indices = npt.NDArray[np.uint32]
+Goals = npt.NDArray[np.uint32]
+
+
+@dataclass(frozen=True)
+class Part:
+    """The samples from first to end - 1 of tiles, which are indices row by row."""
+
+    first: int
+    end: int
+    tiles: Indices
+
+    @property
+    def work(self) -> int:
+        """Samples of tiles."""
+        return (self.end - self.first) * len(self.tiles)
+
+    def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
+        """A part of about that work, and the rest. Rather fewer tiles than fewer samples, as a film's size goes by its
+        tiles; but no fewer tiles than keep a device busy."""
+        samples = self.end - self.first
+        if self.work <= work:
+            return self, []
+        tiles = min(max(work // samples, least_tiles), len(self.tiles))
+        middle = self.first + max(min(work // tiles, samples), 1)
+        rest = []
+        if tiles < len(self.tiles):
+            rest.append(Part(self.first, self.end, self.tiles[tiles:]))
+        if middle < self.end:
+            rest.append(Part(middle, self.end, self.tiles[:tiles]))
+        return Part(self.first, middle, self.tiles[:tiles]), rest
+
+
+def grid_shape(width: int, height: int) -> tuple[int, int]:
+    """Rows and columns of tiles."""
+    return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
+
+
+def missing_parts(film: Film | None, first_sample: int, goals: Goals) -> list[Part]:
+    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells, so
+    that one from a checkpoint goes on like any other."""
+    columns = goals.shape[1]
+    cells: dict[tuple[range, ...], list[Indices]] = {}
+    seen = np.zeros(goals.shape, bool)
+    indices = np.arange(goals.size, dtype=np.uint32).reshape(goals.shape)
+    for tile in film.tiles if film else ():
+        rows = slice(tile.y // TILE_SIDE, -(-(tile.y + tile.height) // TILE_SIDE))
+        across = slice(tile.x // TILE_SIDE, -(-(tile.x + tile.width) // TILE_SIDE))
+        seen[rows, across] = True
+        cells.setdefault(tile.samples, []).append(indices[rows, across].ravel())
+    if not seen.all():
+        cells.setdefault((), []).append(indices[~seen])
+    wanted: dict[tuple[int, int], list[Indices]] = {}
+    for samples, pieces in cells.items():
+        tiles = np.unique(np.concatenate(pieces))
+        tile_goals = goals.ravel()[tiles]
+        for goal in np.unique(tile_goals):
+            for first, end in _gaps(samples, first_sample, first_sample + int(goal)):
+                wanted.setdefault((first, end), []).append(tiles[tile_goals == goal])
+    return [Part(first, end, np.sort(np.concatenate(tiles))) for (first, end), tiles in sorted(wanted.items())]
+
+
+def _gaps(samples: tuple[range, ...], first: int, end: int) -> Iterator[tuple[int, int]]:
+    """What of the samples from first to end - 1 is not among those."""
+    for present in samples:
+        if present.start > first:
+            yield first, min(present.start, end)
+        first = max(first, present.stop)
+        if first >= end:
+            return
+    if first < end:
+        yield first, end
