@@ -17,7 +17,7 @@
 namespace cli {
 namespace {
 
-using Kind = PythonLiteral::Kind;
+using LiteralKind = PythonLiteral::Kind;
 
 struct TypeCode {
     std::string_view code; // NumPy's kind and size in bytes
@@ -49,13 +49,13 @@ public:
         const PythonLiteral *type = literal ? literal->find("descr") : nullptr;
         const PythonLiteral *order = literal ? literal->find("fortran_order") : nullptr;
         const PythonLiteral *shape = literal ? literal->find("shape") : nullptr;
-        if (type == nullptr || order == nullptr || shape == nullptr || order->kind != Kind::boolean ||
-            shape->kind != Kind::sequence) {
+        if (type == nullptr || order == nullptr || shape == nullptr || order->kind != LiteralKind::boolean ||
+            shape->kind != LiteralKind::sequence) {
             refuse(quoted_text(text) + ": must be a dictionary with descr, fortran_order and shape");
         }
-        NpyHeader header{{}, 0, type->kind == Kind::sequence, order->number != 0, {}};
+        NpyHeader header{{}, 0, type->kind == LiteralKind::sequence, order->number != 0, {}};
         for (const PythonLiteral &length : shape->elements) {
-            if (length.kind != Kind::whole_number) {
+            if (length.kind != LiteralKind::whole_number) {
                 refuse("shape: must be whole numbers");
             }
             header.shape.push_back(length.number);
@@ -104,13 +104,13 @@ private:
     void add_fields(NpyHeader &header, const PythonLiteral &fields) const {
         for (const PythonLiteral &field : fields.elements) {
             const bool is_field =
-                field.kind == Kind::sequence && (field.elements.size() == 2 || field.elements.size() == 3);
-            if (!is_field || field.elements[1].kind != Kind::text) {
+                field.kind == LiteralKind::sequence && (field.elements.size() == 2 || field.elements.size() == 3);
+            if (!is_field || field.elements[1].kind != LiteralKind::text) {
                 refuse("descr: fields must be (name, type) or (name, type, shape) with a plain type");
             }
             // A pair in place of a name is a title and the name.
             const PythonLiteral &name =
-                field.elements[0].kind == Kind::sequence && field.elements[0].elements.size() == 2
+                field.elements[0].kind == LiteralKind::sequence && field.elements[0].elements.size() == 2
                     ? field.elements[0].elements[1]
                     : field.elements[0];
             std::uint64_t count = 1;
@@ -124,9 +124,10 @@ private:
     std::uint64_t count_of(const PythonLiteral &shape) const {
         std::uint64_t count = 1;
         const std::span<const PythonLiteral> lengths =
-            shape.kind == Kind::sequence ? std::span(shape.elements) : std::span(&shape, 1);
+            shape.kind == LiteralKind::sequence ? std::span(shape.elements) : std::span(&shape, 1);
         for (const PythonLiteral &length : lengths) {
-            if (length.kind != Kind::whole_number || length.number == 0 || length.number > largest_element / count) {
+            if (length.kind != LiteralKind::whole_number || length.number == 0 ||
+                length.number > largest_element / count) {
                 refuse("descr: the shape of a field must be whole numbers above 0");
             }
             count *= length.number;

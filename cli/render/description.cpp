@@ -1,5 +1,6 @@
 #include "cli/render/description.h"
 
+#include "cli/base/exit_code.h"
 #include "cli/base/vector_width.h"
 
 #include <cstdlib>
@@ -64,10 +65,23 @@ Json environment_of(const SceneFile &file) {
     return variables;
 }
 
+Json camera_of(const pt_camera &camera) {
+    const bool is_parallel = camera.projection == PT_PROJECTION_ORTHOGRAPHIC;
+    return {{"position", camera.position},
+            {"target", camera.target},
+            {"up", camera.up},
+            {"vertical_fov", is_parallel ? Json(nullptr) : Json(camera.vertical_fov)},
+            {"shutter", {camera.shutter_open, camera.shutter_close}},
+            {"vertical_extent", is_parallel ? Json(camera.vertical_extent) : Json(nullptr)}};
+}
+
 } // namespace
 
 Json description_of(const SceneFile &file, const RenderSettings &settings, std::optional<std::uint32_t> frame) {
-    const pt_camera &camera = file.camera;
+    if (!file.particles.empty()) {
+        throw Failure(ExitCode::scene,
+                      file.path + ": particles[0]: --describe takes scenes without files of particles");
+    }
     const pt_render &render = settings.render;
     const std::optional<double> &stops = settings.exposure.stops;
     return {
@@ -75,12 +89,7 @@ Json description_of(const SceneFile &file, const RenderSettings &settings, std::
         {"materials", materials_of(file)},
         {"spheres", spheres_of(file)},
         {"planes", planes_of(file)},
-        {"camera",
-         {{"position", camera.position},
-          {"target", camera.target},
-          {"up", camera.up},
-          {"vertical_fov", camera.vertical_fov},
-          {"shutter", {camera.shutter_open, camera.shutter_close}}}},
+        {"camera", camera_of(file.camera)},
         {"render",
          {{"width", render.width},
           {"height", render.height},

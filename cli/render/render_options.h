@@ -29,8 +29,8 @@ struct RenderOptions {
     bool alpha = false;
     std::string stats;
     std::string description; // path of it, in place of a rendering; empty: none
-    std::string film;       // path of the film; empty: none
-    std::string checkpoint; // likewise
+    std::string film;        // path of the film; empty: none
+    std::string checkpoint;  // likewise
     bool resume = false;
     std::optional<double> checkpoint_seconds;
     std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks

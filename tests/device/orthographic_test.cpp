@@ -49,7 +49,9 @@ protected:
     }
 
     void accumulate(std::uint32_t samples) {
-        const pt_accumulate_info info{sizeof info, samples, nullptr, nullptr, 0, 0, 0};
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = samples;
         ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
     }
 

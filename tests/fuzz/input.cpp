@@ -69,17 +69,15 @@ void read_camera(Numbers &numbers, ByteReader &bytes, pt_camera &camera) {
             component = numbers.component();
     if (bytes.one_in(4))
         camera.vertical_fov = numbers.field_of_view();
-    else if (bytes.one_in(4)) {
-        camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
-        camera.vertical_extent = numbers.length();
-    }
     if (bytes.one_in(4)) {
         const double open = numbers.share();
         const double close = numbers.share();
         camera.shutter_open = std::min(open, close);
         camera.shutter_close = std::max(open, close);
     }
-    camera.reserved = numbers.count(1);
+    camera.projection = numbers.count(PT_PROJECTION_ORTHOGRAPHIC + 1);
+    if (camera.projection == PT_PROJECTION_ORTHOGRAPHIC)
+        camera.vertical_extent = numbers.length();
 }
 
 void read_render(Numbers &numbers, ByteReader &bytes, pt_render &render) {

@@ -14,7 +14,8 @@ The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed
 from pt._callbacks import Log, Progress
 from pt._camera import Camera, RenderSettings
 from pt._context import Context
-from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Projection, Quantity, Result, Sampler, Sampling,
+from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Projection, Quantity, Result, Sampler,
+                       Sampling,
                        Uncertain)
 from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, InternalError, InvalidArgumentError,
                         InvalidSceneError, InvalidStateError, NoDeviceError, OutOfDeviceMemoryError,
@@ -30,8 +31,9 @@ __all__ = [
     "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature",
     "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
     "InvalidSceneError", "InvalidStateError", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
-    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Quantity", "RenderSettings", "Result", "Sampler", "Sampling", "Scene",
-    "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError", "devices", "render", "version",
+    "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "RenderSettings",
+    "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
+    "devices", "render", "version",
 ]
 
 

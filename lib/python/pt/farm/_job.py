@@ -47,6 +47,7 @@ def job_of(description: Mapping[str, Any], device: str | None) -> Job:
     numbers: dict[str, Any] = {**render, "estimator": Estimator(render["estimator"]),
                                "sampler": Sampler(render["sampler"])}
     shutter_open, shutter_close = camera["shutter"]
-    return Job(Scene(spheres, planes, materials=materials),
-               Camera(tuple(camera["position"]), tuple(camera["target"]), tuple(camera["up"]), camera["vertical_fov"],
-                      (shutter_open, shutter_close)), RenderSettings(**numbers), device, description["environment"])
+    view = Camera(tuple(camera["position"]), tuple(camera["target"]), tuple(camera["up"]), camera["vertical_fov"],
+                  (shutter_open, shutter_close), camera["vertical_extent"])
+    return Job(Scene(spheres, planes, materials=materials), view, RenderSettings(**numbers), device,
+               description["environment"])
