@@ -32,7 +32,7 @@ install_packages() { # package...
 build() { # preset, whether with tests [cmake --build arguments]
     preset=$1
     # In one build, a file for each folder takes a quarter of the compiler's time.
-    cmake --preset "$preset" -DPT_UNITY=ON -DPT_BUILD_TESTS="$2" || return
+    cmake --preset "$preset" -DPT_BUILD_TESTS="$2" -DPT_UNITY=ON || return
     shift 2
     cmake --build --preset "$preset" "$@"
 }

@@ -62,7 +62,7 @@ class Quickstart(unittest.TestCase):
             self.assertNotIn(name, self.packages())
         for name in "g++", "libpng-dev", "mesa-vulkan-drivers":
             self.assertIn(name, self.packages())
-        self.assertIn("cmake --preset release -DPT_BUILD_TESTS=OFF", self.lines)
+        self.assertIn("cmake --preset release -DPT_BUILD_TESTS=OFF -DPT_UNITY=ON", self.lines)
         self.assertTrue(self.lines[-1].startswith("pt render "), self.lines)
         self.assertTrue(self.lines[-1].endswith(" -o coursework.png"), self.lines)
 

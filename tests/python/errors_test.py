@@ -65,7 +65,7 @@ class Results(unittest.TestCase):
 
 
 class Functions(unittest.TestCase):
-    KINDS = {"uint32_t": "c_uint", "uint64_t": "c_ulong", "pt_result": "c_int", "const char *": "c_char_p",
+    KINDS = {"uint32_t": "c_uint", "uint64_t": "c_ulong", "double": "c_double", "pt_result": "c_int", "const char *": "c_char_p",
              "void": "NoneType"}
 
     def declared(self):
