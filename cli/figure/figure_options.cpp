@@ -49,6 +49,20 @@ void add_data_options(CLI::App &command, FigureOptions &options) {
         ->group(group);
 }
 
+void add_particle_options(CLI::App &command, FigureOptions &options) {
+    const std::string group = "Particles";
+    command
+        .add_option("--color", options.color, "Column whose numbers the colours say (default: types, where the file has them)")
+        ->type_name("COLUMN")
+        ->group(group);
+    constexpr double least = 1e-18;
+    constexpr double most = 1e18;
+    add_real_number(command, "--radius", options.radius, least, most,
+                    "Radius of all balls (default: the column radius, else half of what most nearest neighbours are apart)")
+        ->type_name("R")
+        ->group(group);
+}
+
 void add_view_options(CLI::App &command, FigureOptions &options) {
     const std::string group = "View";
     add_size(command, options.size)->group(group)->description(
@@ -109,6 +123,7 @@ void add_figure_options(CLI::App &command, FigureOptions &options) {
     command.add_option("DATA", options.data, "File of particles; - is standard input")->required()->type_name("DATA");
     add_output_options(command, options);
     add_data_options(command, options);
+    add_particle_options(command, options);
     add_view_options(command, options);
     add_look_options(command, options);
     add_display_options(command, options.display, "");

@@ -29,6 +29,8 @@ struct FigureOptions {
 
     std::int64_t frame = -1;
     bool wraps = false;
+    std::string color;            // the column that the colours say; empty: types, if there are any
+    std::optional<double> radius; // of all; nothing: the file's, or what suits the distances
 
     std::optional<ImageSize> size; // nothing: as the data are
     ViewDirection view{view_names.front(), {}};

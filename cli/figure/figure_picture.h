@@ -15,9 +15,8 @@
 
 namespace cli {
 
-// What a figure shows, and how its scene counts it.
+// What a figure shows, and how its scene counts it: the spheres of the stage, then the particles, then the floor.
 struct FigureContents {
-    const SceneFile &scene; // the stage's spheres, then the particles, then the floor
     const Balls &balls;
     ParticleObjects objects;
     FittedCamera camera;

@@ -1,24 +1,25 @@
 // A figure as a scene file: what `pt figure` renders, and `pt render` too.
 #pragma once
 
-#include "cli/base/number.h"
-#include "cli/figure/stage.h"
+#include "cli/figure/figure_layout.h"
+#include "cli/figure/figure_particles.h"
+#include "cli/scene/scene_file.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace cli {
 
-// The names of materials in it.
-inline constexpr const char *particle_material = "particles";
+// The scene without its particles, as text and as the program reads it. name: what messages call it.
+nlohmann::ordered_json stage_json(const FigureLayout &layout, std::uint32_t sample_count);
+SceneFile stage_scene(const FigureLayout &layout, std::uint32_t sample_count, const std::string &name);
 
-struct FigureSettings {
-    ImageSize size;
-    std::uint32_t sample_count;
-};
+// With the particles: a material for each colour, and spheres behind those of the stage.
+SceneFile figure_scene(const SceneFile &stage, const Stage &look, const FigureParticles &particles);
 
-// All of the scene but the particles.
-nlohmann::ordered_json figure_scene(const FittedCamera &camera, const Stage &stage, const FigureSettings &settings);
+// A scene file that gives every bit of the numbers back.
+std::string figure_scene_text(const FigureLayout &layout, std::uint32_t sample_count, const FigureParticles &particles);
 
 } // namespace cli
