@@ -44,7 +44,8 @@ public:
     HitRange columns(double y, double radius, std::size_t count) const {
         const double dx = end_.x - begin_.x;
         const double dy = end_.y - begin_.y;
-        auto [low, high] = std::minmax(begin_.x, end_.x);
+        double low = std::min(begin_.x, end_.x);
+        double high = std::max(begin_.x, end_.x);
         if (std::abs(dy) > 1e-9) {
             const double middle = begin_.x + dx * (y - begin_.y) / dy;
             const double reach = radius * std::hypot(dx, dy) / std::abs(dy);

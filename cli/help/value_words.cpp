@@ -19,6 +19,7 @@ const std::vector<FileKind> &file_kinds() {
         {"FILE", {}},          {"IMAGE", images},    {"REFERENCE", images}, {"OUT", pictures},
         {"IN", {".exr"}},      {"EXR", {".exr"}},    {"PNG", {".png"}},     {"FILM", {".ptfilm"}},
         {"PART", {".ptfilm"}}, {"SCENE", {".json"}}, {"JSON", {".json"}},   {"CSV", {".csv"}},
+        {"SVG", {".svg"}},     {"DATA", {}},
     };
     return kinds;
 }
