@@ -1,0 +1,39 @@
+// XYZ, and extended XYZ, whose second line says what the columns are (docs.ase-lib.org/ase/io/formatoptions.html#extxyz).
+#pragma once
+
+#include "cli/data/data_stream.h"
+#include "cli/data/frame_file.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+class XyzFile : public FrameFile {
+public:
+    explicit XyzFile(std::unique_ptr<DataStream> stream) : stream_(std::move(stream)) {}
+
+    bool next() override;
+    void skip() override;
+    void read(ParticleRows &rows) override;
+
+private:
+    void read_comment(std::string_view comment);
+    void name_columns(const std::string &properties);
+    void name_plain_columns();
+    std::vector<double> numbers_of(const std::string &key, const std::string &value, std::size_t count) const;
+    [[noreturn]] void refuse(const std::string &what) const;
+
+    std::unique_ptr<DataStream> stream_;
+    std::uint64_t count_ = 0;
+    std::optional<SimulationBox> box_;
+    std::vector<std::string> columns_;
+    bool is_plain_ = true;
+};
+
+} // namespace cli
