@@ -1,4 +1,4 @@
-// Pinhole camera that looks from the origin, or from behind it.
+// Pinhole camera that looks from the origin, or from behind it; or one of parallel rays (ORTHOGRAPHIC).
 #ifndef CAMERA_GLSL
 #define CAMERA_GLSL
 
@@ -21,11 +21,13 @@ vec2 image_place(FrameConstants frame, uvec2 pixel, vec2 place)
 // Unit direction through that place of the image.
 vec3 camera_direction(FrameConstants frame, vec2 from_middle)
 {
+    if (ORTHOGRAPHIC == 1)
+        return frame.camera_forward;
     return normalize(frame.camera_forward + from_middle.x * frame.camera_right - from_middle.y * frame.camera_up);
 }
 
 // Where the ray through that place starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the
-// origin across the view. Before that plane nothing is in view (lib/scene/ray_start.h).
+// origin across the view. Before that plane nothing is in view, or what parallel rays do not see (lib/scene/ray_start.h).
 vec3 camera_origin(FrameConstants frame, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)

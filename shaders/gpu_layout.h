@@ -43,7 +43,7 @@ PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, n
 PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
 PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
 PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
-PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane ahead of the pinhole
+PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane across the view, ahead of the pinhole
 PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
 PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
 PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
@@ -51,7 +51,8 @@ PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0:
 PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
 PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
 PT_CONSTANT ID_SPOT_COUNT = 29;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
-PT_CONSTANT CONSTANT_COUNT = 30;
+PT_CONSTANT ID_ORTHOGRAPHIC = 30;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
+PT_CONSTANT CONSTANT_COUNT = 31;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -310,7 +311,7 @@ struct FrameConstants {
     float film_scale;  // radiance times this is in film units; a power of two
     vec3 camera_up;    // unit vector
     uint width;        // of the image, pixels
-    vec3 camera_forward; // as long as the image plane is far away in pixels
+    vec3 camera_forward; // as long as the image plane is far away in pixels; of parallel rays a unit vector
     uint height;         // of the image, pixels
     uvec2 seed;          // well mixed words made from pt_render.seed
     uint strip_first_pixel; // index of the strip's first pixel in the image, row by row

@@ -21,9 +21,10 @@ struct BitName {
     const char *name;
 };
 
-constexpr std::array feature_names{BitName{PT_FEATURE_LAMPS, "lamps"}, BitName{PT_FEATURE_GLOSS, "gloss"},
-                                   BitName{PT_FEATURE_MOTION, "motion"}, BitName{PT_FEATURE_LARGE, "large"},
-                                   BitName{PT_FEATURE_TREE, "tree"}};
+constexpr std::array feature_names{
+    BitName{PT_FEATURE_LAMPS, "lamps"},   BitName{PT_FEATURE_GLOSS, "gloss"},
+    BitName{PT_FEATURE_MOTION, "motion"}, BitName{PT_FEATURE_LARGE, "large"},
+    BitName{PT_FEATURE_TREE, "tree"},     BitName{PT_FEATURE_ORTHOGRAPHIC, "orthographic"}};
 constexpr std::array uncertainty_names{BitName{PT_UNCERTAIN_RMSE, "rmse"},
                                        BitName{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
                                        BitName{PT_UNCERTAIN_UNSEEN, "unseen"}, BitName{PT_UNCERTAIN_UNMET, "unmet"}};

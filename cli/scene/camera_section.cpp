@@ -1,7 +1,9 @@
 #include "cli/scene/camera_section.h"
 
 #include "cli/base/store.h"
+#include "cli/base/suggestion.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <numbers>
@@ -18,7 +20,8 @@ CameraSection::CameraSection(pt_camera &camera) : camera_(camera) {
 }
 
 void CameraSection::item(const JsonPlace &place, const json &value) {
-    static constexpr std::array<std::string_view, 5> known{"position", "look_at", "up", "vertical_fov", "shutter"};
+    static constexpr std::array<std::string_view, 7> known{"position",     "look_at",         "up",     "projection",
+                                                           "vertical_fov", "vertical_extent", "shutter"};
     if (place.key == "position") {
         store(read_vector(value, place), camera_.position);
         has_position_ = true;
@@ -38,6 +41,17 @@ void CameraSection::item(const JsonPlace &place, const json &value) {
             refuse(place, "must be at least 6e-7 and less than 180 degrees, is " + value.dump());
         }
         camera_.vertical_fov = degrees * (std::numbers::pi / 180.0);
+    } else if (place.key == "projection") {
+        const std::string_view name = read_text(value, place);
+        if (std::ranges::find(projection_names, name) == projection_names.end()) {
+            refuse(place, unknown_name("projection", name, projection_names));
+        }
+        camera_.projection = name == "orthographic" ? PT_PROJECTION_ORTHOGRAPHIC : PT_PROJECTION_PERSPECTIVE;
+    } else if (place.key == "vertical_extent") {
+        camera_.vertical_extent = read_number(value, place);
+        if (!(camera_.vertical_extent > 0.0)) {
+            refuse(place, "must be > 0, is " + value.dump());
+        }
     } else if (place.key == "shutter") {
         const auto [open, close] = read_pair(value, place);
         camera_.shutter_open = open;
@@ -56,6 +70,18 @@ void CameraSection::require_complete() const {
     }
     if (is_there_ && !has_look_at_) {
         refuse(root.member("camera"), "\"look_at\" is missing");
+    }
+    const bool orthographic = camera_.projection == PT_PROJECTION_ORTHOGRAPHIC;
+    if (orthographic && camera_.vertical_fov != 0.0) {
+        refuse(root.member("camera"), "\"vertical_fov\" is of a perspective projection, an orthographic one has a "
+                                      "\"vertical_extent\"");
+    }
+    if (orthographic && camera_.vertical_extent == 0.0) {
+        refuse(root.member("camera"), "\"vertical_extent\" is missing, the height of an orthographic view");
+    }
+    if (!orthographic && camera_.vertical_extent != 0.0) {
+        refuse(root.member("camera"), "\"vertical_extent\" is of an orthographic projection, a perspective one has a "
+                                      "\"vertical_fov\"");
     }
 }
 

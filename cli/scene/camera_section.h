@@ -5,7 +5,13 @@
 
 #include <pt/pt.h>
 
+#include <array>
+#include <string_view>
+
 namespace cli {
+
+// Values of `projection`.
+inline constexpr std::array<std::string_view, 2> projection_names{"perspective", "orthographic"};
 
 class CameraSection {
 public:

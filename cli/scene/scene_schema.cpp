@@ -3,6 +3,7 @@
 #include "cli/base/method_names.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
+#include "cli/scene/camera_section.h"
 
 #include <cstdint>
 #include <limits>
@@ -74,10 +75,13 @@ Schema colour() {
 Schema camera() {
     const Schema time = number(0.0, 1.0);
     return described(
-        "A pinhole",
+        "Where the picture is seen from",
         object({{"position", described("Where it is", vector())},
                 {"look_at", described("The point in the middle of the picture", vector())},
                 {"up", described("What is up in the picture; default [0, 1, 0]", direction())},
+                {"projection", described("Default perspective", one_of(projection_names))},
+                {"vertical_extent", described("Height of the view of an orthographic projection, in scene units",
+                                              number(least_length, largest_length))},
                 {"vertical_fov", described("Angle of the picture's height in degrees; default 45",
                                            {{"type", "number"}, {"minimum", 6e-7}, {"exclusiveMaximum", 180}})},
                 {"shutter", described("When it opens and closes; default [0, 1]", array_of(time, 2))}},

@@ -194,8 +194,13 @@ gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &
     gpu::FrameConstants constants{};
     constants.camera_right = camera.right;
     constants.camera_up = camera.up;
-    constants.camera_forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
-    constants.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
+    if (camera.is_orthographic()) {
+        constants.camera_forward = camera.forward;
+        constants.start_scale = static_cast<float>(camera.vertical_extent / render.height);
+    } else {
+        constants.camera_forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
+        constants.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
+    }
     constants.film_scale = static_cast<float>(1.0 / film_unit);
     constants.width = render.width;
     constants.height = render.height;

@@ -6,6 +6,7 @@
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
+#include "lib/scene/start_disc.h"
 
 #include <pt/stats.h>
 
@@ -109,7 +110,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
     const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
     const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
-    const auto is_at_camera = [](const SeenSphere &sphere) { return may_hold_origin(sphere); };
+    const auto divides = [&](const auto &surface) { return divides_start(surface, camera); };
+    const auto is_at_camera = [&](const SeenSphere &sphere) { return may_hold_origin(sphere) || divides(sphere); };
+    const bool planes_divide = std::ranges::any_of(distinct.seen.planes, divides);
     const SphereTree *const tree = scene.tree.get();
     const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
 
@@ -124,17 +127,22 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.lamp_count = surfaces.lamp_count + tree_lamps;
     features.sky_count = surfaces.sky_count;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.inside = std::ranges::any_of(surfaces.spheres, is_at_camera) || (tree && tree->may_hold(camera));
+    features.inside = std::ranges::any_of(surfaces.spheres, is_at_camera) ||
+                      (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
-    features.planes_block = features.curvature || std::ranges::any_of(lamps, is_behind_a_plane) ||
+    features.planes_block = features.curvature || planes_divide || std::ranges::any_of(lamps, is_behind_a_plane) ||
                             (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
-    features.known_sides = (features.inside || features.curvature || distinct.close_planes) &&
+    // Where rays start on both sides of a surface, the camera does not tell them.
+    const bool starts_divided =
+        planes_divide || std::ranges::any_of(distinct.seen.spheres, divides) || (tree && tree->divides_start(camera));
+    features.known_sides = !starts_divided && (features.inside || features.curvature || distinct.close_planes) &&
                            std::ranges::all_of(surfaces.planes, has_known_side);
     features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
-    features.starts_ahead = camera.start_distance > 0.0;
+    features.starts_ahead = camera.start_distance > 0.0 || camera.is_orthographic();
+    features.orthographic = camera.is_orthographic();
     features.max_path_length = render.max_path_length;
     features.estimator = render.estimator;
     features.sampler = render.sampler;
@@ -224,6 +232,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_PLANES_MOVE] = features.planes_move ? 1 : 0;
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
+    constants[gpu::ID_ORTHOGRAPHIC] = features.orthographic ? 1 : 0;
     constants[gpu::ID_TREE] = features.tree ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
@@ -274,6 +283,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.motion ? PT_FEATURE_MOTION : 0;
     bits |= features.scene_in_uniform ? 0 : PT_FEATURE_LARGE;
     bits |= features.tree ? PT_FEATURE_TREE : 0;
+    bits |= features.orthographic ? PT_FEATURE_ORTHOGRAPHIC : 0;
     return bits;
 }
 

@@ -38,7 +38,8 @@ struct Features {
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
     std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
-    bool starts_ahead;        // camera rays start ahead of the pinhole (ray_start.h)
+    bool starts_ahead;        // camera rays start on a plane across the view (ray_start.h)
+    bool orthographic;        // and are parallel
     bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer
     std::uint32_t table_materials; // if it does not: the materials that its surfaces share
     bool tree;                     // most spheres are in a tree, and not among sphere_count

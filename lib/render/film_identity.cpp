@@ -17,6 +17,8 @@ std::string digest_of(const Camera &camera) {
         digest.add(vector);
     for (const double number : {camera.tan_half_fov, camera.shutter_open, camera.shutter_close})
         digest.add(number);
+    if (camera.is_orthographic())
+        digest.add(camera.vertical_extent);
     return digest.text();
 }
 

@@ -150,6 +150,7 @@ private:
     void require_room_for(std::uint32_t sample_count) const;
     void discard_samples() noexcept;
     const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();
+    Camera ray_start();
     bool is_in_pass() const;
     ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;

@@ -18,6 +18,14 @@
 
 namespace pt {
 
+// Parallel rays may come from anywhere far away: lamps are as large as they are where the kernel's coordinates begin.
+Camera Renderer::ray_start() {
+    Camera start = *camera_;
+    if (start.is_orthographic())
+        start.position += gpu_scene_of_settings()->start_distance * start.forward;
+    return start;
+}
+
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.least() < min_estimate_samples)
         error_ = unknown_error();
@@ -25,7 +33,7 @@ const ErrorEstimate &Renderer::error() {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.total();
         ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                                  may_miss_lamps(scene_->scene, *camera_, *settings_, samples)});
+                                  may_miss_lamps(scene_->scene, ray_start(), *settings_, samples)});
         if (!samples_.even() || (job_ && job_->uneven))
             view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
         else

@@ -41,7 +41,7 @@ const char *shutter_rule(double value) {
 pt_camera with_defaults(pt_camera camera) {
     if (vector(camera.up) == glm::dvec3(0.0))
         camera.up[1] = 1.0;
-    if (camera.vertical_fov == 0.0)
+    if (camera.vertical_fov == 0.0 && camera.projection == PT_PROJECTION_PERSPECTIVE)
         camera.vertical_fov = default_vertical_fov;
     if (camera.shutter_open == 0.0 && camera.shutter_close == 0.0)
         camera.shutter_close = 1.0;
@@ -51,11 +51,20 @@ pt_camera with_defaults(pt_camera camera) {
 void check_fields(const pt_camera &camera) {
     Violations violations;
     const Subject subject(violations, "camera");
-    subject.require(camera.reserved == 0, "reserved", camera.reserved, "must be 0");
+    subject.require(camera.projection <= PT_PROJECTION_ORTHOGRAPHIC, "projection", camera.projection,
+                    "must be a PT_PROJECTION_*: 0 (perspective) or 1 (orthographic)");
     subject.check_each("position", camera.position, length_rule);
     subject.check_each("target", camera.target, length_rule);
     subject.check_each("up", camera.up, finite_rule);
-    subject.check("vertical_fov", camera.vertical_fov, fov_rule);
+    if (camera.projection == PT_PROJECTION_ORTHOGRAPHIC) {
+        subject.require(camera.vertical_fov == 0.0, "vertical_fov", camera.vertical_fov,
+                        "must be 0 with an orthographic projection, which has a vertical_extent instead");
+        subject.check("vertical_extent", camera.vertical_extent, positive_length_rule);
+    } else {
+        subject.check("vertical_fov", camera.vertical_fov, fov_rule);
+        subject.require(camera.vertical_extent == 0.0, "vertical_extent", camera.vertical_extent,
+                        "must be 0 with a perspective projection, which has a vertical_fov instead");
+    }
     subject.check("shutter_open", camera.shutter_open, shutter_rule);
     subject.check("shutter_close", camera.shutter_close, shutter_rule);
     // Written so that NaN passes: it has a line of its own already.
@@ -90,7 +99,8 @@ Camera validated_camera(const pt_camera &source) {
             forward,
             std::tan(0.5 * camera.vertical_fov),
             camera.shutter_open,
-            camera.shutter_close};
+            camera.shutter_close,
+            camera.vertical_extent};
 }
 
 } // namespace pt

@@ -8,14 +8,18 @@
 namespace pt {
 
 struct Camera {
-    glm::dvec3 position; // where camera rays start: the pinhole, or a point ahead of it
+    glm::dvec3 position; // where the ray in the middle of the image starts: the pinhole, or a point ahead of it
     glm::dvec3 right;    // unit vectors, each perpendicular to the others; right x up points backwards
     glm::dvec3 up;
     glm::dvec3 forward;
-    double tan_half_fov; // of the vertical field of view
+    double tan_half_fov; // of the vertical field of view; 0: rays are parallel
     double shutter_open; // 0 <= open <= close <= 1
     double shutter_close;
-    double start_distance = 0.0; // of position from the pinhole, along forward (ray_start.h)
+    double vertical_extent = 0.0; // of the view of parallel rays; 0: they start at the pinhole
+    double start_distance = 0.0;  // of position from that of pt.h, along forward (ray_start.h)
+    double start_radius = 0.0;    // of the disc about position on which parallel rays start (ray_start.h)
+
+    bool is_orthographic() const { return vertical_extent > 0.0; }
 };
 
 // Takes over a camera whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.

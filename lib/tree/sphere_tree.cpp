@@ -1,6 +1,7 @@
 // Builds and writes the tree; see sphere_tree.h.
 #include "lib/tree/sphere_tree.h"
 
+#include "lib/scene/start_disc.h"
 #include "lib/tree/equal_words.h"
 #include "lib/tree/scene_numbers.h"
 #include "lib/tree/sphere_words.h"
@@ -266,6 +267,12 @@ Sphere SphereTree::lamp(std::uint32_t number) const {
     return {ball.open, ball.radius, ball.way, lamp_materials_[number]};
 }
 
+MovingBall SphereTree::seen_ball(std::uint32_t place, const Camera &camera) const {
+    const MovingBall ball = ball_at(place);
+    return {ball.open + camera.shutter_open * ball.way - camera.position,
+            (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
+}
+
 bool SphereTree::may_hold(const Camera &camera) const {
     const gpu::TreeFrame seen = frame(camera);
     const double nearly =
@@ -273,12 +280,20 @@ bool SphereTree::may_hold(const Camera &camera) const {
     const auto around = static_cast<int>(nearly) + 1;
     if (!meet(box_, {seen.camera - around, seen.camera + around}) || is_far(camera))
         return false;
-    return any_in({seen.camera - around, seen.camera + around}, [&](std::uint32_t place) {
-        const MovingBall ball = ball_at(place);
-        const MovingBall as_seen{ball.open + camera.shutter_open * ball.way - camera.position,
-                                 (camera.shutter_close - camera.shutter_open) * ball.way, ball.radius};
-        return may_hold_origin(as_seen, grid_.step);
-    });
+    return any_in({seen.camera - around, seen.camera + around},
+                  [&](std::uint32_t place) { return may_hold_origin(seen_ball(place, camera), grid_.step); });
+}
+
+bool SphereTree::divides_start(const Camera &camera) const {
+    if (camera.start_radius == 0.0)
+        return false;
+    const glm::dvec3 middle = (camera.position - grid_.middle) / grid_.step;
+    const double radius = camera.start_radius / grid_.step + 1.0;
+    const double beyond = 2.0 * Grid::reach; // where no box of the tree is
+    const glm::ivec3 low(glm::floor(glm::clamp(middle - radius, -beyond, beyond)));
+    const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
+    return any_in({low, high},
+                  [&](std::uint32_t place) { return pt::divides_start(seen_ball(place, camera), camera, grid_.step); });
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {

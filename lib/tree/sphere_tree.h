@@ -91,6 +91,9 @@ public:
     // Whether a camera is in a sphere at any time, or so near to it that float32 cannot tell.
     bool may_hold(const Camera &camera) const;
 
+    // Whether parallel rays of a camera may start on either side of a sphere (start_disc.h).
+    bool divides_start(const Camera &camera) const;
+
     // Of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
@@ -117,6 +120,7 @@ private:
     std::vector<std::uint32_t> places_in_scene_order() const;
     HeldSphere held(std::uint32_t place) const;
     MovingBall ball_at(std::uint32_t place) const;
+    MovingBall seen_ball(std::uint32_t place, const Camera &camera) const;
     GridBox box_of_place(std::uint32_t place) const;
     bool is_far(const Camera &camera) const;
     bool finds_close_lamps(WorkProgress &progress) const;

@@ -100,6 +100,43 @@ Given narrow() {
     return given;
 }
 
+// By parallel rays, from a million units away, off the axes: a floor, balls that float32 would not tell apart from there,
+// and one that moves.
+Given parallel() {
+    Given given;
+    given.materials = some_materials();
+    given.spheres = {{{0, 1, 0}, 1, {0, 0, 0}, 0, 0},
+                     {{1.5, 1.5, -40}, 1.25, {0, 0, 0}, 1, 0},
+                     {{-1.5, 0.5, 3}, 0.5, {0.5, 0.25, 0}, 2, 0}};
+    given.planes = {{{0, 1, 0}, 0, 1, 0}};
+    const double back[3] = {3e5, 4e5, 1.2e6};
+    for (int i = 0; i < 3; ++i)
+        given.camera.position[i] = back[i];
+    given.camera.target[1] = 1;
+    given.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+    given.camera.vertical_fov = 0;
+    given.camera.vertical_extent = 6;
+    given.start_distance = 1.29e6;
+    return given;
+}
+
+// Parallel rays that start on both sides of a floor, and some of them in a ball.
+Given divided() {
+    Given given;
+    given.materials = some_materials();
+    given.spheres = {{{1, 0.5, 0}, 1, {0, 0, 0}, 0, 0}, {{-1, -0.5, -3}, 1, {0, 0, 0}, 1, 0}};
+    given.planes = {{{0, 1, 0}, 0.25, 1, 0}, {{0, 0, 1}, 6, 2, 0}};
+    given.camera.position[1] = 0.01;
+    given.camera.target[2] = -5;
+    given.camera.position[0] = given.camera.position[2] = 0.0;
+    given.camera.target[0] = 0.5;
+    given.camera.target[1] = -0.4;
+    given.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+    given.camera.vertical_fov = 0;
+    given.camera.vertical_extent = 4;
+    return given;
+}
+
 // Far from the origin of the world, off the axes.
 Given far_away() {
     Given given;
@@ -143,6 +180,7 @@ std::vector<Case> cases() {
     return {{"coursework", coursework()}, {"moving", moving()},
             {"inside", inside()},         {"huge", huge()},
             {"narrow", narrow()},         {"far away", far_away()},
+            {"parallel", parallel()},     {"divided", divided()},
             {"a tree", many(false)},      {"a tree that moves", many(true)}};
 }
 

@@ -69,6 +69,10 @@ void read_camera(Numbers &numbers, ByteReader &bytes, pt_camera &camera) {
             component = numbers.component();
     if (bytes.one_in(4))
         camera.vertical_fov = numbers.field_of_view();
+    else if (bytes.one_in(4)) {
+        camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+        camera.vertical_extent = numbers.length();
+    }
     if (bytes.one_in(4)) {
         const double open = numbers.share();
         const double close = numbers.share();

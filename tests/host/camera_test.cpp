@@ -61,7 +61,8 @@ TEST_P(BrokenCamera, IsRefusedWithMessage) {
 INSTANTIATE_TEST_SUITE_P(
     Rules, BrokenCamera,
     testing::Values(
-        CameraCase{"Reserved", [](pt_camera &c) { c.reserved = 2; }, "camera.reserved = 2: must be 0"},
+        CameraCase{"Reserved", [](pt_camera &c) { c.projection = 2; },
+                   "camera.projection = 2: must be a PT_PROJECTION_*: 0 (perspective) or 1 (orthographic)"},
         CameraCase{"PositionNan", [](pt_camera &c) { c.position[1] = camera_nan; },
                    "camera.position[1] = nan: must be finite"},
         CameraCase{"PositionLarge", [](pt_camera &c) { c.position[0] = 2e18; },
@@ -107,11 +108,20 @@ INSTANTIATE_TEST_SUITE_P(
                    [](pt_camera &c) {
                        c.position[0] = camera_nan;
                        c.vertical_fov = 4;
-                       c.reserved = 1;
+                       c.vertical_extent = 2;
                    },
-                   "camera.reserved = 1: must be 0\n"
                    "camera.position[0] = nan: must be finite\n"
-                   "camera.vertical_fov = 4: must lie in [1e-8, pi)"}),
+                   "camera.vertical_fov = 4: must lie in [1e-8, pi)\n"
+                   "camera.vertical_extent = 2: must be 0 with a perspective projection, which has a vertical_fov "
+                   "instead"},
+        CameraCase{"OrthographicFov",
+                   [](pt_camera &c) {
+                       c.projection = PT_PROJECTION_ORTHOGRAPHIC;
+                       c.vertical_extent = 2;
+                       c.vertical_fov = 1;
+                   },
+                   "camera.vertical_fov = 1: must be 0 with an orthographic projection, which has a vertical_extent "
+                   "instead"}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
 TEST(Camera, HasTheDefaultsOfTheHeader) {

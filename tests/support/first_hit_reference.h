@@ -26,9 +26,10 @@ inline Vector vector_of(const double (&v)[3]) {
 }
 
 struct Ray {
-    Vector direction; // unit; from the camera
+    Vector direction; // unit
     Real time;
-    Vector start; // where float32 begins to know it, relative to the camera
+    Vector start;        // where float32 begins to know it, relative to where the ray starts
+    Vector origin{0.0L}; // where the ray starts, relative to the camera
 };
 
 // Where a ray meets a surface, and by how much float32 may differ.
@@ -59,7 +60,7 @@ struct Meeting {
 //
 // In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat) {
-    const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera;
+    const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
     const Real r = sphere.radius;
     const Real along = glm::dot(centre, ray.direction);
     const Real l = glm::length(centre - along * ray.direction);
@@ -94,7 +95,7 @@ inline Meeting meet_plane(const pt_plane &plane, const Vector &camera, const Ray
     Meeting meeting;
     const Real length = glm::length(vector_of(plane.normal));
     Vector normal = vector_of(plane.normal) / length;
-    Real height = glm::dot(normal, camera) + plane.offset / length;
+    Real height = glm::dot(normal, camera + ray.origin) + plane.offset / length;
     normal *= height < 0.0L ? -1.0L : 1.0L;
     height = std::abs(height);
     const Real slope = -glm::dot(normal, ray.direction);
@@ -111,7 +112,8 @@ inline Meeting meet_plane(const pt_plane &plane, const Vector &camera, const Ray
 
 struct View {
     Vector position, right, up, forward;
-    Real focal_pixels; // how far away the image plane is
+    Real focal_pixels = 0.0L;   // how far away the image plane is
+    Real parallel_pixel = 0.0L; // the side of a pixel of parallel rays
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
@@ -125,15 +127,21 @@ struct View {
         shutter_close(camera.shutter_close) {
         right = glm::normalize(glm::cross(forward, vector_of(camera.up)));
         up = glm::cross(right, forward);
-        focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
+        if (camera.projection == PT_PROJECTION_ORTHOGRAPHIC)
+            parallel_pixel = static_cast<Real>(camera.vertical_extent) / render.height;
+        else
+            focal_pixels = render.height / (2.0L * std::tan(static_cast<Real>(camera.vertical_fov) / 2.0L));
     }
 
     // Through a place in a pixel, at a share of the shutter's time.
     Ray ray(std::uint32_t column, std::uint32_t row, Real x, Real y, Real share) const {
         const Real to_right = column + x - width / 2.0L;
         const Real downwards = row + y - height / 2.0L;
-        return {glm::normalize(focal_pixels * forward + to_right * right - downwards * up),
-                shutter_open + share * (shutter_close - shutter_open), start_distance * forward};
+        const Real time = shutter_open + share * (shutter_close - shutter_open);
+        if (parallel_pixel > 0.0L)
+            return {forward, time, start_distance * forward, parallel_pixel * (to_right * right - downwards * up)};
+        return {glm::normalize(focal_pixels * forward + to_right * right - downwards * up), time,
+                start_distance * forward};
     }
 };
 

@@ -176,16 +176,28 @@ typedef struct pt_scene {
     void *progress_user; /**< handed to progress; the library does not look at it */
 } pt_scene;
 
-/** A pinhole. The image's vertical axis is the part of up that is perpendicular to the viewing direction. */
+/** Values of pt_camera.projection. */
+enum {
+    PT_PROJECTION_PERSPECTIVE = 0, /**< a pinhole: all rays start at position */
+    /** parallel rays along the viewing direction, which start on the plane through position across it: what lies behind
+     * this plane is not seen, and of a surface that it cuts, as of a ball in which rays start, the inside is. An object
+     * is as large in the image wherever it is. */
+    PT_PROJECTION_ORTHOGRAPHIC = 1
+};
+
+/** Where the image is seen from. Its vertical axis is the part of up that is perpendicular to the viewing direction. */
 typedef struct pt_camera {
     uint32_t struct_size; /**< sizeof(pt_camera) */
-    uint32_t reserved;    /**< 0 */
-    double position[3];   /**< of the pinhole; default the origin */
+    uint32_t projection;  /**< PT_PROJECTION_* */
+    double position[3];   /**< of the pinhole, or where the ray in the middle of the image starts; default the origin */
     double target[3];     /**< the point in the middle of the image; must differ from position */
     double up[3];         /**< not parallel to the viewing direction; default (0, 1, 0) */
-    double vertical_fov;  /**< full vertical angle in [1e-8, pi); default pi / 4 */
+    double vertical_fov;  /**< of a perspective: full vertical angle in [1e-8, pi); default pi / 4. Otherwise 0 */
     double shutter_open;  /**< 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
     double shutter_close; /**< light is gathered evenly from shutter_open to here */
+    /** Of an orthographic projection: full height of the view, in [1e-18, 1e18], and so its width, which is the height
+     * times width / height of the image (pt_accumulate: PT_ERROR_UNSUPPORTED). There is no default. Otherwise 0. */
+    double vertical_extent;
 } pt_camera;
 
 /* ---- Rendering -------------------------------------------------------------------------------------------------- */
@@ -278,7 +290,7 @@ enum {
     /* What camera rays meet first, of the scene and the camera that are set: for compositing, denoising and picking. It is
      * found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. */
     /** depth along the view, as compositing programs have it: dot(x - camera.position, unit viewing direction) of the point
-     * x that the ray through the pixel's centre meets halfway between shutter_open and shutter_close; the same in all
+     * x that the ray through the pixel's centre meets, of parallel rays its distance from where they start, halfway between shutter_open and shutter_close; the same in all
      * channels. INFINITY where it meets nothing. In OpenEXR the channel Z. */
     PT_QUANTITY_DEPTH = 3,
     /** unit normal in the world's coordinates x, y, z, on the side of the camera: the mean over 16 rays that are spread

@@ -19,7 +19,8 @@ enum {
     /** so many spheres that they are in a tree: a ray tests those near its way. From 49 on, where the first of the
      * context's devices is a GPU from 96 on. Centres are held to 2^-30 of the extent of those in the tree, colours of
      * spheres to a thousandth. */
-    PT_FEATURE_TREE = 16
+    PT_FEATURE_TREE = 16,
+    PT_FEATURE_ORTHOGRAPHIC = 32 /**< parallel camera rays */
 };
 
 /** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further

@@ -14,7 +14,7 @@ The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed
 from pt._callbacks import Log, Progress
 from pt._camera import Camera, RenderSettings
 from pt._context import Context
-from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Quantity, Result, Sampler, Sampling,
+from pt._enums import (NO_OBJECT, DeviceKind, Estimator, Feature, Format, LogLevel, Projection, Quantity, Result, Sampler, Sampling,
                        Uncertain)
 from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, InternalError, InvalidArgumentError,
                         InvalidSceneError, InvalidStateError, NoDeviceError, OutOfDeviceMemoryError,

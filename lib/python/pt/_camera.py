@@ -10,28 +10,38 @@ import numpy.typing as npt
 
 from pt import _structs as structs
 from pt._columns import real_column
-from pt._enums import Estimator, Sampler
+from pt._enums import Estimator, Projection, Sampler
 from pt._vectors import Vector, vector
 
 
 @dataclass(frozen=True)
 class Camera:
-    """A pinhole.
+    """A pinhole, or, with a vertical_extent, parallel rays.
 
-    position       of the pinhole, scene units
-    target         the point in the middle of the image; must differ from position
-    up             not parallel to the viewing direction; of it the perpendicular part is the image's vertical
-    vertical_fov   full vertical angle, radians, in [1e-8, pi)
-    shutter        light is gathered evenly between these times, 0 <= open <= close <= 1; (0, 0) stands for (0, 1)
+    position          of the pinhole, scene units; parallel rays start on the plane through it across the view
+    target            the point in the middle of the image; must differ from position
+    up                not parallel to the viewing direction; of it the perpendicular part is the image's vertical
+    vertical_fov      full vertical angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
+    shutter           light is gathered evenly between these times, 0 <= open <= close <= 1; (0, 0) stands for (0, 1)
+    vertical_extent   None: a pinhole. Else full height of the view of parallel rays, scene units, in [1e-18, 1e18]: an
+                      orthographic projection
     """
 
     position: Vector
     target: Vector
     up: Vector = (0.0, 1.0, 0.0)
-    vertical_fov: float = math.pi / 4
+    vertical_fov: float | None = None
     shutter: tuple[float, float] = (0.0, 1.0)
+    vertical_extent: float | None = None
 
     def __post_init__(self) -> None:
+        if self.vertical_extent is None:
+            object.__setattr__(self, "vertical_fov", math.pi / 4 if self.vertical_fov is None else self.vertical_fov)
+        elif self.vertical_fov is not None:
+            raise ValueError(f"camera.vertical_fov = {self.vertical_fov}: must be None with a vertical_extent, which is "
+                             "of an orthographic projection")
+        elif self.vertical_extent == 0.0:  # the library's default, none
+            raise ValueError("camera.vertical_extent = 0: must be > 0")
         for name in ("position", "target", "up"):
             object.__setattr__(self, name, vector(name, getattr(self, name)))
 
@@ -70,10 +80,15 @@ class Camera:
         """Unit vectors to the right and up in the image, and from the target to the camera."""
         return _axes(np.subtract(self.position, self.target), self.up)
 
+    @property
+    def projection(self) -> Projection:
+        return Projection.PERSPECTIVE if self.vertical_extent is None else Projection.ORTHOGRAPHIC
+
     def _struct(self) -> structs.pt_camera:
         shutter_open, shutter_close = self.shutter
-        return structs.pt_camera(position=self.position, target=self.target, up=self.up, vertical_fov=self.vertical_fov,
-                                 shutter_open=shutter_open, shutter_close=shutter_close)
+        return structs.pt_camera(projection=self.projection, position=self.position, target=self.target, up=self.up,
+                                 vertical_fov=self.vertical_fov or 0.0, shutter_open=shutter_open,
+                                 shutter_close=shutter_close, vertical_extent=self.vertical_extent or 0.0)
 
 
 def _axes(direction: Vector, up: Vector

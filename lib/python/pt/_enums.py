@@ -50,6 +50,13 @@ class Format(enum.IntEnum):
     R32UI = 3  # a number for each pixel: of Quantity.OBJECT
 
 
+class Projection(enum.IntEnum):
+    """What the rays of a camera have in common."""
+
+    PERSPECTIVE = 0  # they start at one point
+    ORTHOGRAPHIC = 1  # they are parallel, and start on a plane
+
+
 class Estimator(enum.IntEnum):
     """How light is found. All converge to the same image, with different noise and time."""
 
@@ -121,6 +128,7 @@ class Feature(enum.IntFlag):
     MOTION = 4
     LARGE = 8
     TREE = 16
+    ORTHOGRAPHIC = 32
 
 
 class Uncertain(enum.IntFlag):

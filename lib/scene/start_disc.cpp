@@ -1,0 +1,30 @@
+#include "lib/scene/start_disc.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pt {
+
+// The points of the disc are between two distances from a centre that lies a before its plane and c from its axis: the root
+// of a^2 + max(c - radius, 0)^2 and that of a^2 + (c + radius)^2. A ball that moves is taken for all within half its way.
+// Float32 tells sides to a share of what the ball or, of a huge one, its distance measures.
+bool divides_start(const MovingBall &ball, const Camera &camera, double slack) {
+    if (camera.start_radius == 0.0)
+        return false;
+    const glm::dvec3 centre = ball.open + 0.5 * ball.way;
+    const double along = glm::dot(centre, camera.forward);
+    const double across = glm::length(centre - along * camera.forward);
+    const double nearest = std::hypot(along, std::max(across - camera.start_radius, 0.0));
+    const double farthest = std::hypot(along, across + camera.start_radius);
+    const double height = std::abs(glm::length(centre) - ball.radius);
+    const double rounded = side_margin * std::min(ball.radius, std::max(height, camera.start_radius));
+    const double margin = rounded + 0.5 * glm::length(ball.way) + slack;
+    return nearest <= ball.radius + margin && farthest >= ball.radius - margin;
+}
+
+bool divides_start(const CurvedPlane &flat, const Camera &camera) {
+    const double sine = glm::length(glm::cross(flat.normal, camera.forward));
+    return camera.start_radius > 0.0 && std::abs(flat.offset) <= camera.start_radius * (sine + side_margin);
+}
+
+} // namespace pt
