@@ -18,10 +18,16 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json camera_json(const FittedCamera &camera) {
-    return {{"position", camera.position},
-            {"look_at", moved(camera.position, camera.target_distance, camera.frame.forward)},
-            {"up", camera.frame.up},
-            {"vertical_fov", camera.vertical_fov * (180.0 / std::numbers::pi)}};
+    ordered_json json{{"position", camera.position},
+                      {"look_at", moved(camera.position, camera.target_distance, camera.frame.forward)},
+                      {"up", camera.frame.up}};
+    if (camera.projection == Projection::orthographic) {
+        json["projection"] = "orthographic";
+        json["vertical_extent"] = camera.view_height;
+    } else {
+        json["vertical_fov"] = camera.vertical_fov * (180.0 / std::numbers::pi);
+    }
+    return json;
 }
 
 void add_lamp(ordered_json &scene, const std::string &name, const StageLamp &lamp) {
