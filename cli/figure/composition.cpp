@@ -12,8 +12,7 @@ constexpr double outline_light = 0.01; // nearly black
 
 Colour shown(const ToneMap &map, std::span<const float> radiance, std::size_t first) {
     const double scale = std::exp2(map.exposure);
-    return apply_curve(map.curve,
-                       {radiance[first] * scale, radiance[first + 1] * scale, radiance[first + 2] * scale});
+    return apply_curve(map.curve, {radiance[first] * scale, radiance[first + 1] * scale, radiance[first + 2] * scale});
 }
 
 // A pixel, multiplied by its alpha.

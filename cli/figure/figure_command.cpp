@@ -129,7 +129,8 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
         return exit_code_of_signal(interrupt_signal());
     }
     const Balls balls(particles.data.positions, particles.radii);
-    const auto edges = particles.data.box && options.shows_box ? edges_of(*particles.data.box) : std::array<Segment, 12>{};
+    const auto edges =
+        particles.data.box && options.shows_box ? edges_of(*particles.data.box) : std::array<Segment, 12>{};
     const FigureContents contents{
         balls,
         {static_cast<std::uint32_t>(stage.spheres.size()), static_cast<std::uint32_t>(balls.count())},
@@ -145,7 +146,8 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
     report.total_seconds = report.accumulate_seconds;
     if (!options.quiet) {
         const auto is_stream = [](const std::string &path) { return path == standard_stream; };
-        print_for_people("wrote a figure of " + std::to_string(balls.count()) + " particles: " + summary_text(report) + "\n",
+        print_for_people("wrote a figure of " + std::to_string(balls.count()) + " particles: " + summary_text(report) +
+                             "\n",
                          std::any_of(options.outputs.begin(), options.outputs.end(), is_stream) ||
                              is_stream(options.legend) || is_stream(options.scene));
     }

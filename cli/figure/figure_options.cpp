@@ -28,8 +28,7 @@ void add_output_options(CLI::App &command, FigureOptions &options) {
         ->type_name("IMAGE")
         ->group(group);
     add_format(command, options.format, image_format_names)->group(group);
-    command
-        .add_option("--legend", options.legend, "Write what the colours say, as a picture of its own")
+    command.add_option("--legend", options.legend, "Write what the colours say, as a picture of its own")
         ->type_name("SVG")
         ->group(group);
     command
@@ -44,40 +43,43 @@ void add_data_options(CLI::App &command, FigureOptions &options) {
     add_whole_number<std::int64_t>(command, "--frame", options.frame, std::numeric_limits<std::int64_t>::min(),
                                    "Frame of the file: 0 is the first, -1 the last, -2 the one before (default: -1)")
         ->group(group);
-    command
-        .add_flag("--wrap", options.wraps, "Bring particles that have left a periodic box back into it")
+    command.add_flag("--wrap", options.wraps, "Bring particles that have left a periodic box back into it")
         ->group(group);
 }
 
 void add_particle_options(CLI::App &command, FigureOptions &options) {
     const std::string group = "Particles";
     command
-        .add_option("--color", options.color, "Column whose numbers the colours say (default: types, where the file has them)")
+        .add_option("--color", options.color,
+                    "Column whose numbers the colours say (default: types, where the file has them)")
         ->type_name("COLUMN")
         ->group(group);
     constexpr double least = 1e-18;
     constexpr double most = 1e18;
-    add_real_number(command, "--radius", options.radius, least, most,
-                    "Radius of all balls (default: the column radius, else half of what most nearest neighbours are apart)")
+    add_real_number(
+        command, "--radius", options.radius, least, most,
+        "Radius of all balls (default: the column radius, else half of what most nearest neighbours are apart)")
         ->type_name("R")
         ->group(group);
 }
 
 void add_view_options(CLI::App &command, FigureOptions &options) {
     const std::string group = "View";
-    add_size(command, options.size)->group(group)->description(
-        "Width and height of the picture (default: 1024x768 pixels in the shape of the data)");
+    add_size(command, options.size)
+        ->group(group)
+        ->description("Width and height of the picture (default: 1024x768 pixels in the shape of the data)");
     const auto read_view = [&options](const std::string &text) {
         const auto view = parse_view(text);
         if (!view) {
-            refuse_option("--view", "must be " + alternatives(view_names) + ", or three numbers like 1,-2,0.5, not all 0",
-                          text);
+            refuse_option("--view",
+                          "must be " + alternatives(view_names) + ", or three numbers like 1,-2,0.5, not all 0", text);
         }
         options.view = *view;
     };
     command
         .add_option_function<std::string>(
-            "--view", read_view, "From where the data are seen: a side, or the direction to the camera (default: three-quarter)")
+            "--view", read_view,
+            "From where the data are seen: a side, or the direction to the camera (default: three-quarter)")
         ->type_name(alternatives(view_names) + "|X,Y,Z")
         ->group(group);
     const auto read_up = [&options](const std::string &text) {
@@ -87,8 +89,7 @@ void add_view_options(CLI::App &command, FigureOptions &options) {
         }
         options.up = *up;
     };
-    command
-        .add_option_function<std::string>("--up", read_up, "What is up in the data (default: z)")
+    command.add_option_function<std::string>("--up", read_up, "What is up in the data (default: z)")
         ->type_name("x|y|z|-x|-y|-z|X,Y,Z")
         ->group(group);
     add_name(command, "--projection", options.projection, &find_projection, "projection", projection_names,
@@ -102,7 +103,8 @@ void add_look_options(CLI::App &command, FigureOptions &options) {
              "Surfaces and light; ambient-occlusion has light from all sides alone (default: matte)")
         ->group(group);
     command.add_flag("--outlines", options.has_outlines, "Draw dark lines round the balls")->group(group);
-    command.add_flag("--floor", options.has_floor, "Put the data on a floor, on which their shadows fall")->group(group);
+    command.add_flag("--floor", options.has_floor, "Put the data on a floor, on which their shadows fall")
+        ->group(group);
     add_name(command, "--background", options.background, &find_figure_background, "background",
              figure_background_names, "What is behind (default: white)")
         ->group(group);
@@ -114,9 +116,11 @@ void add_look_options(CLI::App &command, FigureOptions &options) {
 } // namespace
 
 const char *const figure_help =
-    "DATA is of a simulation, a molecule or a point cloud. The camera goes as near as it can with all of every ball in\n"
+    "DATA is of a simulation, a molecule or a point cloud. The camera goes as near as it can with all of every ball "
+    "in\n"
     "the picture. All lengths follow from the data, so that their units do not matter. Bonds are not drawn.\n\n"
-    "The scene of --write-scene is the figure without its background, outlines and lines of the box, which are laid over\n"
+    "The scene of --write-scene is the figure without its background, outlines and lines of the box, which are laid "
+    "over\n"
     "the rendered picture: `pt render` makes the same .exr of it.\n";
 
 void add_figure_options(CLI::App &command, FigureOptions &options) {

@@ -18,13 +18,8 @@ namespace {
 
 // Okabe and Ito 2008, "Color Universal Design", without black and in an order whose first two differ most in lightness too;
 // the colour-blind can tell them apart.
-constexpr std::array<DisplayColour, 7> type_colours{{{0, 114, 178},
-                                                     {230, 159, 0},
-                                                     {0, 158, 115},
-                                                     {213, 94, 0},
-                                                     {86, 180, 233},
-                                                     {204, 121, 167},
-                                                     {240, 228, 66}}};
+constexpr std::array<DisplayColour, 7> type_colours{
+    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {213, 94, 0}, {86, 180, 233}, {204, 121, 167}, {240, 228, 66}}};
 constexpr DisplayColour plain_colour{150, 170, 190};
 
 const ParticleColumn *find_column(const Particles &particles, const std::string &name) {
@@ -54,8 +49,8 @@ public:
                 dimensions += 1.0;
             }
         }
-        side_ = dimensions == 0.0 ? 1.0
-                                  : largest * std::pow(2.0 * volume / static_cast<double>(count()), 1.0 / dimensions);
+        side_ =
+            dimensions == 0.0 ? 1.0 : largest * std::pow(2.0 * volume / static_cast<double>(count()), 1.0 / dimensions);
         for (std::size_t i = 0; i < count(); ++i) {
             cells_[key(cell_of(point(i)))].push_back(static_cast<std::uint32_t>(i));
         }

@@ -12,9 +12,9 @@ namespace cli {
 
 struct FigureParticles {
     Particles data;
-    std::vector<double> radii;              // of each, or one for all
-    std::vector<DisplayColour> palette;     // at least one
-    std::vector<std::uint32_t> colours;     // of each particle, an index into the palette
+    std::vector<double> radii;          // of each, or one for all
+    std::vector<DisplayColour> palette; // at least one
+    std::vector<std::uint32_t> colours; // of each particle, an index into the palette
     Legend legend;
 };
 

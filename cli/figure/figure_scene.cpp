@@ -115,7 +115,8 @@ SceneFile figure_scene(const SceneFile &stage, const Stage &look, const FigurePa
     return scene;
 }
 
-std::string figure_scene_text(const FigureLayout &layout, std::uint32_t sample_count, const FigureParticles &particles) {
+std::string figure_scene_text(const FigureLayout &layout, std::uint32_t sample_count,
+                              const FigureParticles &particles) {
     ordered_json scene = stage_json(layout, sample_count);
     for (std::size_t i = 0; i < particles.palette.size(); ++i) {
         const pt_material material = material_of(particles.palette[i], layout.stage);

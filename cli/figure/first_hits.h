@@ -20,9 +20,7 @@ struct FirstHits {
     std::vector<float> depths;          // INFINITY where nothing is met
     std::vector<std::uint32_t> objects; // as PT_QUANTITY_OBJECT
 
-    bool wants(std::size_t row_of_hits) const {
-        return row_of_hits / hits_per_side - wanted_first < wanted_count;
-    }
+    bool wants(std::size_t row_of_hits) const { return row_of_hits / hits_per_side - wanted_first < wanted_count; }
     std::size_t columns() const { return std::size_t{width} * hits_per_side; }
     std::size_t rows() const { return std::size_t{row_count} * hits_per_side; }
 };

@@ -59,8 +59,8 @@ std::string colour_text(const DisplayColour &colour) {
 }
 
 std::size_t letter_count(const std::string &utf8) {
-    return static_cast<std::size_t>(
-        std::count_if(utf8.begin(), utf8.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U; }));
+    return static_cast<std::size_t>(std::count_if(
+        utf8.begin(), utf8.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U; }));
 }
 
 // Lengths of the drawing, in CSS pixels: 96 to an inch.
@@ -127,12 +127,13 @@ void draw_bar(Drawing &drawing, const ColourBar &bar, double top) {
     std::string gradient = "  <defs><linearGradient id=\"colours\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n";
     for (std::size_t i = 0; i < bar.colours.size(); ++i) {
         const double share = static_cast<double>(i) / static_cast<double>(bar.colours.size() - 1);
-        gradient += "    <stop offset=\"" + coordinate(share) + "\" stop-color=\"" + colour_text(bar.colours[i]) + "\"/>\n";
+        gradient +=
+            "    <stop offset=\"" + coordinate(share) + "\" stop-color=\"" + colour_text(bar.colours[i]) + "\"/>\n";
     }
     drawing.define(gradient + "  </linearGradient></defs>\n");
     drawing.rectangle(margin, top, width, height, "fill=\"url(#colours)\" stroke=\"#333333\"");
-    const std::vector<double> ticks = bar.high > bar.low ? tick_values(bar.low, bar.high, most_ticks)
-                                                         : std::vector<double>{bar.low};
+    const std::vector<double> ticks =
+        bar.high > bar.low ? tick_values(bar.low, bar.high, most_ticks) : std::vector<double>{bar.low};
     for (const double tick : ticks) {
         const double share = bar.high > bar.low ? (tick - bar.low) / (bar.high - bar.low) : 0.5;
         const double y = top + height * (1.0 - share);
@@ -145,7 +146,8 @@ void draw_swatches(Drawing &drawing, const std::vector<Swatch> &swatches, double
     constexpr double radius = 7.0;
     for (std::size_t i = 0; i < swatches.size(); ++i) {
         const double y = top + (static_cast<double>(i) + 0.5) * line_height;
-        drawing.circle(margin + radius, y, radius, "fill=\"" + colour_text(swatches[i].colour) + "\" stroke=\"#333333\"");
+        drawing.circle(margin + radius, y, radius,
+                       "fill=\"" + colour_text(swatches[i].colour) + "\" stroke=\"#333333\"");
         drawing.text(margin + 3.0 * radius, y, swatches[i].name);
     }
 }

@@ -125,8 +125,8 @@ public:
 
     // Whether the one hit is of a ball whose edge is between it and the other.
     bool is_edge(std::size_t hit, std::size_t other) const {
-        constexpr double least_step = 0.1;      // of the radius, behind the ball
-        constexpr double least_radius = 2.5;    // of a ball with an outline, in widths of the line
+        constexpr double least_step = 0.1;   // of the radius, behind the ball
+        constexpr double least_radius = 2.5; // of a ball with an outline, in widths of the line
         const std::uint32_t object = hits_.objects[hit];
         if (object == hits_.objects[other] || !particles_.contains(object)) {
             return false;
@@ -201,7 +201,8 @@ void add_outlines(const FirstHits &hits, const Screen &screen, const Balls &ball
         for (std::ptrdiff_t column = 0; column < columns; ++column) {
             const auto hit = static_cast<std::size_t>(row * columns + column);
             const auto has_edge = [&](bool is_there, std::ptrdiff_t step) {
-                return is_there && finder.is_edge(hit, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(hit) + step));
+                return is_there &&
+                       finder.is_edge(hit, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(hit) + step));
             };
             if (has_edge(column > 0, -1) || has_edge(column + 1 < columns, 1) || has_edge(row > 0, -columns) ||
                 has_edge(row + 1 < rows, columns)) {

@@ -8,8 +8,8 @@
 namespace cli {
 
 struct ScreenPoint {
-    double x; // pixels, from the left side
-    double y; // pixels, from the top
+    double x;     // pixels, from the left side
+    double y;     // pixels, from the top
     double depth; // along the view, as PT_QUANTITY_DEPTH has it
 };
 
@@ -25,8 +25,8 @@ public:
         const Vector3 way = moved(point, -1.0, camera_.position);
         const double depth = dot(camera_.frame.forward, way);
         const double scale = pixels_per_length(depth);
-        return {0.5 * width_ + scale * dot(camera_.frame.right, way), 0.5 * height_ - scale * dot(camera_.frame.up, way),
-                depth};
+        return {0.5 * width_ + scale * dot(camera_.frame.right, way),
+                0.5 * height_ - scale * dot(camera_.frame.up, way), depth};
     }
 
     // Across the view, at this depth.

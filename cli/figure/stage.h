@@ -34,7 +34,7 @@ struct Stage {
     std::optional<StageLamp> key; // a large lamp far behind the left shoulder of the camera, for the shape of bodies
     std::optional<Floor> floor;
     double floor_albedo;
-    double specular;              // of the particles
+    double specular; // of the particles
     double glossiness;
     unsigned max_path_length;
 };
@@ -46,6 +46,7 @@ struct Bounds {
 };
 
 // Light falls from where the camera is, and from above in the picture. floor: none, if there is to be none.
-Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bounds, const std::optional<Floor> &floor);
+Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bounds,
+                 const std::optional<Floor> &floor);
 
 } // namespace cli

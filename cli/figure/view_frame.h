@@ -16,7 +16,7 @@ struct ViewFrame {
     Vector3 forward;
 };
 
-inline constexpr std::array<std::string_view, 7> view_names{"three-quarter", "front", "back", "left",
+inline constexpr std::array<std::string_view, 7> view_names{"three-quarter", "front", "back",  "left",
                                                             "right",         "top",   "bottom"};
 
 // A direction from the data to the camera: a name, or numbers in the data's coordinates.
