@@ -44,12 +44,12 @@ private:
 // A pyramid of view with a fixed direction, whose apex goes as near as the balls allow.
 //
 // A ball is seen as a whole if it is on the inner side of the four planes through the pinhole p and the sides of the
-// picture: dot(n, c - p) >= r for the inward unit normal n of each. Over all balls that is dot(n, p) <= s with s the least
-// dot(n, c) - r: four numbers are all that has to be kept of them. With half of the horizontal angle a, the normals of
-// the left and the right plane are cos(a) right + sin(a) forward and -cos(a) right + sin(a) forward. Their sum bounds how
-// far forward p may be, dot(forward, p) <= (s_left + s_right) / (2 sin a), and the same holds of the other pair; the
-// smaller bound is met. What is left of the freedom sideways puts p in the middle between the two planes of a pair:
-// dot(right, p) = (s_left - s_right) / (2 cos a).
+// picture: dot(n, c - p) >= r for the inward unit normal n of each. Over all balls that is dot(n, p) <= s with s the
+// least dot(n, c) - r: four numbers are all that has to be kept of them. With half of the horizontal angle a, the
+// normals of the left and the right plane are cos(a) right + sin(a) forward and -cos(a) right + sin(a) forward. Their
+// sum bounds how far forward p may be, dot(forward, p) <= (s_left + s_right) / (2 sin a), and the same holds of the
+// other pair; the smaller bound is met. What is left of the freedom sideways puts p in the middle between the two
+// planes of a pair: dot(right, p) = (s_left - s_right) / (2 cos a).
 class PyramidFit {
 public:
     // The sines and cosines are those of the half angles, whose tangents are given.
@@ -71,8 +71,8 @@ private:
     std::array<Pair, 2> pairs_;
 };
 
-// The full vertical angle of the perspective: narrow, as portraits are taken, since wide ones make balls at the sides of
-// the picture look like eggs.
+// The full vertical angle of the perspective: narrow, as portraits are taken, since wide ones make balls at the sides
+// of the picture look like eggs.
 inline constexpr double figure_vertical_fov = 0.35; // radians, 20 degrees
 
 // The share of the picture that stays free at the sides.

@@ -23,19 +23,19 @@ struct ComposedFigure {
     std::vector<float> alpha; // of a transparent background; else empty
 };
 
-// radiance: of the whole scene. stage: of the same scene without its particles, by the same samples; three components to a
-// pixel, or three alone if all pixels are alike.
+// radiance: of the whole scene. stage: of the same scene without its particles, by the same samples; three components
+// to a pixel, or three alone if all pixels are alike.
 //
-// What the particles and their shadows change is carried over to the background, as Debevec does where photographs are the
-// background (1998, "Rendering Synthetic Objects into Real Scenes", section 5): with the particles' share a of a
+// What the particles and their shadows change is carried over to the background, as Debevec does where photographs are
+// the background (1998, "Rendering Synthetic Objects into Real Scenes", section 5): with the particles' share a of a
 // pixel it is
 //
 //     light = T(radiance) + (1 - a) (white - T(stage)),
 //
-// T being the tone map. So a floor is white where nothing darkens it, and its shadows fade with the distance in which the
-// lamp does, without a horizon; without a floor T(radiance) is T(stage) where nothing is, and the background is white to the last
-// bit. Transparent, alpha is the least that gives this light over white: the particles' share at least, and of a shadow how
-// much it darkens.
+// T being the tone map. So a floor is white where nothing darkens it, and its shadows fade with the distance in which
+// the lamp does, without a horizon; without a floor T(radiance) is T(stage) where nothing is, and the background is
+// white to the last bit. Transparent, alpha is the least that gives this light over white: the particles' share at
+// least, and of a shadow how much it darkens.
 ComposedFigure compose(std::span<const float> radiance, std::span<const float> stage, const Overlay &overlay,
                        const ToneMap &tone_map, FigureBackground background);
 

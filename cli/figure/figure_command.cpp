@@ -13,6 +13,7 @@
 #include "cli/figure/figure_picture.h"
 #include "cli/figure/figure_scene.h"
 #include "cli/image/display_image.h"
+#include "cli/image/exposure.h"
 #include "cli/image/image_target.h"
 #include "cli/render/outcome.h"
 #include "cli/render/render_report.h"
@@ -117,7 +118,6 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
     report.render = settings.render;
     report.window = settings.window;
     report.requested_sample_count = settings.sample_count;
-    report.tone_map = ToneMap{settings.exposure.stops.value_or(0.0), settings.tone_curve, settings.gamma};
     context.require(pt_get_context_device(context.get(), &report.device));
     if (!describe_scene(context, scene, [](double) { return interrupt_signal() == 0; })) {
         return exit_code_of_signal(interrupt_signal());
@@ -128,6 +128,9 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
         print_message("stopped by " + interrupt_name() + "; no image was written");
         return exit_code_of_signal(interrupt_signal());
     }
+    report.automatic_exposure = !settings.exposure.stops;
+    report.tone_map = ToneMap{settings.exposure.stops ? *settings.exposure.stops : automatic_exposure(image.radiance),
+                              settings.tone_curve, settings.gamma};
     const Balls balls(particles.data.positions, particles.radii);
     const auto edges =
         particles.data.box && options.shows_box ? edges_of(*particles.data.box) : std::array<Segment, 12>{};

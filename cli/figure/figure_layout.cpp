@@ -31,7 +31,8 @@ double relative_height(const Balls &balls, const Compass &compass) {
     return across > 0.0 ? extents.height() / (across / std::sqrt(2.0)) : 1.0;
 }
 
-// A picture of the shape of what is seen, though not of a ribbon's: of 1024 x 768 pixels in all, sides being multiples of 8.
+// A picture of the shape of what is seen, though not of a ribbon's: of 1024 x 768 pixels in all, sides being multiples
+// of 8.
 ImageSize shape_of(const ViewExtents &extents) {
     constexpr double pixel_count = 1024.0 * 768.0;
     constexpr double most_aspect = 2.0;

@@ -16,8 +16,8 @@ struct FigureLayout {
     Stage stage;
 };
 
-// box: what is seen of it, if anything is. Throws Failure(ExitCode::usage) for a floor that would be between the camera and
-// the balls. There must be one ball.
+// box: what is seen of it, if anything is. Throws Failure(ExitCode::usage) for a floor that would be between the camera
+// and the balls. There must be one ball.
 FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std::optional<SimulationBox> &box);
 
 } // namespace cli

@@ -131,10 +131,12 @@ void add_figure_options(CLI::App &command, FigureOptions &options) {
     add_view_options(command, options);
     add_look_options(command, options);
     add_display_options(command, options.display, "");
+    command.get_option("--exposure")
+        ->description("Brighten the balls by EV stops; auto: as pt render does (default: 0)");
     const std::string samples = "Samples";
     add_whole_number<std::uint32_t>(command, "--spp", options.sample_count, 1, "Samples per pixel (default: 128)")
         ->group(samples);
-    add_seed(command, options.seed)->group(samples);
+    add_seed(command, options.seed)->group(samples)->description("Seed (default: 0)");
     add_device(command, options.device);
     add_reporting(command, options.progress, options.quiet);
 }

@@ -16,8 +16,8 @@
 namespace cli {
 namespace {
 
-// Okabe and Ito 2008, "Color Universal Design", without black and in an order whose first two differ most in lightness too;
-// the colour-blind can tell them apart.
+// Okabe and Ito 2008, "Color Universal Design", without black and in an order whose first two differ most in lightness
+// too; the colour-blind can tell them apart.
 constexpr std::array<DisplayColour, 7> type_colours{
     {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {213, 94, 0}, {86, 180, 233}, {204, 121, 167}, {240, 228, 66}}};
 constexpr DisplayColour plain_colour{150, 170, 190};
@@ -58,8 +58,8 @@ public:
 
     std::size_t count() const { return positions_.size() / 3; }
 
-    // Of another place than the particle's own; infinite if there is none near. Rings of cells are looked at until none farther
-    // can have a nearer one.
+    // Of another place than the particle's own; infinite if there is none near. Rings of cells are looked at until none
+    // farther can have a nearer one.
     double nearest_distance(std::size_t particle) const {
         constexpr std::int64_t most_rings = 4;
         const Vector3 place = point(particle);

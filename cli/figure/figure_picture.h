@@ -30,8 +30,8 @@ struct FigureContents {
 // Reads what the camera sees first, in bands of rows: they take the place of the render settings of the context.
 Overlay read_overlay(const Context &context, const FigureContents &contents, const RenderSettings &settings);
 
-// The radiance without the particles: three numbers where nothing but the surround is there, else an image, rendered by the
-// same samples.
+// The radiance without the particles: three numbers where nothing but the surround is there, else an image, rendered by
+// the same samples.
 std::vector<float> render_stage(const Context &context, const SceneFile &scene, const RenderSettings &settings,
                                 const Stage &stage, std::uint32_t sample_count);
 

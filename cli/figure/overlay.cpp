@@ -39,8 +39,8 @@ public:
         return hits_between(low - radius, high + radius, count);
     }
 
-    // Of a row, which the line and what is nearer to it than radius passes: the strip of that width cuts the row in a range
-    // that is no longer than the row's height and the radius make it.
+    // Of a row, which the line and what is nearer to it than radius passes: the strip of that width cuts the row in a
+    // range that is no longer than the row's height and the radius make it.
     HitRange columns(double y, double radius, std::size_t count) const {
         const double dx = end_.x - begin_.x;
         const double dy = end_.y - begin_.y;
@@ -55,9 +55,9 @@ public:
         return hits_between(low - radius, high + radius, count);
     }
 
-    // Depth of the point of the segment that is nearest to the place in the picture; infinite if that is farther than radius.
-    // Along a straight line of the picture the inverse of the depth is linear in a perspective (Blinn 1992, "Hyperbolic
-    // interpolation"), and the depth itself in an orthographic view.
+    // Depth of the point of the segment that is nearest to the place in the picture; infinite if that is farther than
+    // radius. Along a straight line of the picture the inverse of the depth is linear in a perspective (Blinn 1992,
+    // "Hyperbolic interpolation"), and the depth itself in an orthographic view.
     double depth_at(double x, double y, double radius) const {
         const double dx = end_.x - begin_.x;
         const double dy = end_.y - begin_.y;

@@ -46,8 +46,8 @@ void add_particles(const FirstHits &hits, const ParticleObjects &particles, Over
 void add_lines(const FirstHits &hits, const Screen &screen, std::span<const Segment> segments, double line_width,
                Overlay &overlay);
 
-// Lines at the edges of balls: where what is behind is farther by more than a tenth of the radius, or is no ball. Balls that
-// are not much larger than the line have none, as they would be all outline.
+// Lines at the edges of balls: where what is behind is farther by more than a tenth of the radius, or is no ball. Balls
+// that are not much larger than the line have none, as they would be all outline.
 void add_outlines(const FirstHits &hits, const Screen &screen, const Balls &balls, const ParticleObjects &particles,
                   double line_width, Overlay &overlay);
 

@@ -9,8 +9,8 @@
 namespace cli {
 namespace {
 
-// What gives the shares of the edges: the rows of the inverse of the matrix whose columns are the edges, which are cross
-// products of the others, over the volume (Cramer).
+// What gives the shares of the edges: the rows of the inverse of the matrix whose columns are the edges, which are
+// cross products of the others, over the volume (Cramer).
 std::array<Vector3, 3> reciprocal_edges(const SimulationBox &box) {
     const auto &edges = box.edges;
     const double volume = dot(edges[0], cross(edges[1], edges[2]));

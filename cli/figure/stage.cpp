@@ -34,8 +34,8 @@ std::optional<FigureStyle> find_figure_style(std::string_view name) {
 
 Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bounds,
                  const std::optional<Floor> &floor) {
-    // Where a surface faces the key lamp and sees all of the surround, it has the radiance of its albedo: the colours of a
-    // legend are those of the lit sides.
+    // Where a surface faces the key lamp and sees all of the surround, it has the radiance of its albedo: the colours
+    // of a legend are those of the lit sides.
     constexpr double surround_brightness = 0.4375; // of few bits, so that means are the same number
     constexpr double key_brightness = 0.75;
     constexpr double key_half_angle = 14.0 * degree; // shadows are as soft as of a window three times as far as wide

@@ -1,5 +1,5 @@
-// What stands around the particles of a figure: soft light, and a floor where one is wanted. All is sized by the data, so
-// that angstroms and light years look alike.
+// What stands around the particles of a figure: soft light, and a floor where one is wanted. All is sized by the data,
+// so that angstroms and light years look alike.
 #pragma once
 
 #include "cli/figure/camera_fit.h"
@@ -28,8 +28,8 @@ struct Floor {
 };
 
 struct Stage {
-    // A sphere around everything, which shines evenly. Where all of it is seen, a surface of albedo 1 is as bright as it; in
-    // clefts it is darker.
+    // A sphere around everything, which shines evenly. Where all of it is seen, a surface of albedo 1 is as bright as
+    // it; in clefts it is darker.
     StageLamp surround;
     std::optional<StageLamp> key; // a large lamp far behind the left shoulder of the camera, for the shape of bodies
     std::optional<Floor> floor;
