@@ -8,6 +8,7 @@
 #include "cli/bench/bench_command.h"
 #include "cli/bench/bench_options.h"
 #include "cli/compare/compare_command.h"
+#include "cli/figure/figure_command.h"
 #include "cli/film/merge_command.h"
 #include "cli/film/merge_options.h"
 #include "cli/help/help_commands.h"
@@ -86,6 +87,9 @@ private:
         cli::add_render_options(add("render", "Render a scene file to images", cli::render_help,
                                     [this] { return cli::run_render(render_); }),
                                 render_);
+        cli::add_figure_options(add("figure", "Make a picture of particles, without a scene file", cli::figure_help,
+                                    [this] { return cli::run_figure(figure_); }),
+                                figure_);
         cli::add_tonemap_options(add("tonemap", "Make a picture of a file of radiance, without rendering",
                                      cli::tonemap_help, [this] { return cli::run_tonemap(tonemap_); }),
                                  tonemap_);
@@ -128,6 +132,7 @@ private:
     CLI::App app_{"An offscreen path tracer for spheres and planes on any Vulkan device", "pt"};
     std::vector<Command> commands_;
     cli::RenderOptions render_;
+    cli::FigureOptions figure_;
     cli::TonemapOptions tonemap_;
     cli::CompareOptions compare_;
     cli::BenchOptions bench_;

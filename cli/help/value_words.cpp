@@ -16,9 +16,9 @@ const std::vector<FileKind> &file_kinds() {
     static const std::vector<std::string_view> pictures{".png", ".jpg", ".jpeg"};
     static const std::vector<std::string_view> images{".exr", ".png", ".jpg", ".jpeg"};
     static const std::vector<FileKind> kinds{
-        {"FILE", {}},          {"IMAGE", images},    {"REFERENCE", images}, {"OUT", pictures},
-        {"IN", {".exr"}},      {"EXR", {".exr"}},    {"PNG", {".png"}},     {"FILM", {".ptfilm"}},
-        {"PART", {".ptfilm"}}, {"SCENE", {".json"}}, {"JSON", {".json"}},   {"CSV", {".csv"}},
+        {"FILE", {}},        {"IMAGE", images}, {"REFERENCE", images}, {"OUT", pictures},     {"IN", {".exr"}},
+        {"EXR", {".exr"}},   {"PNG", {".png"}}, {"FILM", {".ptfilm"}}, {"PART", {".ptfilm"}}, {"SCENE", {".json"}},
+        {"JSON", {".json"}}, {"CSV", {".csv"}}, {"SVG", {".svg"}},     {"DATA", {}},
     };
     return kinds;
 }

@@ -51,13 +51,13 @@ class ManualPages(CommandLineTest):
         for command in self.commands():
             self.expect(0, command, "--help")
             shown = self.output
-            page = self.page(command).replace("\\-", "-").replace("\\&", "")
+            page = self.page(command).replace("\\-", "-")
             for names, value, text in re.findall(
                     r"^  (-\S+)(?: (\S.*?))?(?:\n {20,}|  +)(\S.*(?:\n {20,}\S.*)*)", shown, re.MULTILINE):
                 tag = ", ".join(rf"\fB{name}\fR" for name in names.split(","))
                 tag += rf" \fI{value}\fR" if value and not value.startswith("[") else ""
                 entry = page.split(f".TP\n{tag}\n" if not value.startswith("[") else f".TP\n{tag} [")[1].split("\n.")[0]
-                plain = entry.replace("\\(aq", "'").replace("\\(ga", "`").replace("\\(ha", "^")
+                plain = entry.replace("\\&", "").replace("\\(aq", "'").replace("\\(ga", "`").replace("\\(ha", "^")
                 if not value.startswith("["):
                     self.assertEqual(plain.split(), text.split(), names)
             for group in re.findall(r"^([A-Z].*):$", shown.split("Usage: ")[1], re.MULTILINE):

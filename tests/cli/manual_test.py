@@ -106,6 +106,8 @@ class RealDevice(CommandLineTest):
     def setUp(self):
         super().setUp()
         shutil.copy(os.path.join(SCENES, "first.json"), self.path("scene.json"))
+        particles, = re.findall(r"```xyz\n(.*?)```", MANUAL, re.DOTALL)
+        self.write("water.xyz", particles)
 
     def test_the_scene_is_the_shipped_one(self):
         example, = re.findall(r"```json\n(.*?)```", MANUAL, re.DOTALL)
@@ -124,7 +126,8 @@ class RealDevice(CommandLineTest):
                     for line in block.splitlines() if line.startswith("pt ")]
         self.assertGreater(len(commands), 5)
         for command in commands:
-            smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
+            smaller = ["--size", "96x48"] if command[1] in ("render", "figure") and "--size" not in command else []
+            smaller += ["--spp", "2"] if command[1] == "figure" else []
             words = command[1:command.index(">")] if ">" in command else command[1:]
             if "--watch" not in command:  # which does not end by itself
                 self.expect(0, *words, *smaller)

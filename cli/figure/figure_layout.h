@@ -1,0 +1,23 @@
+// Everything about a figure that follows from its balls: the camera, the light, the size of the picture.
+#pragma once
+
+#include "cli/base/number.h"
+#include "cli/data/particles.h"
+#include "cli/figure/balls.h"
+#include "cli/figure/figure_options.h"
+
+#include <optional>
+
+namespace cli {
+
+struct FigureLayout {
+    ImageSize size;
+    FittedCamera camera;
+    Stage stage;
+};
+
+// box: what is seen of it, if anything is. Throws Failure(ExitCode::usage) for a floor that would be between the camera
+// and the balls. There must be one ball.
+FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std::optional<SimulationBox> &box);
+
+} // namespace cli
