@@ -7,7 +7,7 @@
 namespace cli {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 // A lamp of a given half angle that gives `white` surfaces which face it the radiance `brightness`: their irradiance is
 // pi * radiance * sin^2 of the half angle (Lambert), and they give back a pi-th of it.
@@ -38,7 +38,8 @@ Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bo
     // of a legend are those of the lit sides.
     constexpr double surround_brightness = 0.4375; // of few bits, so that means are the same number
     constexpr double key_brightness = 0.75;
-    constexpr double key_half_angle = 14.0 * degree; // shadows are as soft as of a window three times as far as wide
+    constexpr double key_half_angle =
+        14.0 * one_degree; // shadows are as soft as of a window three times as far as wide
     // The lamp is farther than the camera, and so far that the light is nearly as strong at the far end of the data.
     const double far = std::max(20.0 * bounds.radius, 4.0 * camera.target_distance);
 
@@ -52,7 +53,7 @@ Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bo
         stage.max_path_length = 2; // what the surround gives directly: darker clefts than in nature
         return stage;
     }
-    const Vector3 direction = in_view(camera.frame, -35.0 * degree, 40.0 * degree);
+    const Vector3 direction = in_view(camera.frame, -35.0 * one_degree, 40.0 * one_degree);
     stage.key = soft_lamp(direction, far, bounds, key_half_angle, key_brightness);
     if (style == FigureStyle::glossy) {
         stage.specular = 0.12;
