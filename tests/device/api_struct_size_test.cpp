@@ -76,7 +76,7 @@ protected:
 };
 
 TEST(StructSize, AMisreadStructIsNoticed) {
-    const auto reads_beyond = [](const pt_camera &camera) { return camera.shutter_close; };
+    const auto reads_beyond = [](const pt_camera &camera) { return camera.vertical_extent; }; // its last
     const auto reads_size = [](const pt_camera &camera) { return camera.struct_size; };
     EXPECT_EQ(misread_sizes(valid_camera(), reads_beyond), older_sizes<pt_camera>());
     EXPECT_EQ(misread_sizes(valid_camera(), reads_size), older_sizes<pt_camera>());
