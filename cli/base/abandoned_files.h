@@ -9,8 +9,8 @@ namespace cli {
 // A name in which nobody else's files are mistaken for ours; attempt: counts the names that are taken already.
 std::string temporary_name(int attempt);
 
-// Locks a temporary file that was just created. False if it was removed in between, as an abandoned one. On a file system
-// without locks it is true, and nothing is ever removed there.
+// Locks a temporary file that was just created. False if it was removed in between, as an abandoned one. On a file
+// system without locks it is true, and nothing is ever removed there.
 bool lock_temporary(int descriptor);
 
 // Removes temporary files of that folder which nobody has locked: their programs were killed. What cannot be removed

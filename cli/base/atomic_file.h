@@ -28,8 +28,8 @@ public:
         file.commit();
     }
 
-    // Checks all that the constructor checks, and leaves no file behind: nor those of programs that were killed while they
-    // wrote in that folder.
+    // Checks all that the constructor checks, and leaves no file behind: nor those of programs that were killed while
+    // they wrote in that folder.
     static void check_writable(const std::string &path);
 
     // The file that is written. Symbolic links are followed, whether or not their target exists yet: a rename would

@@ -1,5 +1,5 @@
-// The names of pt.h's samplers, estimators and ways to spread samples. A new one is one more line here; options, scene files and reports
-// follow.
+// The names of pt.h's samplers, estimators and ways to spread samples. A new one is one more line here; options, scene
+// files and reports follow.
 #pragma once
 
 #include <pt/pt.h>

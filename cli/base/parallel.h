@@ -9,8 +9,8 @@
 
 namespace cli {
 
-// Calls work(first, end) for consecutive parts of [0, count): the last in this thread, the others in threads of their own
-// where there are any to be had. grain: parts are no smaller, but for the last; as much as makes a thread worth its
+// Calls work(first, end) for consecutive parts of [0, count): the last in this thread, the others in threads of their
+// own where there are any to be had. grain: parts are no smaller, but for the last; as much as makes a thread worth its
 // start. What work throws is thrown when all that were begun have ended.
 template <typename Work>
 void in_parallel(std::size_t count, std::size_t grain, const Work &work) {

@@ -18,8 +18,8 @@ struct ParticleArray {
     std::uint64_t count;               // of particles: the first length of the shape
     std::vector<std::string> columns;  // names of its numbers for a particle
     std::unique_ptr<DataStream> begun; // behind the head; nullptr: opened anew
-    // A stream that stands behind the head. Where columns are kept one after the other each needs its own; throws Failure
-    // where the file cannot be opened again.
+    // A stream that stands behind the head. Where columns are kept one after the other each needs its own; throws
+    // Failure where the file cannot be opened again.
     std::function<std::unique_ptr<DataStream>()> open;
 };
 

@@ -1,4 +1,5 @@
-// Tables as text: CSV (RFC 4180, but for line breaks within quotes) and TSV, with the names of columns in the first line.
+// Tables as text: CSV (RFC 4180, but for line breaks within quotes) and TSV, with the names of columns in the first
+// line.
 #pragma once
 
 #include "cli/data/data_stream.h"
@@ -6,7 +7,8 @@
 
 namespace cli {
 
-// A semicolon separates where a first line has one and no comma, as spreadsheets have it in many countries. Throws Failure.
+// A semicolon separates where a first line has one and no comma, as spreadsheets have it in many countries. Throws
+// Failure.
 void read_csv(DataStream &stream, ParticleRows &rows);
 void read_tsv(DataStream &stream, ParticleRows &rows);
 

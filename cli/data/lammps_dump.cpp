@@ -17,8 +17,8 @@ constexpr std::string_view item_mark = "ITEM: ";
 constexpr std::array<PositionNames, 4> lammps_positions{
     {{{"x", "y", "z"}, false}, {{"xu", "yu", "zu"}, false}, {{"xs", "ys", "zs"}, true}, {{"xsu", "ysu", "zsu"}, true}}};
 
-// Of lines "lo hi" with, if tilted, a third number each: xy, xz and yz. What lo and hi bound then is the tilted box, not
-// its edges (docs.lammps.org/Howto_triclinic.html):
+// Of lines "lo hi" with, if tilted, a third number each: xy, xz and yz. What lo and hi bound then is the tilted box,
+// not its edges (docs.lammps.org/Howto_triclinic.html):
 //   xlo_bound = xlo + min(0, xy, xz, xy + xz),   xhi_bound = xhi + max(0, xy, xz, xy + xz),
 //   ylo_bound = ylo + min(0, yz),                yhi_bound = yhi + max(0, yz).
 SimulationBox restricted_box(const std::vector<std::vector<double>> &lines, bool tilted) {

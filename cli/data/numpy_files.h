@@ -1,5 +1,5 @@
-// Particles in NPY files, arrays of (n, 3) or more numbers or of records with x, y and z, and in NPZ files, which have an
-// array "positions" or three arrays "x", "y" and "z".
+// Particles in NPY files, arrays of (n, 3) or more numbers or of records with x, y and z, and in NPZ files, which have
+// an array "positions" or three arrays "x", "y" and "z".
 #pragma once
 
 #include "cli/data/data_stream.h"

@@ -119,8 +119,8 @@ std::unique_ptr<FrameFile> frame_file(std::string_view format, std::unique_ptr<D
                                                                   (count == 1 ? " frame" : " frames") + range);
 }
 
-// Which frames are counted from the end is known when all have been passed. Where a file can be read once alone the last
-// frame is the one that was read last.
+// Which frames are counted from the end is known when all have been passed. Where a file can be read once alone the
+// last frame is the one that was read last.
 void read_last_frame(FrameFile &frames, const std::string &file, const ParticleQuery &query, ParticleRows &rows) {
     if (query.frame != -1) {
         throw Failure(query.blame, file + ": frame " + std::to_string(query.frame) +

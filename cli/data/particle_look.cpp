@@ -13,7 +13,8 @@ namespace {
 
 constexpr const char *type_column = "type";
 
-// Okabe and Ito 2008, "Color Universal Design": orange, sky blue, bluish green, yellow, blue, vermilion, reddish purple.
+// Okabe and Ito 2008, "Color Universal Design": orange, sky blue, bluish green, yellow, blue, vermilion, reddish
+// purple.
 constexpr std::array<std::uint32_t, 7> type_palette{0xe69f00, 0x56b4e9, 0x009e73, 0xf0e442,
                                                     0x0072b2, 0xd55e00, 0xcc79a7};
 

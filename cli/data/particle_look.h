@@ -37,8 +37,8 @@ std::vector<std::string> look_columns(const ParticleRadius &radius, const Partic
 std::vector<float> radii_of(const Particles &particles, const ParticleRadius &radius);
 
 // R, G and B of each particle, encoded by sRGB; none where the colour is constant. Elements have Jmol's colours; other
-// types the seven of Okabe and Ito 2008 that are not black, in turn, by their number or their order in the file. A range
-// that is not given is that of the column; of red, green and blue 0 to 1 or, where one is larger, 0 to 255.
+// types the seven of Okabe and Ito 2008 that are not black, in turn, by their number or their order in the file. A
+// range that is not given is that of the column; of red, green and blue 0 to 1 or, where one is larger, 0 to 255.
 std::vector<std::uint8_t> colours_of(const Particles &particles, const ParticleColour &colour);
 
 } // namespace cli

@@ -13,8 +13,8 @@
 namespace cli {
 namespace {
 
-// By which formats call the types of particles. A file that has none of the name that is asked for may have another; and
-// these alone may have words.
+// By which formats call the types of particles. A file that has none of the name that is asked for may have another;
+// and these alone may have words.
 constexpr std::array<std::string_view, 8> type_columns{"type",    "element", "species", "symbol",
                                                        "symbols", "types",   "label",   "name"};
 
@@ -68,7 +68,8 @@ std::uint32_t ParticleRows::slot_of_column(std::size_t column) {
     return slots_[column];
 }
 
-// The column of that name, or else the only one whose name differs in case alone; the number of columns if there is none.
+// The column of that name, or else the only one whose name differs in case alone; the number of columns if there is
+// none.
 std::size_t ParticleRows::find_column(std::span<const std::string> columns, std::string_view name) const {
     const auto exact = std::find(columns.begin(), columns.end(), name);
     if (exact != columns.end()) {

@@ -34,8 +34,9 @@ public:
     // Where that value of the row that is being read stands, for messages.
     void set_place(std::function<std::string(std::uint32_t slot)> place) { place_ = std::move(place); }
 
-    // A frame begins, of particles with these columns: what was kept of the one before is dropped. choices: the position is
-    // in the first of which the file has all. Throws Failure if there is none, or a column is asked for that is not there.
+    // A frame begins, of particles with these columns: what was kept of the one before is dropped. choices: the
+    // position is in the first of which the file has all. Throws Failure if there is none, or a column is asked for
+    // that is not there.
     void begin_frame(std::span<const std::string> columns, std::span<const PositionNames> choices,
                      const std::optional<SimulationBox> &box);
 
@@ -44,8 +45,8 @@ public:
     std::size_t used_column_count() const { return used_column_count_; } // all that come later are unused
     std::size_t row_size() const { return names_.size(); }
 
-    // The text of a value that goes to that place of the row. Throws Failure if it is not a finite number, nor a word where
-    // the names of types may be.
+    // The text of a value that goes to that place of the row. Throws Failure if it is not a finite number, nor a word
+    // where the names of types may be.
     void set(double *row, std::uint32_t slot, std::string_view text);
     bool has_words(std::uint32_t slot) const { return has_words_[slot] != 0; }
 

@@ -26,8 +26,8 @@ struct RecordStream {
     std::vector<RecordField> fields;
 };
 
-// Throws Failure where a stream ends before it has so many records, where records are larger than DataStream::longest, and
-// as ParticleRows does.
+// Throws Failure where a stream ends before it has so many records, where records are larger than DataStream::longest,
+// and as ParticleRows does.
 void read_records(std::span<const RecordStream> streams, std::uint64_t count, ParticleRows &rows);
 
 [[noreturn]] void refuse_missing_records(const DataStream &stream, std::uint64_t count, std::uint64_t expected);

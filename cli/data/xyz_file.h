@@ -1,4 +1,5 @@
-// XYZ, and extended XYZ, whose second line says what the columns are (docs.ase-lib.org/ase/io/formatoptions.html#extxyz).
+// XYZ, and extended XYZ, whose second line says what the columns are
+// (docs.ase-lib.org/ase/io/formatoptions.html#extxyz).
 #pragma once
 
 #include "cli/data/data_stream.h"

@@ -48,8 +48,8 @@ struct Directory {
     std::uint64_t count;
 };
 
-// Of the record at the end of the file (section 4.3.16), or of that for large files (4.3.14), whose place stands before it
-// (4.3.15).
+// Of the record at the end of the file (section 4.3.16), or of that for large files (4.3.14), whose place stands before
+// it (4.3.15).
 Directory find_directory(const std::string &path, std::uint64_t file_size) {
     using namespace std::string_view_literals;
     constexpr std::uint64_t end_size = 22;

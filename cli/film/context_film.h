@@ -15,8 +15,8 @@ void save_film(const Context &context, std::vector<std::byte> &bytes);
 
 std::vector<std::byte> saved_film(const Context &context);
 
-// Adds a film to the samples of the context. path: what it is called in messages. Throws Failure(ExitCode::usage) with a
-// line for each way in which it does not belong.
+// Adds a film to the samples of the context. path: what it is called in messages. Throws Failure(ExitCode::usage) with
+// a line for each way in which it does not belong.
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
 
 } // namespace cli

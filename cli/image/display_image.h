@@ -14,9 +14,9 @@ namespace cli {
 // What is done to the radiance, for the metadata.
 void add_tone_map(ImageAttributes &attributes, const ToneMap &tone_map);
 
-// radiance: R, G, B triples of the window's part, >= 0. png_bits: of a channel, 8 or 16; JPEG has 8. alpha: of each pixel, by
-// which its radiance is multiplied already; empty for none, and for JPEG. Throws Failure(ExitCode::file), and leaves an
-// existing file as it was.
+// radiance: R, G, B triples of the window's part, >= 0. png_bits: of a channel, 8 or 16; JPEG has 8. alpha: of each
+// pixel, by which its radiance is multiplied already; empty for none, and for JPEG. Throws Failure(ExitCode::file), and
+// leaves an existing file as it was.
 void write_display_image(ImageWriter &writer, const ImageTarget &target, const ImageWindow &window,
                          std::span<const float> radiance, const ToneMap &tone_map, std::uint32_t png_bits,
                          std::span<const pt_image_attribute> attributes, std::span<const float> alpha = {});

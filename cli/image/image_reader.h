@@ -24,8 +24,8 @@ struct DecodedImage {
     std::vector<float> values;         // channel by channel of a pixel, row by row from the top
     std::unique_ptr<ImageAttributes> attributes;
 
-    // Three values a pixel: the channels R, G and B of a layer, or X, Y and Z, or three times its only one. The main layer has no
-    // name. Throws Failure(ExitCode::file) if there is none of that name.
+    // Three values a pixel: the channels R, G and B of a layer, or X, Y and Z, or three times its only one. The main
+    // layer has no name. Throws Failure(ExitCode::file) if there is none of that name.
     std::vector<float> layer(const std::string &name) const;
 };
 

@@ -109,8 +109,8 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
                  image.has_alpha != 0 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_colour_space(encoding, image.gamma);
-    // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as large
-    // as the best of all filters and zlib's default do, in a third of the time or less.
+    // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as
+    // large as the best of all filters and zlib's default do, in a third of the time or less.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
     png_set_compression_level(encoding.png, 4);
     png_set_text(encoding.png, encoding.info, texts.data(), static_cast<int>(texts.size()));

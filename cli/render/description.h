@@ -1,4 +1,5 @@
-// What a command line and a scene file come to, for other programs that render: as numbers, without the words of either.
+// What a command line and a scene file come to, for other programs that render: as numbers, without the words of
+// either.
 #pragma once
 
 #include "cli/scene/render_settings.h"

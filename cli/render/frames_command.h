@@ -8,8 +8,8 @@ namespace cli {
 
 class TevViewer;
 
-// viewer: where frames are shown; NULL: nowhere. Returns the exit code; throws Failure. A frame that a signal stops is not
-// written: each file is a whole frame.
+// viewer: where frames are shown; NULL: nowhere. Returns the exit code; throws Failure. A frame that a signal stops is
+// not written: each file is a whole frame.
 int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer);
 
 } // namespace cli

@@ -1,5 +1,5 @@
-// What the options --layers and --alpha add to an image beside the radiance: read from the library, and named by the customs
-// of OpenEXR.
+// What the options --layers and --alpha add to an image beside the radiance: read from the library, and named by the
+// customs of OpenEXR.
 #pragma once
 
 #include "cli/base/context.h"

@@ -19,7 +19,8 @@ namespace cli {
 
 class PictureObservers {
 public:
-    // All must outlive it. The time that is limited begins now. write_preview: see PreviewObserver. viewer: may be NULL.
+    // All must outlive it. The time that is limited begins now. write_preview: see PreviewObserver. viewer: may be
+    // NULL.
     PictureObservers(const Context &context, const RenderOptions &options, const ImageWindow &window,
                      Progress &progress, std::function<bool(const PiecewiseImage &)> write_preview, TevViewer *viewer);
 

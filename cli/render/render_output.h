@@ -45,7 +45,8 @@ std::uint32_t image_count(const RenderOptions &options);
 // The layers that have to be read, that of alpha among them: PT_QUANTITY_*.
 std::vector<std::uint32_t> wanted_layers(const RenderOptions &options);
 
-// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths of those written, output_count() if all were.
+// Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
+// of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &options, const RenderReport &report,
                                       const PictureImages &images);
 

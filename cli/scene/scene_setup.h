@@ -12,8 +12,8 @@ namespace cli {
 // All throw Failure. A rule that the scene file breaks is explained by its keys and lines, and is its fault
 // (ExitCode::scene), also where the library finds it only when it is to take samples.
 //
-// Scene and camera. goes_on is told the share of the scene that is taken over, and may end that by returning false: then
-// false is returned, and the context is as it was.
+// Scene and camera. goes_on is told the share of the scene that is taken over, and may end that by returning false:
+// then false is returned, and the context is as it was.
 bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
 
 // Of pt_set_render and pt_accumulate.

@@ -102,8 +102,8 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // An element of a column, of which the caller knows already that it breaks a rule: of many millions the most are only
-    // counted.
+    // An element of a column, of which the caller knows already that it breaks a rule: of many millions the most are
+    // only counted.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())

@@ -25,8 +25,8 @@ public:
     // The stage that begins now is this share of what is left of the whole, and has so much work, in any unit.
     void enter(double share_of_rest, double work);
 
-    // So much of the stage's work is done, for which so many elements were looked at: by these is decided when the caller
-    // is told.
+    // So much of the stage's work is done, for which so many elements were looked at: by these is decided when the
+    // caller is told.
     void add(double work, std::size_t elements) {
         done_ += work;
         untold_ += elements;
@@ -41,7 +41,8 @@ public:
     void finish();
 
 private:
-    // Half a millisecond to some: often enough for callers who watch, and seldom enough for those who are called slowly.
+    // Half a millisecond to some: often enough for callers who watch, and seldom enough for those who are called
+    // slowly.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell();

@@ -18,8 +18,8 @@ std::optional<TileStep> AdaptivePlan::next(const TileSamples &samples, AdaptiveR
     return next_apart(samples, round);
 }
 
-// As long as tiles are not told apart: the error is looked at as with even samples, and at each level whether it pays to.
-// Some may be on their way from one of these counts to the next.
+// As long as tiles are not told apart: the error is looked at as with even samples, and at each level whether it pays
+// to. Some may be on their way from one of these counts to the next.
 std::optional<TileStep> AdaptivePlan::next_together(const TileSamples &samples, AdaptiveRound &round) const {
     const std::uint64_t count = samples.least();
     if (samples.even() && is_check(count) && error_().high <= target_error_)

@@ -1,8 +1,8 @@
 // What tiles of a film take next on their way to a target error: adaptive_rule.h from look to look.
 //
-// However often it is interrupted, and by whatever limits of samples, a film comes to the same samples in the same tiles:
-// as long as tiles are together they are looked at when all have the same; later a tile's decision depends on its own sums
-// and the round alone, and a round ends when every tile has come to rest in it.
+// However often it is interrupted, and by whatever limits of samples, a film comes to the same samples in the same
+// tiles: as long as tiles are together they are looked at when all have the same; later a tile's decision depends on
+// its own sums and the round alone, and a round ends when every tile has come to rest in it.
 #pragma once
 
 #include "lib/film/adaptive_round.h"
@@ -41,8 +41,8 @@ public:
         error_(std::move(error)),
         squares_(std::move(squares)) {}
 
-    // Nothing if the film has the target error; no tile if none may take more. The goals are those of these samples, which
-    // must outlive them. Moves the round on where it is over.
+    // Nothing if the film has the target error; no tile if none may take more. The goals are those of these samples,
+    // which must outlive them. Moves the round on where it is over.
     std::optional<TileStep> next(const TileSamples &samples, AdaptiveRound &round) const;
 
 private:

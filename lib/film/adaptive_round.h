@@ -1,4 +1,5 @@
-// How far a film has come on its way to a target error, by the rule of adaptive_rule.h. A value that belongs to the film.
+// How far a film has come on its way to a target error, by the rule of adaptive_rule.h. A value that belongs to the
+// film.
 #pragma once
 
 #include <algorithm>

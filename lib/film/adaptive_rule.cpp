@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint64_t first_level = 16; // of fewer samples the difference of the film's parts says too little
 
-// Every tile holds a fourth of the mean or more: what its samples have not met yet they can only meet by being taken. On
-// scenes where tiles differ 2 to 3 times in what they need this costs a fiftieth of what uneven films gain.
+// Every tile holds a fourth of the mean or more: what its samples have not met yet they can only meet by being taken.
+// On scenes where tiles differ 2 to 3 times in what they need this costs a fiftieth of what uneven films gain.
 constexpr std::uint64_t floor_share = 4;
 
 constexpr double root_of_half = 0.70710678118654752440;
@@ -47,8 +47,8 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
     return sums;
 }
 
-// The sum that is expected in a round. Where the square falls as 1 / N, what a tile gains falls to a fourth as its samples
-// double: four rounds.
+// The sum that is expected in a round. Where the square falls as 1 / N, what a tile gains falls to a fourth as its
+// samples double: four rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
     double sum = 0.0;
     for (const auto &[content, square] : squares)
@@ -74,8 +74,8 @@ std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples) {
     return tiles;
 }
 
-// Half of the square for each sample, but for that half. Row by row, since a division for each tile takes longer than all
-// that is done with it.
+// Half of the square for each sample, but for that half. Row by row, since a division for each tile takes longer than
+// all that is done with it.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares) {
     std::vector<double> shares; // of the sets
     for (const SampleSet &set : samples.sets())
@@ -94,8 +94,9 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
-// With the variances v of tiles, samples in proportion to the root of v take mean(root v)^2 / mean(v) of those of an even
-// film. Counts that are powers of two, tiles whose v is off by a fifth, and the time that looks take cost up to an eighth.
+// With the variances v of tiles, samples in proportion to the root of v take mean(root v)^2 / mean(v) of those of an
+// even film. Counts that are powers of two, tiles whose v is off by a fifth, and the time that looks take cost up to an
+// eighth.
 bool are_worth_telling_apart(std::span<const double> gains) {
     constexpr double least_ratio = 1.2;
     double sum = 0.0;
@@ -122,8 +123,8 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
     return tiles;
 }
 
-// The further the target, the more rounds are left out: half of those that it is expected to take. With stratified samples
-// squares fall faster than expected, so that the target is hardly ever left behind by much.
+// The further the target, the more rounds are left out: half of those that it is expected to take. With stratified
+// samples squares fall faster than expected, so that the target is hardly ever left behind by much.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;

@@ -1,11 +1,11 @@
-// Which tiles of a film take more samples. A tile holds 16, 32, 64, ... samples a pixel and takes as many again while what
-// that is expected to gain, for each sample it costs, exceeds a bound; the bound falls from round to round, until the error
-// of the image is small enough. So samples go where they gain most: equal errors everywhere would take as many as an even
-// film (mean squares v after equal times), equal gains take them in proportion to the root of v.
+// Which tiles of a film take more samples. A tile holds 16, 32, 64, ... samples a pixel and takes as many again while
+// what that is expected to gain, for each sample it costs, exceeds a bound; the bound falls from round to round, until
+// the error of the image is small enough. So samples go where they gain most: equal errors everywhere would take as
+// many as an even film (mean squares v after equal times), equal gains take them in proportion to the root of v.
 //
-// Pure arithmetic on what a film says. A tile's decision depends on its own sums and on the round alone, so that at the end
-// of a round it holds the first of these numbers of samples at which it gains no more than the bound: whatever the order in
-// which tiles came to it, and whatever was interrupted on the way.
+// Pure arithmetic on what a film says. A tile's decision depends on its own sums and on the round alone, so that at the
+// end of a round it holds the first of these numbers of samples at which it gains no more than the bound: whatever the
+// order in which tiles came to it, and whatever was interrupted on the way.
 #pragma once
 
 #include "lib/film/adaptive_round.h"
@@ -24,8 +24,8 @@ bool is_level(std::uint64_t sample_count);
 // The tiles that were interrupted on their way to a level, or have not begun.
 std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 
-// By tile, what as many samples again are expected to lessen its square by, for each sample of a pixel that they cost; 0 if
-// that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
+// By tile, what as many samples again are expected to lessen its square by, for each sample of a pixel that they cost;
+// 0 if that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
 // Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
@@ -37,7 +37,8 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
 
 // The round that follows one in which no tile wants more. excess > 1: the square of the image's error over that of its
 // target; infinite if the error is unknown. sees_too_little: much of it is light that no sample has met
-// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more. Some tile wants more in it.
+// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more. Some tile wants more
+// in it.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little);
 

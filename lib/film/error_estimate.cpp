@@ -145,9 +145,9 @@ void ErrorEstimator::add(const RegionErrors &region) {
     all_.rejected += region.rejected;
 }
 
-// Tiles are independent of each other: the variance of the sum S over n values is estimated by the sum of the squares of
-// their deviations from the mean, s - c S / n for a tile with c values. That their expectations differ too only adds to
-// it.
+// Tiles are independent of each other: the variance of the sum S over n values is estimated by the sum of the squares
+// of their deviations from the mean, s - c S / n for a tile with c values. That their expectations differ too only adds
+// to it.
 Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const {
     const bool shows_nothing = squares.sum + other_squares == 0.0;
     if (!std::isfinite(squares.sum) || (shows_nothing && uncertain))

@@ -40,8 +40,8 @@ struct ValueError {
 // Of each value of the channel. sample_counts: of a pixel, for each tile of the region, row by row.
 std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts);
 
-// The sum of relative_square and unseen over the values of a channel of a tile, by what that tile alone knows; infinite if
-// it is unknown.
+// The sum of relative_square and unseen over the values of a channel of a tile, by what that tile alone knows; infinite
+// if it is unknown.
 double own_square(const RegionChannel &tile, double sample_count);
 
 } // namespace pt

@@ -206,7 +206,8 @@ PixelSums Film::rows(std::uint32_t first_row, std::uint32_t row_count) const {
     return sums;
 }
 
-// As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the fewest.
+// As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the
+// fewest.
 ErrorEstimate Film::error(bool may_miss_lamps) const {
     const std::uint64_t samples = sample_count();
     if (samples < min_estimate_samples)

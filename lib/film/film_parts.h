@@ -48,8 +48,8 @@ public:
     // Samples are added within this range, after a fold if it takes one.
     void extend(const SampleRange &range);
 
-    // Where tiles of the film have samples of their own, and so splits: all samples lie within this range, and the parts in
-    // memory stay what they are.
+    // Where tiles of the film have samples of their own, and so splits: all samples lie within this range, and the
+    // parts in memory stay what they are.
     void cover(const SampleRange &hull) {
         hull_ = hull;
         holds_samples_ = !hull.empty();

@@ -106,9 +106,9 @@ std::uint32_t square_root(std::uint64_t square) {
     return static_cast<std::uint32_t>(root);
 }
 
-// The float that a number is rounded to which is within 2^-50 of itself from this one, where all those are rounded to the
-// same, which is nearly always (Ziv 1991, Fast evaluation of elementary mathematical functions with correctly rounded last
-// bit).
+// The float that a number is rounded to which is within 2^-50 of itself from this one, where all those are rounded to
+// the same, which is nearly always (Ziv 1991, Fast evaluation of elementary mathematical functions with correctly
+// rounded last bit).
 std::optional<float> rounded_alike(double approximate) {
     constexpr std::uint64_t tie = std::uint64_t{1} << 28; // of the 29 bits that a float does not have
     const std::uint64_t below_float = std::bit_cast<std::uint64_t>(approximate) % (2 * tie);
@@ -146,8 +146,8 @@ PartWeights::PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b) {
     exponent_ = shift - dropped;
 }
 
-// The numerator |A b - B a| is exact. Of sums below 2^96 the products have 128 bits, and the quotient is found in double as
-// a rule; a power of two that a double has not is left to whole numbers.
+// The numerator |A b - B a| is exact. Of sums below 2^96 the products have 128 bits, and the quotient is found in
+// double as a rule; a power of two that a double has not is left to whole numbers.
 PartDifference PartWeights::difference(WideSum sum_a, WideSum sum_b, int exponent) const {
     exponent += exponent_;
     if ((sum_a | sum_b) >> 96 == 0 && std::abs(exponent) <= 1022) {

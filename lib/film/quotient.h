@@ -18,7 +18,8 @@ struct PartDifference {
     bool first_is_less;   // the mean of the first part is below that of the second
 };
 
-// Of sums A and B of a and b samples: |A / a - B / b| sqrt(a b) / (a + b), times 2^exponent, within .52 of the last place.
+// Of sums A and B of a and b samples: |A / a - B / b| sqrt(a b) / (a + b), times 2^exponent, within .52 of the last
+// place.
 //
 // Of a + b samples, whose means are those of the first a and the other b: if every sample has the variance v, the
 // square of the difference of the means has the expectation v / a + v / b, and the mean of all has the variance

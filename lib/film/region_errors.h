@@ -1,5 +1,5 @@
-// What a region says about the error of an image: what is expected of the squares of its pixels' errors, summed up, and how
-// they lie. The same on the host as estimate.comp says it on devices.
+// What a region says about the error of an image: what is expected of the squares of its pixels' errors, summed up, and
+// how they lie. The same on the host as estimate.comp says it on devices.
 #pragma once
 
 #include "lib/film/error_region.h"

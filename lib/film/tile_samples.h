@@ -1,5 +1,5 @@
-// Which samples each tile of a film holds. Most tiles share their samples with many others, so that each different set is
-// kept once.
+// Which samples each tile of a film holds. Most tiles share their samples with many others, so that each different set
+// is kept once.
 #pragma once
 
 #include "lib/film/film_parts.h"

@@ -1,5 +1,5 @@
-// What tiles and regions of a film whose tiles have different samples say about its error, on the host. Kept from look to
-// look: a tile is looked at again when it has other samples than before, and a region when one of its tiles has.
+// What tiles and regions of a film whose tiles have different samples say about its error, on the host. Kept from look
+// to look: a tile is looked at again when it has other samples than before, and a region when one of its tiles has.
 #pragma once
 
 #include "lib/film/region_errors.h"

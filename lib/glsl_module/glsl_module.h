@@ -17,9 +17,9 @@ typedef void (*pt_glsl_words_fn)(void *user, const uint32_t *words, size_t count
 typedef void (*pt_glsl_log_fn)(void *user, const char *text, size_t size);
 
 /* Compiles the compute shader directory/name as it is now, with what it includes, to the SPIR-V that the build embeds
- * for the same text. An included file is looked for beside the file that includes it, then in directory. Calls words once
- * and returns 0, or calls log once, with lines that begin with the names of file and line, and returns -1. From any
- * thread. */
+ * for the same text. An included file is looked for beside the file that includes it, then in directory. Calls words
+ * once and returns 0, or calls log once, with lines that begin with the names of file and line, and returns -1. From
+ * any thread. */
 typedef int32_t (*pt_compile_glsl_fn)(const char *directory, const char *name, pt_glsl_words_fn words,
                                       pt_glsl_log_fn log, void *user);
 

@@ -1,5 +1,5 @@
-// Resolves a film into a buffer of the caller's, on the device: no pixel passes the host. Owned by RenderDevice; bound to
-// its film.
+// Resolves a film into a buffer of the caller's, on the device: no pixel passes the host. Owned by RenderDevice; bound
+// to its film.
 #pragma once
 
 #include "lib/kernel/resolve.h"

@@ -35,7 +35,8 @@ public:
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree);
 
     // Of the scene that is shown: calls receive(counts) for consecutive pieces of the pixels, row by row.
-    // tests_per_submission: that are worth one, between rays and surfaces. Throws PT_ERROR_INTERNAL if a driver lost work.
+    // tests_per_submission: that are worth one, between rays and surfaces. Throws PT_ERROR_INTERNAL if a driver lost
+    // work.
     using Receive = std::function<void(std::span<const std::uint32_t>)>;
     void read(const CoverageQuery &query, double tests_per_submission, const Receive &receive);
 

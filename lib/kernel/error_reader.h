@@ -28,14 +28,14 @@ struct ErrorQuery {
 
 class ErrorReader {
 public:
-    // All must outlive it. estimate: of estimate_pipeline(), for films of this kind. The film's strips must be whole rows
-    // of regions.
+    // All must outlive it. estimate: of estimate_pipeline(), for films of this kind. The film's strips must be whole
+    // rows of regions.
     ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, bool uneven, DeviceFilm &film);
 
     using Receive = std::function<void(const RegionErrors &)>;
 
-    // Calls receive(region) for every region of the film, always in the same order. Throws PT_ERROR_INTERNAL if a driver
-    // lost work.
+    // Calls receive(region) for every region of the film, always in the same order. Throws PT_ERROR_INTERNAL if a
+    // driver lost work.
     void read(const ErrorQuery &query, const Receive &receive);
 
     // The same in two steps, where the film is one strip: records it behind the commands that make the film what it is

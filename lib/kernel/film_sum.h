@@ -23,15 +23,15 @@ public:
         DeviceFilm &film;
     };
 
-    // All must outlive it. sources: films of one size; the sum is on the device of the first. add: of add_pipeline(), on
-    // that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
+    // All must outlive it. sources: films of one size; the sum is on the device of the first. add: of add_pipeline(),
+    // on that device. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
     FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeline &add, std::uint32_t row_count);
 
     // Of so many rows.
     DeviceFilm &film() { return film_; }
 
-    // Makes it the sum of the films' rows from one on, with parts as of a film with samples in this hull. Of pixels that
-    // are not wanted, which are counted as in the films, it says nothing.
+    // Makes it the sum of the films' rows from one on, with parts as of a film with samples in this hull. Of pixels
+    // that are not wanted, which are counted as in the films, it says nothing.
     void gather(std::uint32_t first_row, const PixelRange &wanted, const SampleRange &hull);
 
 private:

@@ -1,5 +1,5 @@
-// Reads what camera rays meet first (shaders/first_hit.comp): depth, normal, albedo and surfaces of the scene that is set,
-// whether there are samples of it or not. Owned by RenderDevice, once it has been asked for.
+// Reads what camera rays meet first (shaders/first_hit.comp): depth, normal, albedo and surfaces of the scene that is
+// set, whether there are samples of it or not. Owned by RenderDevice, once it has been asked for.
 #pragma once
 
 #include "lib/film/film_header.h"
@@ -33,12 +33,12 @@ public:
     // Both must outlive it.
     FirstHits(vulkan::Device &device, std::span<const std::uint32_t> code);
 
-    // Takes a scene over, unless it has it. tree: the buffer of the scene's, NULL if it has none; it must stay until another
-    // scene is shown. Throws PT_ERROR_SHADER if the driver refuses the kernel.
+    // Takes a scene over, unless it has it. tree: the buffer of the scene's, NULL if it has none; it must stay until
+    // another scene is shown. Throws PT_ERROR_SHADER if the driver refuses the kernel.
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree);
 
-    // Of the scene that is shown: calls receive(bytes) for consecutive pieces of the pixels, row by row. Of objects they
-    // have the numbers that kernels give to surfaces. tests_per_submission: that are worth one, between rays and
+    // Of the scene that is shown: calls receive(bytes) for consecutive pieces of the pixels, row by row. Of objects
+    // they have the numbers that kernels give to surfaces. tests_per_submission: that are worth one, between rays and
     // surfaces. Throws PT_ERROR_INTERNAL if a driver lost work.
     using Receive = std::function<void(std::span<const std::byte>)>;
     void read(const FirstHitQuery &query, double tests_per_submission, const Receive &receive);

@@ -1,6 +1,5 @@
-// Reads a film as an image: resolve.comp makes pixels of its sums on the device, and 8 to 16 bytes of each come over the
-// bus.
-// Owned by RenderDevice; bound to its film.
+// Reads a film as an image: resolve.comp makes pixels of its sums on the device, and 8 to 16 bytes of each come over
+// the bus. Owned by RenderDevice; bound to its film.
 #pragma once
 
 #include "lib/kernel/resolve.h"

@@ -32,7 +32,8 @@ public:
 
     const Features &features() const { return features_; }
 
-    // The scene that is rendered next; those that show() takes have as much in common with it as a kernel asks for. Idle.
+    // The scene that is rendered next; those that show() takes have as much in common with it as a kernel asks for.
+    // Idle.
     const GpuScene &scene() const { return *gpu_scene_; }
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);

@@ -1,5 +1,5 @@
-// Which surfaces are spots: far brighter than others as seen from where they are small, so that rays by chance find their
-// light rarely, and much of it at a time (shaders/spots.glsl).
+// Which surfaces are spots: far brighter than others as seen from where they are small, so that rays by chance find
+// their light rarely, and much of it at a time (shaders/spots.glsl).
 #pragma once
 
 #include "lib/kernel/scene_features.h"

@@ -1,5 +1,5 @@
-// From the numbers that a kernel gives to surfaces to those of the objects in the caller's scene. Made when objects are asked
-// for.
+// From the numbers that a kernel gives to surfaces to those of the objects in the caller's scene. Made when objects are
+// asked for.
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"

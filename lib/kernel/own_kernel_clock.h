@@ -8,8 +8,8 @@ namespace pt {
 
 // A kernel of a scene's own takes about 0.3 s to build and then saves about a third of the time, so that it pays after
 // a second. Waiting just that long costs at most twice what knowing the future would (the ski rental problem), for a
-// single scene. Of a camera that moves and stops again and again, though, each stop may be a little longer than that. So
-// the wait doubles with each kernel that was left before it had paid, and falls back with the first that has: the
+// single scene. Of a camera that moves and stops again and again, though, each stop may be a little longer than that.
+// So the wait doubles with each kernel that was left before it had paid, and falls back with the first that has: the
 // kernels that were built in vain grow with the logarithm of the time, and once the wait has reached its limit they
 // take a hundredth of it.
 class OwnKernelClock {

@@ -47,8 +47,8 @@ Scene with_lamps(Scene scene, const SphereTree &tree) {
     return scene;
 }
 
-// The tree has materials by their place among those in use. Its shape does not matter: it is another in another process,
-// where the scenes before were others.
+// The tree has materials by their place among those in use. Its shape does not matter: it is another in another
+// process, where the scenes before were others.
 std::string digest_with_tree(const PreparedScene &prepared) {
     Digest digest;
     digest.add(digest_of(prepared.scene));

@@ -1,4 +1,5 @@
-// A scene with what is known of it wherever the camera is: made once by pt_set_scene, held by Renderer, read by gpu_scene.
+// A scene with what is known of it wherever the camera is: made once by pt_set_scene, held by Renderer, read by
+// gpu_scene.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -36,8 +37,8 @@ struct PreparedScene {
     // The same, with the shape that the tree had before, if there was one and it will do. before may be NULL.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before, WorkProgress &progress);
 
-    // Of the scene (scene_digest.h), and of the tree. Computed when it is first asked for, and kept: most scenes are never
-    // in a film.
+    // Of the scene (scene_digest.h), and of the tree. Computed when it is first asked for, and kept: most scenes are
+    // never in a film.
     const std::string &digest() const;
 
 private:

@@ -1,5 +1,5 @@
-// Where the blocks of the scene buffer begin, as shaders/gpu_layout.h describes them. Used by gpu_scene, which fills them,
-// and by features_of, which asks how long they are.
+// Where the blocks of the scene buffer begin, as shaders/gpu_layout.h describes them. Used by gpu_scene, which fills
+// them, and by features_of, which asks how long they are.
 #pragma once
 
 #include "lib/kernel/scene_features.h"

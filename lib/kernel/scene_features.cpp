@@ -29,8 +29,8 @@ std::uint64_t loop_trips_per_walk(const Features &features) {
 
 namespace {
 
-// From so many on paths branch less. (Error and time of 4 branches against 2, on scenes of 60 to 30,000 spheres with three
-// and six vertices: what 4 win in error they cost in time with 60, and with 1000 or more they lose a third.)
+// From so many on paths branch less. (Error and time of 4 branches against 2, on scenes of 60 to 30,000 spheres with
+// three and six vertices: what 4 win in error they cost in time with 60, and with 1000 or more they lose a third.)
 constexpr std::size_t least_many_spheres = 64;
 
 // Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
@@ -52,8 +52,8 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
     });
 }
 
-// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a straight
-// line both ends tell.
+// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a
+// straight line both ends tell.
 bool holds_camera(const SeenSphere &sphere) {
     constexpr double margin = 1.0 - side_margin;
     return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;
@@ -69,8 +69,8 @@ bool samples_lamps(const RenderSettings &render) {
            render.max_path_length > 1;
 }
 
-// Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of the
-// tree, and then down it to the lamp that is chosen and to one that a direction meets.
+// Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of
+// the tree, and then down it to the lamp that is chosen and to one that a direction meets.
 std::uint64_t lamp_trips(const Features &features) {
     return features.lamp_tree ? gpu::LAMP_TREE_TOP_GROUPS + 2 * LampTreeShape(features.lamp_count).levels()
                               : 2 * std::uint64_t{features.lamp_count};
@@ -252,7 +252,8 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint64_t walk = loop_trips_per_walk(features);
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t first_vertex = further_lamps(features, branches) * (1 + walk) + lamp_trips(features);
-    // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one beyond.
+    // By way of a spot: to see and choose it and for its density, once more for each branch, the walk there and one
+    // beyond.
     const std::uint64_t way = features.spot_count > 0
                                   ? std::uint64_t{4 + branches} * features.spot_count + 2 * walk + lamp_trips(features)
                                   : 0;

@@ -53,9 +53,9 @@ struct Features {
     std::uint32_t walked_lamps() const { return lamp_count - tree_lamps; }
 };
 
-// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in the
-// scene's order. Paths cannot leave a sphere that holds the camera: one that emits surrounds them all like a sky, which
-// cannot be sampled from within.
+// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in
+// the scene's order. Paths cannot leave a sphere that holds the camera: one that emits surrounds them all like a sky,
+// which cannot be sampled from within.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres; // held by centre and radius
     std::vector<CurvedPlane> planes;
@@ -72,9 +72,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
 // six vertices, 4 branches against 1: a fourth to a fifth of the error in 2.9 times the time.) Where there are many
 // spheres, a pixel sees several of them, so that more of the noise comes from the camera ray, and rays that branches
-// share are less of the work: there are 2 branches; so there are where rays by way of spots find most of what comes over
-// three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by
-// itself, they do not branch: some drivers stop a kernel after 65535 loop trips.
+// share are less of the work: there are 2 branches; so there are where rays by way of spots find most of what comes
+// over three vertices, and paths have no more. Where scene and path are so long that a sample is a long job by itself,
+// they do not branch: some drivers stop a kernel after 65535 loop trips.
 std::uint32_t branch_count(const Features &features);
 
 // What the point table holds of each sample: the dimensions that its paths consume, up to those that the sequences

@@ -1,5 +1,5 @@
-// A kernel that looks at the scene beside the path tracer's: fitted to the scene like that, with buffers of its own, so that
-// nothing of it is there unless it is asked for. Owned by FirstHits and by Coverage.
+// A kernel that looks at the scene beside the path tracer's: fitted to the scene like that, with buffers of its own, so
+// that nothing of it is there unless it is asked for. Owned by FirstHits and by Coverage.
 #pragma once
 
 #include "lib/kernel/gpu_scene.h"
@@ -30,9 +30,9 @@ public:
     // Whether this is the scene that it looks at.
     bool shows(const std::shared_ptr<const GpuScene> &scene) const { return scene_.lock() == scene; }
 
-    // Takes another scene over; what has been bound before is void. tree: the buffer of the scene's, NULL if it has none;
-    // it must stay until the next scene. constants: the kernel's, by constant_id. Throws PT_ERROR_SHADER if the driver
-    // refuses the kernel.
+    // Takes another scene over; what has been bound before is void. tree: the buffer of the scene's, NULL if it has
+    // none; it must stay until the next scene. constants: the kernel's, by constant_id. Throws PT_ERROR_SHADER if the
+    // driver refuses the kernel.
     void show(const std::shared_ptr<const GpuScene> &scene, const vulkan::Buffer *tree,
               std::span<const std::uint32_t> constants);
 

@@ -1,4 +1,5 @@
-// The words of a SPIR-V module (Khronos, "SPIR-V Specification", version 1.5) and its instructions, one after the other.
+// The words of a SPIR-V module (Khronos, "SPIR-V Specification", version 1.5) and its instructions, one after the
+// other.
 #pragma once
 
 #include <cstddef>

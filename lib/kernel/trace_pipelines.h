@@ -22,8 +22,8 @@ namespace pt {
 // All have the same bindings, so a descriptor set of one does for the others.
 class TracePipelines {
 public:
-    // Kernels of pathtrace.comp that are kept: lamps on and off, a sphere more or less, a camera in a ball and out, each
-    // with a kernel of one scene's own perhaps. Work under way uses the last two at most.
+    // Kernels of pathtrace.comp that are kept: lamps on and off, a sphere more or less, a camera in a ball and out,
+    // each with a kernel of one scene's own perhaps. Work under way uses the last two at most.
     static constexpr std::size_t most_kept = 8;
 
     // Instead of a number of sharers: pixels are those of a list of tiles, and each dispatch says how many share them.
@@ -37,10 +37,10 @@ public:
 
     // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
     // The first scene gets one of its own at once, as it has to wait for some kernel anyway; others do once they have
-    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. Whether pixels
-    // are a range or those of a list makes no other scene. sharers: invocations to a pixel, or of_tile_list; words: the scene
-    // buffer; seconds: for which this scene has been rendered so far with nothing about it changed, the camera neither. The
-    // reference holds until the next call.
+    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. Whether
+    // pixels are a range or those of a list makes no other scene. sharers: invocations to a pixel, or of_tile_list;
+    // words: the scene buffer; seconds: for which this scene has been rendered so far with nothing about it changed,
+    // the camera neither. The reference holds until the next call.
     const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
                                          std::span<const glm::vec4> words, double seconds);
 

@@ -1,5 +1,5 @@
-// What the films of a context's devices say together: the image of their samples, and its error. On the first device, if
-// it is of those whose kernels do so, else on the host. Owned by Renderer.
+// What the films of a context's devices say together: the image of their samples, and its error. On the first device,
+// if it is of those whose kernels do so, else on the host. Owned by Renderer.
 #pragma once
 
 #include "lib/api/image.h"
@@ -32,12 +32,12 @@ public:
     // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
 
-    // Gives the estimator all that is known of the error of films with the same samples in all tiles. is_recorded: it is
-    // there already, of a submission that took the samples on the only device. Throws likewise.
+    // Gives the estimator all that is known of the error of films with the same samples in all tiles. is_recorded: it
+    // is there already, of a submission that took the samples on the only device. Throws likewise.
     void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded);
 
-    // Of films with any samples. tile_squares: receives what is expected of each of their tiles (region_errors.h), where a
-    // kernel finds both at once.
+    // Of films with any samples. tile_squares: receives what is expected of each of their tiles (region_errors.h),
+    // where a kernel finds both at once.
     void estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
                         std::vector<double> &tile_squares);
 

@@ -16,7 +16,8 @@ public:
     // Takes the next pixels, as the image wants them.
     void put(std::span<const std::byte> pixels);
 
-    // Takes those that the rectangle has of consecutive pixels, from one on, of an image of this width. R, G, B of each.
+    // Takes those that the rectangle has of consecutive pixels, from one on, of an image of this width. R, G, B of
+    // each.
     void put_part(std::uint64_t first_pixel, std::uint32_t width, std::span<const float> values);
 
 private:

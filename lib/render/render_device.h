@@ -127,8 +127,8 @@ public:
     Started start(const SampleRange &samples, const SampleRange &hull,
                   const std::optional<ErrorQuery> &estimate = std::nullopt);
 
-    // Of a slice of so many tiles how many samples are affordable, of those that there are; and of so many samples how many
-    // tiles: 1 at least.
+    // Of a slice of so many tiles how many samples are affordable, of those that there are; and of so many samples how
+    // many tiles: 1 at least.
     std::uint64_t affordable_samples(std::size_t tile_count, std::uint64_t most) const;
     std::size_t affordable_tiles(std::uint64_t sample_count) const;
 

@@ -1,6 +1,6 @@
-// Samples on their way into the films of a context's devices: dealt out in slices, none left out once it is begun. Whoever
-// calls run() deals; between its calls what has been dealt goes on on the devices alone. One per call of pt_accumulate or
-// pt_start, owned by Renderer: an Accumulation, or a TileAccumulation.
+// Samples on their way into the films of a context's devices: dealt out in slices, none left out once it is begun.
+// Whoever calls run() deals; between its calls what has been dealt goes on on the devices alone. One per call of
+// pt_accumulate or pt_start, owned by Renderer: an Accumulation, or a TileAccumulation.
 #pragma once
 
 #include "lib/render/render_device.h"

@@ -61,8 +61,8 @@ void TileAccumulation::deal() {
     }
 }
 
-// Starts the next slice: some tiles of the task under way, with some of its samples. What has been begun of a tile's samples
-// is whole as soon as the slice is done.
+// Starts the next slice: some tiles of the task under way, with some of its samples. What has been begun of a tile's
+// samples is whole as soon as the slice is done.
 bool TileAccumulation::deal_to(RenderDevice &device) {
     const auto has_room = [](const auto &each) { return each->has_room(); };
     if (stopped() || tasks_.empty() || !std::ranges::all_of(devices(), has_room))
@@ -87,8 +87,8 @@ bool TileAccumulation::deal_to(RenderDevice &device) {
     return true;
 }
 
-// One device takes the samples of the slice. The others fold, so that the films of all have the same samples in each part,
-// and add up part by part.
+// One device takes the samples of the slice. The others fold, so that the films of all have the same samples in each
+// part, and add up part by part.
 void TileAccumulation::start_begun() {
     for (; begun_->next_device < devices().size(); ++begun_->next_device) {
         RenderDevice &device = *devices()[begun_->next_device];

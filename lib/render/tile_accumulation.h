@@ -19,9 +19,9 @@ public:
     TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
                      const Amount &amount, const Progress &progress, DeviceWork &work);
 
-    // Sets what is to be done next: those of the tiles that have fewer samples than they are to have take more, as far as
-    // a part of the film stays the same: some may have fewer than that afterwards, and are to be set again. False if none
-    // has fewer. goal: by number of samples that a tile has, how many it is to have.
+    // Sets what is to be done next: those of the tiles that have fewer samples than they are to have take more, as far
+    // as a part of the film stays the same: some may have fewer than that afterwards, and are to be set again. False if
+    // none has fewer. goal: by number of samples that a tile has, how many it is to have.
     bool set_goal(std::span<const std::uint32_t> tiles, const std::function<std::uint64_t(std::uint32_t)> &goal);
 
     // Takes these samples, or fewer if it was stopped. False if they are still under way at a time; it is to be called

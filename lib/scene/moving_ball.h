@@ -24,7 +24,8 @@ inline constexpr double side_margin = 0x1p-16;
 // 16th of the radius, and shows whatever is done about twins.
 inline constexpr double two_spheres = 0.25;
 
-// Whether the origin is in the ball at any time, or so near to it that float32 cannot tell; slack: how much farther still.
+// Whether the origin is in the ball at any time, or so near to it that float32 cannot tell; slack: how much farther
+// still.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
     const double length = glm::dot(ball.way, ball.way);
     const double nearest = length > 0.0 ? std::clamp(-glm::dot(ball.open, ball.way) / length, 0.0, 1.0) : 0.0;

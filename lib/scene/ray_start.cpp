@@ -91,8 +91,8 @@ struct ParallelView {
         radius(std::hypot(glm::length(half_right), glm::length(half_up))) {}
 };
 
-// A plane's depth, -height / (normal . forward) for the height of where a ray starts, changes evenly across the view: it is
-// least at a corner. Where rays start on both sides there is no room before the plane.
+// A plane's depth, -height / (normal . forward) for the height of where a ray starts, changes evenly across the view:
+// it is least at a corner. Where rays start on both sides there is no room before the plane.
 double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     const double across =
         std::abs(glm::dot(plane.normal, view.half_right)) + std::abs(glm::dot(plane.normal, view.half_up));
@@ -102,10 +102,10 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// Of the lines of the cylinder those nearest to the centre meet the sphere first, at a - sqrt(r^2 - c^2) for a centre at
-// depth a and c from the line; if all start inside, those farthest from it, at a + sqrt(r^2 - c^2). The first is (a^2 +
-// c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small far spheres: the centre is at a distance d, and
-// d^2 - r^2 is a product. A sphere that moves is taken for the ball about its way.
+// Of the lines of the cylinder those nearest to the centre meet the sphere first, at a - sqrt(r^2 - c^2) for a centre
+// at depth a and c from the line; if all start inside, those farthest from it, at a + sqrt(r^2 - c^2). The first is
+// (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small far spheres: the centre is at a
+// distance d, and d^2 - r^2 is a product. A sphere that moves is taken for the ball about its way.
 double nearest_depth(const SeenSphere &sphere, const ParallelView &view) {
     const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
     const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
@@ -140,7 +140,8 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
                                        number_text(width)});
 }
 
-// Stays as far before the first surface as the view is wide, and a little more, so that no surface in view divides the disc.
+// Stays as far before the first surface as the view is wide, and a little more, so that no surface in view divides the
+// disc.
 Camera starting_in_parallel(const SeenScene &seen, const Camera &camera, const RenderSettings &settings) {
     require_held_view(camera, settings);
     const ParallelView view(camera, settings);

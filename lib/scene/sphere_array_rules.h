@@ -23,8 +23,8 @@ std::vector<pt_sphere_array> copied_sphere_arrays(const pt_scene &scene, Violati
 // Elements of columns that are to be looked at, at the most.
 double elements_of(std::span<const pt_sphere_array> arrays);
 
-// Checks columns and what is in them: each element is a unit of work. Of an array whose columns cannot be read nothing else
-// is checked.
+// Checks columns and what is in them: each element is a unit of work. Of an array whose columns cannot be read nothing
+// else is checked.
 void check_sphere_arrays(std::span<const pt_sphere_array> arrays, std::uint32_t material_count, Violations &violations,
                          WorkProgress &progress);
 

@@ -26,8 +26,8 @@ constexpr double same_place = 0x1p-21;
 // in 2^14 pixels.
 constexpr double two_planes = 0x1p-8;
 
-// Spheres on a lattice have different places along a line in this direction, whose components are incommensurable: 1, the
-// roots of 2 and 3, over that of 6.
+// Spheres on a lattice have different places along a line in this direction, whose components are incommensurable: 1,
+// the roots of 2 and 3, over that of 6.
 constexpr glm::dvec3 generic_direction(0.40824829046386307, 0.5773502691896258, 0.7071067811865476);
 
 // By how much the centre of a twin may be elsewhere.

@@ -23,8 +23,8 @@ std::uint64_t hash_of(const glm::uvec4 &word) {
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// Slots have places of words, with some more bits of the words' hashes, so that other words are hardly ever looked at. At
-// most three quarters of the slots are filled.
+// Slots have places of words, with some more bits of the words' hashes, so that other words are hardly ever looked at.
+// At most three quarters of the slots are filled.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :

@@ -11,8 +11,8 @@
 namespace pt {
 
 struct Grid {
-    // Coordinates that boxes have at most, in steps: a camera may be as far away again, and differences are still 32-bit
-    // numbers.
+    // Coordinates that boxes have at most, in steps: a camera may be as far away again, and differences are still
+    // 32-bit numbers.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // of the grid, in the scene's units

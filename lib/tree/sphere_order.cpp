@@ -78,8 +78,8 @@ struct Children {
     std::span<Part> all() { return std::span(parts).first(count); }
 };
 
-// Whether a part is to be divided before another: the one with the larger surface, and deep in the tree the one with more
-// spheres, so that no child has more than a quarter of the node's.
+// Whether a part is to be divided before another: the one with the larger surface, and deep in the tree the one with
+// more spheres, so that no child has more than a quarter of the node's.
 bool goes_before(const Part &part, const Part &other, std::uint32_t depth) {
     return depth < free_depth ? part.surface > other.surface : part.items.size() > other.items.size();
 }
@@ -93,9 +93,9 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// The children of a node: of its parts one after the other is divided until there are enough. Twins have equal centres, so
-// that no cut comes between them before all that is left is at one point, or few. Halving might, so they are looked for
-// before it begins.
+// The children of a node: of its parts one after the other is divided until there are enough. Twins have equal centres,
+// so that no cut comes between them before all that is left is at one point, or few. Halving might, so they are looked
+// for before it begins.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -36,8 +36,8 @@ struct TreeShape {
     std::uint32_t depth;                // nodes from the root to the deepest, both counted
 };
 
-// Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number is
-// kept.
+// Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number
+// is kept.
 using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint32_t)>;
 
 // Nodes are divided where that makes the product of surface and nodes to come least, summed over both sides (Goldsmith
@@ -45,8 +45,8 @@ using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint3
 // spheres: for 2^26 of them it is 27. The work is shape_work() of all items.
 TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
 
-// To divide so many spheres until each has its place, about n log2 n. To divide them once is the difference from what it
-// takes for both parts, which is not negative, whatever the parts.
+// To divide so many spheres until each has its place, about n log2 n. To divide them once is the difference from what
+// it takes for both parts, which is not negative, whatever the parts.
 constexpr double shape_work(std::size_t spheres) {
     return static_cast<double>(spheres) * static_cast<double>(std::bit_width(spheres));
 }

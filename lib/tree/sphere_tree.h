@@ -37,9 +37,9 @@ public:
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // With the shape of another over as many spheres: the sphere of an index has the place that it has there. Nothing where
-    // a new tree is called for: it would be much better, spheres are left out that are in the other or the other way
-    // round, or there are twins in one of the two, which have one place.
+    // With the shape of another over as many spheres: the sphere of an index has the place that it has there. Nothing
+    // where a new tree is called for: it would be much better, spheres are left out that are in the other or the other
+    // way round, or there are twins in one of the two, which have one place.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::uint32_t most_steps = 255; // that a byte counts
 
-// Of the smallest power of two of which a byte counts enough. Half of that with which an extent has eight bits is too small.
+// Of the smallest power of two of which a byte counts enough. Half of that with which an extent has eight bits is too
+// small.
 std::uint32_t exponent_for(std::uint32_t extent) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
     std::uint32_t exponent = bits > 8 ? bits - 8 : 0;

@@ -12,8 +12,8 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, or for a texel buffer
-// of 256 bytes, the most that a device asks for.
+// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, or for a texel
+// buffer of 256 bytes, the most that a device asks for.
 struct BufferRange {
     BufferRange() = default; // none
     explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}

@@ -31,8 +31,8 @@ constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// On an H200 as fast as testing each from 80 spheres on in the open with three vertices, from 100 with six, later in closed
-// rooms.
+// On an H200 as fast as testing each from 80 spheres on in the open with three vertices, from 100 with six, later in
+// closed rooms.
 constexpr std::uint32_t gpu_tree_from = 96;
 
 // The best of 8, 16, 32 and 4096, and of none, there.

@@ -42,12 +42,12 @@ struct DevicePolicy {
     // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
     // the rest. By default an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;
-    // Spheres: with as many, a tree is as fast as testing each. By default those of a CPU, for more of which the kernel's loops
-    // are not unrolled (shaders/scene.glsl).
+    // Spheres: with as many, a tree is as fast as testing each. By default those of a CPU, for more of which the
+    // kernel's loops are not unrolled (shaders/scene.glsl).
     std::uint32_t tree_from = 49;
-    // Samples of a pixel: until there are as many, tiles are not told apart (lib/film/adaptive_rule.h). On GPUs, where a look
-    // takes as long as some samples, pictures that need no more are done sooner without, and with paths of two vertices four times as many.
-    // 0, or a power of two from 16 on.
+    // Samples of a pixel: until there are as many, tiles are not told apart (lib/film/adaptive_rule.h). On GPUs, where
+    // a look takes as long as some samples, pictures that need no more are done sooner without, and with paths of two
+    // vertices four times as many. 0, or a power of two from 16 on.
     std::uint32_t adaptive_from = 256;
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does

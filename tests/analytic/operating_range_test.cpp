@@ -150,7 +150,8 @@ double area_in_motion(double distance, double way) {
     return sum;
 }
 
-// In the middle a sphere of radius 1 fills pi / (d^2 - 1) of the image plane at distance 1, here of a square of 16 / (d^2
+// In the middle a sphere of radius 1 fills pi / (d^2 - 1) of the image plane at distance 1, here of a square of 16 /
+// (d^2
 // - 1).
 TEST_F(DISABLED_OperatingRange, DistanceOfASphere) {
     for (const Look &look : looks) {

@@ -74,8 +74,8 @@ protected:
         EXPECT_FALSE(watch.changed(milliseconds{0}));
     }
 
-    // Each call takes a tenth of a second or a look at the files: a look comes with the third one at the latest, and what
-    // it finds has settled with the next.
+    // Each call takes a tenth of a second or a look at the files: a look comes with the third one at the latest, and
+    // what it finds has settled with the next.
     static void expect_nothing(SourceWatch &watch) {
         for (int call = 0; call < 6; ++call) {
             EXPECT_FALSE(watch.changed(milliseconds{100}));

@@ -1,5 +1,5 @@
-// Films whose tiles have different samples: each tile has the bits of an even film with as many, and neither splits of the
-// work, nor films that are saved and added, nor the number of devices change which tile has how many.
+// Films whose tiles have different samples: each tile has the bits of an even film with as many, and neither splits of
+// the work, nor films that are saved and added, nor the number of devices change which tile has how many.
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
 #include "tests/support/image_target.h"

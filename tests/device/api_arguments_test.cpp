@@ -142,7 +142,8 @@ TEST(Api, EveryFunctionRefusesANullContext) {
     expect_every_call(outcomes_of_every_call(nullptr), "PT_ERROR_INVALID_ARGUMENT: context = NULL: must not be NULL");
 }
 
-// ---- Pointers and struct sizes ----------------------------------------------------------------------------------------
+// ---- Pointers and struct sizes
+// ----------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, RefusesNullPointers) {
     set_all();

@@ -17,7 +17,8 @@ namespace api {
 
 namespace {
 
-// ---- States -----------------------------------------------------------------------------------------------------------
+// ---- States
+// -----------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, AccumulateNeedsEverySetting) {
     const pt_scene scene = valid_scene();
@@ -134,7 +135,8 @@ TEST_F(ApiTest, TellsItsDevice) {
     }));
 }
 
-// ---- Transactions -------------------------------------------------------------------------------------------------------
+// ---- Transactions
+// -------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, FailedCallsChangeNothing) {
     set_all();
@@ -217,7 +219,8 @@ TEST_F(ApiTest, ReadbackRefusesSmallImages) {
     EXPECT_EQ(pixels, std::vector<float>(pixels.size(), -1.0F));
 }
 
-// ---- Messages -------------------------------------------------------------------------------------------------------------
+// ---- Messages
+// -------------------------------------------------------------------------------------------------------------
 
 TEST_F(ApiTest, MessageStaysUntilTheNextFailure) {
     EXPECT_EQ(message(), "");
@@ -244,7 +247,8 @@ TEST_F(ApiTest, MessageIsThatOfTheCallWhereverItIsRead) {
     std::thread([this] { EXPECT_EQ(message(), "scene = NULL: must not be NULL"); }).join();
 }
 
-// ---- Progress ---------------------------------------------------------------------------------------------------------------
+// ---- Progress
+// ---------------------------------------------------------------------------------------------------------------
 
 struct Progress {
     std::vector<double> fractions;

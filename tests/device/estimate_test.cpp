@@ -155,7 +155,8 @@ TEST_F(Estimate, LostSamplesAreAnError) {
     EXPECT_STREQ(error.what(), "the driver lost samples of 1 pixels");
 }
 
-// Where tiles may have different samples: what is said of regions, with counts that a list has, and of each tile by itself.
+// Where tiles may have different samples: what is said of regions, with counts that a list has, and of each tile by
+// itself.
 TEST_F(Estimate, OfTilesIsThatOfTheHost) {
     Films films;
     double largest = 0.0;

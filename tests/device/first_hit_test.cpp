@@ -100,8 +100,8 @@ Given narrow() {
     return given;
 }
 
-// By parallel rays, from a million units away, off the axes: a floor, balls that float32 would not tell apart from there,
-// and one that moves.
+// By parallel rays, from a million units away, off the axes: a floor, balls that float32 would not tell apart from
+// there, and one that moves.
 Given parallel() {
     Given given;
     given.materials = some_materials();

@@ -41,8 +41,8 @@ struct Ball {
 
 enum class Held { AsTheSceneNeeds, ByItsCenter };
 
-// What the device meets. Rays start on either side of the sphere, wherever the camera is. One that moves by a 32nd of its
-// radius is held by its centre and radius; it stands still at the time of the rays.
+// What the device meets. Rays start on either side of the sphere, wherever the camera is. One that moves by a 32nd of
+// its radius is held by its centre and radius; it stands still at the time of the rays.
 std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held held = Held::AsTheSceneNeeds) {
     pt::Scene scene;
     scene.materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};

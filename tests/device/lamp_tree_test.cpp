@@ -1,5 +1,5 @@
-// What the device states as the probabilities of lamps in a tree, against a reference in double, and how sharp they are.
-// Run alone with --gtest_filter=LampTree*.
+// What the device states as the probabilities of lamps in a tree, against a reference in double, and how sharp they
+// are. Run alone with --gtest_filter=LampTree*.
 #include "tests/device/lamp_tree_probe.h"
 #include "tests/device/lamp_tree_reference.h"
 #include "tests/support/lamp_scenes.h"

@@ -71,8 +71,8 @@ protected:
         return sum / static_cast<double>(values.size());
     }
 
-    // What the view has of a silhouette's area is at most one random sample of share p off by each: with independent points
-    // its standard error is sqrt(p (1 - p) / n), and those of a sequence are better.
+    // What the view has of a silhouette's area is at most one random sample of share p off by each: with independent
+    // points its standard error is sqrt(p (1 - p) / n), and those of a sequence are better.
     void expect_area(double area, const std::string &what) {
         const double share = area / (extent * extent * picture_width / picture_height);
         const double samples = double{picture_width} * picture_height * sample_count;
@@ -121,8 +121,9 @@ TEST_F(Orthographic, ABallThatMovesCoversAsMuch) {
     EXPECT_TRUE(stats().features & PT_FEATURE_MOTION);
 }
 
-// A lamp of radius r and radiance L far above a floor, at a height h, gives the point below it pi L (r / h)^2, and a point
-// s beside it that times (1 + (s / h)^2)^-2, of which the floor's diffuse reflectance / pi is seen from any distance.
+// A lamp of radius r and radiance L far above a floor, at a height h, gives the point below it pi L (r / h)^2, and a
+// point s beside it that times (1 + (s / h)^2)^-2, of which the floor's diffuse reflectance / pi is seen from any
+// distance.
 TEST_F(Orthographic, AFloorIsAsBrightFromAnyDistance) {
     const double height = 2000.0;
     const double radius = 250.0;

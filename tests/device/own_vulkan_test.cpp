@@ -210,8 +210,8 @@ TEST_F(OwnVulkanTest, PreparingIsOneSubmission) {
     EXPECT_EQ(mutex.locks, before + 1);
 }
 
-// A GPU estimates errors behind the samples that they are about: a look at a target costs no submission of its own. Only
-// an error that is asked for without samples does.
+// A GPU estimates errors behind the samples that they are about: a look at a target costs no submission of its own.
+// Only an error that is asked for without samples does.
 TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     QueueMutex mutex;
     pt_vulkan vulkan = caller().handles();

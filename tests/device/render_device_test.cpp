@@ -1,5 +1,5 @@
-// Slices of a device as Renderer asks for them: every kind of work is cut, and the film holds whole samples wherever the
-// work stands still.
+// Slices of a device as Renderer asks for them: every kind of work is cut, and the film holds whole samples wherever
+// the work stands still.
 #include "lib/render/render_device.h"
 #include "tests/device/coursework_gpu_scene.h"
 #include "tests/device/vulkan_fixture.h"

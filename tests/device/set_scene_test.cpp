@@ -1,5 +1,5 @@
-// What pt_set_scene tells while it works, what stopping it leaves, and scenes that follow each other with a tree that is
-// kept: films of a context that has seen others before are those of one that has not.
+// What pt_set_scene tells while it works, what stopping it leaves, and scenes that follow each other with a tree that
+// is kept: films of a context that has seen others before are those of one that has not.
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 

@@ -66,8 +66,8 @@ protected:
     }
 };
 
-// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples. Films
-// of GPUs meet on the first of them.
+// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples.
+// Films of GPUs meet on the first of them.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);
     set_up(alone.get());

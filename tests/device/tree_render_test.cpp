@@ -73,8 +73,8 @@ pt_camera camera_at(double x, double y, double z, double fov = 0.8) {
     return camera;
 }
 
-// Paths are the same but where rounding of places, 2^-30 of the scene's extent, or of a distance turns a hit into a miss:
-// of so few samples hardly any. What is judged is the share of values that differ, and by how much the means do.
+// Paths are the same but where rounding of places, 2^-30 of the scene's extent, or of a distance turns a hit into a
+// miss: of so few samples hardly any. What is judged is the share of values that differ, and by how much the means do.
 struct Difference {
     double mean;  // of the pictures' means, relative
     double share; // of values that differ by more than 0.1%
@@ -127,8 +127,8 @@ private:
     Context without_tree_;
 };
 
-// The root of a colour c is off by half of 1/1023 at most, and so c by (root + 1/4092)/1023, which is the largest share of
-// c for the darkest, 0.04: 0.2003/1023/0.04 = 0.0049. Light from lamps alone is proportional to c in each sample.
+// The root of a colour c is off by half of 1/1023 at most, and so c by (root + 1/4092)/1023, which is the largest share
+// of c for the darkest, 0.04: 0.2003/1023/0.04 = 0.0049. Light from lamps alone is proportional to c in each sample.
 TEST_F(TreeRender, HasColorsToHalfAStepOfTheirRoots) {
     const Balls balls;
     pt_sphere_array array;

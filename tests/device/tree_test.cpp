@@ -126,8 +126,8 @@ pt::Camera far_away(double tan_half_fov) {
     return {{0.1, 0.2, 4e5}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, tan_half_fov, 0.0, 1.0};
 }
 
-// The camera is 10^5 times as far away as the heap is large: in the middle of a narrow view, where nearly all depths are
-// rounded to a few, and at the horizon of a wide one.
+// The camera is 10^5 times as far away as the heap is large: in the middle of a narrow view, where nearly all depths
+// are rounded to a few, and at the horizon of a wide one.
 TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
     TreeScenes scenes(9);
     const pt::Scene scene = heap_on_a_floor(scenes);
@@ -135,8 +135,9 @@ TEST(Tree, RaysFromFarAwayFindWhatTestingEverySphereFinds) {
         EXPECT_TRUE(compare(scene, far_away(tan_half_fov)).same) << tan_half_fov;
 }
 
-// Spheres in a new tree and in one of the shape that was made for the same spheres reflected in the origin: its boxes are
-// as good, and its order is about the reverse. Nothing if the trees are the same all the same, or no shape was kept.
+// Spheres in a new tree and in one of the shape that was made for the same spheres reflected in the origin: its boxes
+// are as good, and its order is about the reverse. Nothing if the trees are the same all the same, or no shape was
+// kept.
 std::optional<bool> is_seen_alike(const pt::Scene &scene, const pt::Camera &camera) {
     const std::vector<pt_sphere> spheres = caller_spheres(scene.spheres);
     std::vector<pt_sphere> reflected = spheres;

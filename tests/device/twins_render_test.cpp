@@ -41,8 +41,8 @@ protected:
         return {moments.mean, std::sqrt(moments.variance / batch_count)};
     }
 
-    // That a scene sends some light, within tolerance, which is what its geometry may differ by. The bound of a difference
-    // of two means of n batches is that of one mean of 2 n - 1.
+    // That a scene sends some light, within tolerance, which is what its geometry may differ by. The bound of a
+    // difference of two means of n batches is that of one mean of 2 n - 1.
     void expect_light(const Estimate &expected, const InvarianceScene &scene, std::uint32_t path_length,
                       double tolerance) {
         const Estimate found = mean_of(scene, path_length, 200);

@@ -1,5 +1,5 @@
-// Host memory and Vulkan calls that fail while tiles are given different numbers of samples: the call that is made again
-// ends with the bytes of one that nothing disturbed.
+// Host memory and Vulkan calls that fail while tiles are given different numbers of samples: the call that is made
+// again ends with the bytes of one that nothing disturbed.
 #include "tests/faults/allocations.h"
 #include "tests/faults/vulkan_calls.h"
 #include "tests/support/context_fixture.h"

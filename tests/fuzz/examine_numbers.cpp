@@ -125,8 +125,8 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
             "the loop trips of a sample can be counted");
 }
 
-// The kernel squares all that is a length and adds three squares: up to 3e18 from the pinhole, which may be 6e18 behind the
-// start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger than lengths and colours may be.
+// The kernel squares all that is a length and adds three squares: up to 3e18 from the pinhole, which may be 6e18 behind
+// the start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger than lengths and colours may be.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 

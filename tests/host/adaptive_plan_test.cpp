@@ -33,8 +33,8 @@ struct ModelFilm {
     bool has_target_error = false;
 };
 
-// The square error of a tile: its variance by its samples, but for a factor of its own for each number of samples, as the
-// difference of two parts of a film scatters. spread: how far tiles differ, as the logarithm of a factor.
+// The square error of a tile: its variance by its samples, but for a factor of its own for each number of samples, as
+// the difference of two parts of a film scatters. spread: how far tiles differ, as the logarithm of a factor.
 class ModelErrors {
 public:
     ModelErrors(std::uint32_t seed, double spread) : seed_(seed) {
@@ -101,8 +101,8 @@ ModelFilm sampled_at_once(const ModelErrors &errors, std::uint64_t most) {
     return film;
 }
 
-// In calls that end after some tiles, or at some samples, and at last without either. as_few: those that some pixels lack
-// of the most that others have, now and then.
+// In calls that end after some tiles, or at some samples, and at last without either. as_few: those that some pixels
+// lack of the most that others have, now and then.
 ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::mt19937 &generator) {
     ModelFilm film;
     for (int call = 0; call < 12; ++call) {
@@ -114,7 +114,8 @@ ModelFilm sampled_in_calls(const ModelErrors &errors, std::uint64_t most, std::m
     return film;
 }
 
-// Tiles that are as different as in pictures, that are alike, and limits at a level, between levels, and beyond the target.
+// Tiles that are as different as in pictures, that are alike, and limits at a level, between levels, and beyond the
+// target.
 TEST(AdaptivePlan, CallsThatEndAnywhereComeToTheSameSamples) {
     std::mt19937 generator(1);
     int with_target_error = 0;

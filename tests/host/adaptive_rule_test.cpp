@@ -1,4 +1,5 @@
-// Which tiles take more samples, on films whose errors are known: a tile with the variance v has the square error v / n.
+// Which tiles take more samples, on films whose errors are known: a tile with the variance v has the square error v /
+// n.
 #include "lib/film/adaptive_rule.h"
 
 #include <gtest/gtest.h>
@@ -112,9 +113,10 @@ TEST(AdaptiveRule, TilesBetweenLevelsAreUnfinished) {
     EXPECT_EQ(pt::unfinished_tiles(TileSamples(model_grid)).size(), model_grid.count());
 }
 
-// Samples in proportion to the root of v take (mean of root v)^2 / (mean of v) of those of an even film; counts that are
-// powers of two are off by up to half a level to either side, which costs 4% as a rule, and the last round falls short of
-// its end by no more than a factor 2^(1/2). Stopping at equal errors, the usual rule, gains nothing, and is told apart.
+// Samples in proportion to the root of v take (mean of root v)^2 / (mean of v) of those of an even film; counts that
+// are powers of two are off by up to half a level to either side, which costs 4% as a rule, and the last round falls
+// short of its end by no more than a factor 2^(1/2). Stopping at equal errors, the usual rule, gains nothing, and is
+// told apart.
 TEST(AdaptiveRule, GoesWhereSamplesGainMost) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
         const std::vector<double> variances = spread_variances(seed);

@@ -18,7 +18,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-// Written by another program (by the description in FORMAT.md): two tiles, of which the first has samples in both parts.
+// Written by another program (by the description in FORMAT.md): two tiles, of which the first has samples in both
+// parts.
 Bytes golden_film() {
     std::ifstream file(PT_TEST_DATA_DIR "/film/version-1.ptfilm", std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
@@ -46,8 +47,8 @@ const pt::FilmHeader golden_header{{{"scene", "00112233445566778899aabbccddeeff"
                                      }()},
                                     {{3, 1, 2, 2}, pt::SampleSet({8, 10})}}};
 
-// The golden film's sums by its rule: with i the pixel, c the channel and s a number of each part, of n samples n - r were
-// accepted, r = (i + s) mod 2, and their sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
+// The golden film's sums by its rule: with i the pixel, c the channel and s a number of each part, of n samples n - r
+// were accepted, r = (i + s) mod 2, and their sum is (n - r) ((c + 1) 10^25 + 10^18 i + 977 s).
 void set_part(pt::PixelSums &sums, std::uint32_t part, std::uint32_t samples, std::uint32_t s) {
     __extension__ using Wide = unsigned __int128;
     constexpr Wide ten_to_18 = 1'000'000'000'000'000'000U;

@@ -21,7 +21,8 @@ struct CloseFilm {
 };
 using OpenedFilm = std::unique_ptr<pt_film, CloseFilm>;
 
-// Columns 1 to 5 and rows 2 to 4 of an image of 9 x 7: the left three columns have the samples [0, 3), the others [0, 20).
+// Columns 1 to 5 and rows 2 to 4 of an image of 9 x 7: the left three columns have the samples [0, 3), the others [0,
+// 20).
 film_maker::Samples two_tiles() {
     film_maker::Samples samples;
     for (std::uint32_t y = 2; y < 5; ++y)

@@ -71,8 +71,8 @@ struct FilmOfSets {
     }
 };
 
-// Two films take ranges in any order, each cut into runs as Kernel does. In the end both parts hold just the samples on their
-// side of the split, whichever film took them.
+// Two films take ranges in any order, each cut into runs as Kernel does. In the end both parts hold just the samples on
+// their side of the split, whichever film took them.
 TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
     std::mt19937 random(1);
     for (int round = 0; round < 3000; ++round) {

@@ -1,5 +1,5 @@
-// Trees that have the shape of another: their words are those of a tree of this shape, they are what a new tree is but for
-// the order, and there is none where a new one is called for.
+// Trees that have the shape of another: their words are those of a tree of this shape, they are what a new tree is but
+// for the order, and there is none where a new one is called for.
 #include "tests/host/heap_tree.h"
 
 #include "lib/kernel/prepared_scene.h"
@@ -171,8 +171,8 @@ TEST(KeptShape, IsNotForTwins) {
     EXPECT_FALSE(kept(tree, with_twins));
 }
 
-// Surfaces of boxes grow as spheres go astray: a shape is kept up to a quarter more than when it was made, in one step or in
-// several.
+// Surfaces of boxes grow as spheres go astray: a shape is kept up to a quarter more than when it was made, in one step
+// or in several.
 TEST(KeptShape, IsGivenUpWhereANewTreeWouldBeMuchBetter) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

@@ -144,7 +144,8 @@ TEST(SphereOrder, GivesEachSphereOnePlaceInATreeThatTheStackHolds) {
         }
 }
 
-// Of three kinds of spheres at each of a few points, in turns: the first of each kind stays, also where the tree is deep.
+// Of three kinds of spheres at each of a few points, in turns: the first of each kind stays, also where the tree is
+// deep.
 TEST(SphereOrder, LeavesTheFirstOfTwins) {
     constexpr std::uint32_t different = 3 * 50;
     const auto ball = [](std::uint32_t i) {
@@ -170,7 +171,8 @@ struct Told {
     }
 };
 
-// All of the work is told, and no more, whatever the spheres: it is made of whole numbers, and the stage is half of a whole.
+// All of the work is told, and no more, whatever the spheres: it is made of whole numbers, and the stage is half of a
+// whole.
 TEST(SphereOrder, TellsHowFarItIs) {
     for (const Kind &kind : kinds()) {
         SCOPED_TRACE(kind.name);

@@ -1,5 +1,5 @@
-// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and what is known
-// of a camera errs on the safe side.
+// The tree buffer: boxes hold what is below them at all times, lamps and twins are in the scene's order, and what is
+// known of a camera errs on the safe side.
 #include "tests/host/heap_tree.h"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,8 @@ TEST(SphereTree, NumbersLampsInTheScenesOrder) {
     }
 }
 
-// Twins among balls that float32 takes for them: that move to and fro along the same way, or are a step of the grid apart.
+// Twins among balls that float32 takes for them: that move to and fro along the same way, or are a step of the grid
+// apart.
 TEST(SphereTree, KeepsTheFirstOfTwins) {
     std::vector<pt_sphere> spheres = heap(100, 0.0);
     spheres[0].center[0] = 100; // 2^-22 of it is 2^7 steps
@@ -122,7 +123,8 @@ TEST(SphereTree, KnowsLampsThatNearlyCoincideWithSpheres) {
     }
 }
 
-// 16 bytes and 4 of material, and with all four children there is a node of 48 for three spheres; with some empty, for two.
+// 16 bytes and 4 of material, and with all four children there is a node of 48 for three spheres; with some empty, for
+// two.
 TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     std::vector<pt_sphere> spheres = heap(100'000, 0.0);
     for (pt_sphere &sphere : spheres)
@@ -145,8 +147,8 @@ TEST(SphereTree, TakesNoMoreThan48BytesASphere) {
     EXPECT_EQ(colored.sphere_words()[frame.first_color + 777].z, 723U | 723U << 10 | 723U << 20);
 }
 
-// (p - camera) step + shift, evaluated in double, is off by no more than the rounding of shift to a float; of a camera far
-// away shift is about the distance.
+// (p - camera) step + shift, evaluated in double, is off by no more than the rounding of shift to a float; of a camera
+// far away shift is about the distance.
 TEST(SphereTree, FramesPutSpheresWhereTheyAre) {
     const std::vector<pt_sphere> spheres = heap(100, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

@@ -1,10 +1,10 @@
 // Makes and destroys contexts, and changes scenes in one, as often as is wanted, and looks at the process's memory:
 //   pt_soak [contexts [scenes]]        40 and 1000 if not said
-// A leak of the smallest piece that malloc gives, 32 bytes with its header, in each round is to be found: so much the heap
-// may grow, and by four pages in all for what the driver's threads keep, as they happen to run. A control, which makes and
-// destroys a Vulkan instance and device and nothing else, shows what the driver itself leaks (Mesa 22.3.6: 144 bytes): contexts
-// may grow by that besides. Growth is taken from the end of the first quarter, when caches are filled. Exit code 1: memory grew
-// more.
+// A leak of the smallest piece that malloc gives, 32 bytes with its header, in each round is to be found: so much the
+// heap may grow, and by four pages in all for what the driver's threads keep, as they happen to run. A control, which
+// makes and destroys a Vulkan instance and device and nothing else, shows what the driver itself leaks (Mesa 22.3.6:
+// 144 bytes): contexts may grow by that besides. Growth is taken from the end of the first quarter, when caches are
+// filled. Exit code 1: memory grew more.
 #include <pt/pt.h>
 #include <pt/stats.h>
 

@@ -42,7 +42,8 @@ inline pt::SampleSet set_of(const std::set<std::uint32_t> &indices) {
     return samples;
 }
 
-// Of one channel, in units of 2^-60, below 2^24; one in 16 was rejected. By Steele's and Vigna's mixing of 64 bits (2014).
+// Of one channel, in units of 2^-60, below 2^24; one in 16 was rejected. By Steele's and Vigna's mixing of 64 bits
+// (2014).
 inline std::uint64_t mixed(std::uint64_t number) {
     number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9U;
     number = (number ^ (number >> 27)) * 0x94d049bb133111ebU;

@@ -48,15 +48,16 @@ struct Meeting {
 // A sphere by its centre c, as seen from the camera, and its radius r: the centre is rounded by u |c|, and c - b d errs
 // by 4 u |c| for d, and by 3 u |c| for its own operations, so that the distance l of the centre from the ray is off by
 // 8 u |c|; b, the way to the point nearest to the centre, by 8 u |c| too. The half chord h = sqrt(r^2 - l^2) is off by
-// (8 u |c| l + 2 u r^2) / h. With l < r that is (8 u |c| + 2 u r) / cosine for the cosine h / r at the surface. Twice that is
-// allowed. The square under the root is off by r (16 u |c| + 4 u r) at most, or l - r by 8 u |c| + 2 u r: within twice that
-// of touching, it may be missed or met.
+// (8 u |c| l + 2 u r^2) / h. With l < r that is (8 u |c| + 2 u r) / cosine for the cosine h / r at the surface. Twice
+// that is allowed. The square under the root is off by r (16 u |c| + 4 u r) at most, or l - r by 8 u |c| + 2 u r:
+// within twice that of touching, it may be missed or met.
 //
-// Where a sphere is so large against its height h over the camera that it is held as a plane with a curvature k, nothing
-// of the size of r is rounded: the distance 2 h / q with q = s + sqrt(s^2 - 2 k h) for the slope s errs by u for h and by
-// what q errs, which is 4 u for s and (4 u s + 4 u) / cosine for the root, the cosine at the surface, and q is no less than
-// that cosine: 16 u / cosine^2 of the distance is allowed, and 8 u for all else; within 64 u of touching, as s^2 against
-// 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane is the same with k = 0.
+// Where a sphere is so large against its height h over the camera that it is held as a plane with a curvature k,
+// nothing of the size of r is rounded: the distance 2 h / q with q = s + sqrt(s^2 - 2 k h) for the slope s errs by u
+// for h and by what q errs, which is 4 u for s and (4 u s + 4 u) / cosine for the root, the cosine at the surface, and
+// q is no less than that cosine: 16 u / cosine^2 of the distance is allowed, and 8 u for all else; within 64 u of
+// touching, as s^2 against 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane is the
+// same with k = 0.
 //
 // In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat) {

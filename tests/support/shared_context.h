@@ -7,7 +7,8 @@
 #include <memory>
 #include <optional>
 
-// Where the work is to be shared by several devices and there may be one alone, it is taken more than once. like_gpus: CPUs are used as GPUs are.
+// Where the work is to be shared by several devices and there may be one alone, it is taken more than once. like_gpus:
+// CPUs are used as GPUs are.
 inline pt_result create_shared(uint32_t devices_of_each, const pt_create_info &info, pt_context **context,
                                bool like_gpus = false, std::optional<uint32_t> adaptive_from = std::nullopt) {
     return pt::guard(pt::thread_last_error, [&] {

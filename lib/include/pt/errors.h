@@ -19,8 +19,8 @@ typedef struct pt_broken_rule {
     uint32_t struct_size; /**< sizeof(pt_broken_rule); must be set by the caller */
     int32_t component;    /**< which element of the member, an array or a pt_column; -1: the member is neither */
     int64_t index;        /**< which element of the subject, an array of structs; -1: the subject is none */
-    /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate", "image", "stats",
-     * "create" or "vulkan" for the struct itself; or the name of another argument */
+    /** "materials", "spheres", "planes" or "sphere_arrays" of pt_scene; "scene", "camera", "render", "accumulate",
+     * "image", "stats", "create" or "vulkan" for the struct itself; or the name of another argument */
     const char *subject;
     const char *member; /**< of the subject's struct, or "center.type"; "" for a rule about the argument itself */
     const char *with;   /**< what else enters the value, as "* height" beside "width"; else "" */

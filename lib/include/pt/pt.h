@@ -77,9 +77,9 @@ typedef struct pt_vulkan pt_vulkan;
 
 /** Called now and then during a call that takes long, with the share of it that is done, in [0, 1], never falling.
  *
- * Return 0 to go on; anything else asks the call to stop, which then returns PT_CANCELLED. What that leaves, and how often
- * it is called, is said where the function is given: in pt_scene and pt_accumulate_info. user is the pointer that was given
- * beside it. */
+ * Return 0 to go on; anything else asks the call to stop, which then returns PT_CANCELLED. What that leaves, and how
+ * often it is called, is said where the function is given: in pt_scene and pt_accumulate_info. user is the pointer that
+ * was given beside it. */
 typedef int32_t (*pt_progress_fn)(void *user, double fraction);
 
 /* ---- Scene ------------------------------------------------------------------------------------------------------ */
@@ -120,13 +120,13 @@ enum {
     PT_TYPE_FLOAT32 = 1, /**< float */
     PT_TYPE_FLOAT64 = 2, /**< double */
     PT_TYPE_UINT32 = 3,  /**< uint32_t */
-    /** uint8_t, for colours alone: 255 times the sRGB encoding (IEC 61966-2-1) of a linear value in [0, 1], which is what
-     * pictures and colour maps have. */
+    /** uint8_t, for colours alone: 255 times the sRGB encoding (IEC 61966-2-1) of a linear value in [0, 1], which is
+     * what pictures and colour maps have. */
     PT_TYPE_SRGB8 = 4
 };
 
-/** One property of many spheres, where the caller has it. That of sphere i begins at data + i * stride_bytes and has its
- * components one after the other; no alignment is needed. All zero: no column, the property has its default. */
+/** One property of many spheres, where the caller has it. That of sphere i begins at data + i * stride_bytes and has
+ * its components one after the other; no alignment is needed. All zero: no column, the property has its default. */
 typedef struct pt_column {
     const void *data;      /**< NULL only if there is no column */
     uint32_t stride_bytes; /**< < 2^31; at least the bytes of a sphere's components, or 0: one value for all spheres */
@@ -141,9 +141,9 @@ typedef struct pt_sphere_array {
     pt_column radius;     /**< FLOAT32 or FLOAT64; there must be one */
     pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
     pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
-    /** R, G, B in [0, 1], by which the diffuse of the sphere's material is multiplied; FLOAT32 or FLOAT64, linear like all
-     * colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. Held to a
-     * thousandth where spheres are in a tree (PT_FEATURE_TREE). */
+    /** R, G, B in [0, 1], by which the diffuse of the sphere's material is multiplied; FLOAT32 or FLOAT64, linear like
+     * all colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. Held
+     * to a thousandth where spheres are in a tree (PT_FEATURE_TREE). */
     pt_column color;
 } pt_sphere_array;
 
@@ -168,10 +168,10 @@ typedef struct pt_scene {
     const pt_sphere_array *sphere_arrays; /**< more spheres, one array for each species for instance; in any order */
     uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
     uint32_t reserved;                    /**< 0 */
-    /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds while
-     * spheres are many, and in any case with 1 before the scene is taken over. If it asks to stop, pt_set_scene returns
-     * PT_CANCELLED, and all is as it was before, the scene and the samples too. The share grows about as time passes, and
-     * leaps where a tree is kept (PT_FEATURE_TREE). */
+    /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds
+     * while spheres are many, and in any case with 1 before the scene is taken over. If it asks to stop, pt_set_scene
+     * returns PT_CANCELLED, and all is as it was before, the scene and the samples too. The share grows about as time
+     * passes, and leaps where a tree is kept (PT_FEATURE_TREE). */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
 } pt_scene;
@@ -245,42 +245,43 @@ typedef struct pt_render {
 enum {
     PT_SAMPLING_BEST = 0,    /**< adaptive with a target error, else uniform */
     PT_SAMPLING_UNIFORM = 1, /**< to all pixels alike */
-    /** where they lessen the error most, which takes a target error: as long as tiles of 8 x 8 pixels are much alike, to all
-     * pixels alike; else a tile gets as many samples again while what that gains for its cost exceeds a bound, which falls
-     * until the image has the target error. Whenever it falls, all pixels have a fourth of the mean or get it. */
+    /** where they lessen the error most, which takes a target error: as long as tiles of 8 x 8 pixels are much alike,
+     * to all pixels alike; else a tile gets as many samples again while what that gains for its cost exceeds a bound,
+     * which falls until the image has the target error. Whenever it falls, all pixels have a fourth of the mean or get
+     * it. */
     PT_SAMPLING_ADAPTIVE = 2
 };
 
 /** How many samples pt_accumulate is to add. */
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
-    /** samples to add to every pixel, >= 1; indices must stay below 2^32. With a target_error the most that it adds to those
-     * pixels that have most; 0: to others alone, which a call that was stopped may have left behind. */
+    /** samples to add to every pixel, >= 1; indices must stay below 2^32. With a target_error the most that it adds to
+     * those pixels that have most; 0: to others alone, which a call that was stopped may have left behind. */
     uint32_t sample_count;
     /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
      *
-     * The share does not grow with submissions that take no sample: those that empty the image's memory before the first
-     * sample, and those that add to the image a sample which took several submissions. Before its first call the driver
-     * builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that, and two or three
-     * more in the first submission that takes samples unless its cache has the kernel (pt_prepare does both).
+     * The share does not grow with submissions that take no sample: those that empty the image's memory before the
+     * first sample, and those that add to the image a sample which took several submissions. Before its first call the
+     * driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that, and two
+     * or three more in the first submission that takes samples unless its cache has the kernel (pt_prepare does both).
      *
-     * If it asks to stop, the call ends with the submissions that are under way then: two to each device at the most, and
-     * with several devices those that complete the samples begun. */
+     * If it asks to stop, the call ends with the submissions that are under way then: two to each device at the most,
+     * and with several devices those that complete the samples begun. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
-     * PT_TARGET_REACHED, while PT_OK says that sample_count allows no more. The error is looked at when all pixels have as
-     * many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants more for the bound
-     * of the time, and at no other time: where a sequence ends, and with which samples in which pixels, does not depend on
-     * how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
+     * PT_TARGET_REACHED, while PT_OK says that sample_count allows no more. The error is looked at when all pixels have
+     * as many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants more for the
+     * bound of the time, and at no other time: where a sequence ends, and with which samples in which pixels, does not
+     * depend on how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
     uint32_t reserved; /**< 0 */
     /** NULL: all pixels alike, or as the target error decides. Else how many samples each tile takes, from none to
-     * sample_count, and there is no target error: for pt_render.first_sample and the next that the tile has not. Tiles are
-     * squares of 8 x 8 pixels from the top left of what is rendered on, smaller at its edges, row by row. So machines
-     * share what a film is to take next (pt_plan_film). PT_ERROR_UNSUPPORTED: a device that holds films in parts which
-     * cut tiles. Read by the call alone. */
+     * sample_count, and there is no target error: for pt_render.first_sample and the next that the tile has not. Tiles
+     * are squares of 8 x 8 pixels from the top left of what is rendered on, smaller at its edges, row by row. So
+     * machines share what a film is to take next (pt_plan_film). PT_ERROR_UNSUPPORTED: a device that holds films in
+     * parts which cut tiles. Read by the call alone. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< elements of tile_samples: all tiles of what is rendered, or 0 */
     uint32_t reserved2;  /**< 0 */
@@ -295,11 +296,12 @@ enum {
      * are below a third of the true one. INFINITY where a part has no sample: of up to 8 all are in the first. */
     PT_QUANTITY_STANDARD_ERROR = 1,
     PT_QUANTITY_SAMPLE_COUNT = 2, /**< samples that the pixel has, the same in all channels, as float32 rounds it */
-    /* What camera rays meet first, of the scene and the camera that are set: for compositing, denoising and picking. It is
-     * found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. */
-    /** depth along the view, as compositing programs have it: dot(x - camera.position, unit viewing direction) of the point
-     * x that the ray through the pixel's centre meets, of parallel rays its distance from where they start, halfway between shutter_open and shutter_close; the same in all
-     * channels. INFINITY where it meets nothing. In OpenEXR the channel Z. */
+    /* What camera rays meet first, of the scene and the camera that are set: for compositing, denoising and picking. It
+     * is found when it is read, by a kernel of its own that is built for the first of these, and needs no sample. */
+    /** depth along the view, as compositing programs have it: dot(x - camera.position, unit viewing direction) of the
+     * point x that the ray through the pixel's centre meets, of parallel rays its distance from where they start,
+     * halfway between shutter_open and shutter_close; the same in all channels. INFINITY where it meets nothing. In
+     * OpenEXR the channel Z. */
     PT_QUANTITY_DEPTH = 3,
     /** unit normal in the world's coordinates x, y, z, on the side of the camera: the mean over 16 rays that are spread
      * evenly over the pixel and the shutter's time, as denoisers want it filtered like radiance; at edges it is shorter
@@ -307,13 +309,14 @@ enum {
     PT_QUANTITY_NORMAL = 4,
     /** diffuse + specular, no component above 1, of each of these rays: their mean. 0 of a ray that meets nothing. */
     PT_QUANTITY_ALBEDO = 5,
-    /** index of the sphere whose depth it is, as the scene counts them; of a plane, the number of all spheres + its index
-     * in planes; PT_NO_OBJECT where the ray meets nothing. Of surfaces that stand for others (pt_sphere) the first. Its
-     * format is PT_FORMAT_R32UI. */
+    /** index of the sphere whose depth it is, as the scene counts them; of a plane, the number of all spheres + its
+     * index in planes; PT_NO_OBJECT where the ray meets nothing. Of surfaces that stand for others (pt_sphere) the
+     * first. Its format is PT_FORMAT_R32UI. */
     PT_QUANTITY_OBJECT = 6,
-    /** share of the pixel's samples whose camera rays meet a surface, the same in all channels: the alpha that belongs to
-     * their mean, which is black where rays meet nothing and so is multiplied by it already. It is counted when it is read,
-     * by a kernel of its own that takes the camera rays of these samples again, and takes as long as they did. */
+    /** share of the pixel's samples whose camera rays meet a surface, the same in all channels: the alpha that belongs
+     * to their mean, which is black where rays meet nothing and so is multiplied by it already. It is counted when it
+     * is read, by a kernel of its own that takes the camera rays of these samples again, and takes as long as they did.
+     */
     PT_QUANTITY_COVERAGE = 7
 };
 
@@ -361,25 +364,25 @@ typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 
 /** Gives back what pt_store_kernels_fn was given under a key, be it by another process.
  *
- * Returns how many bytes there are, 0 for none, and writes them to data if they are no more than size_bytes. First it is
- * called with NULL and 0, to learn their number. What it gives is checked and, if it is damaged or belongs to another
- * driver or version, left alone: the kernels are then built anew, and no call fails. key is as for pt_store_kernels_fn,
- * user is pt_create_info.kernels_user. */
+ * Returns how many bytes there are, 0 for none, and writes them to data if they are no more than size_bytes. First it
+ * is called with NULL and 0, to learn their number. What it gives is checked and, if it is damaged or belongs to
+ * another driver or version, left alone: the kernels are then built anew, and no call fails. key is as for
+ * pt_store_kernels_fn, user is pt_create_info.kernels_user. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
 /** Takes what a driver has made of kernels, to be kept under a key in place of what was there.
  *
  * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it is as fit for
- * the name of a file. data is valid during the call: from some dozens of bytes to some megabytes, mostly the driver's own.
- * Where it cannot be kept, nothing needs to be said. user is pt_create_info.kernels_user. */
+ * the name of a file. data is valid during the call: from some dozens of bytes to some megabytes, mostly the driver's
+ * own. Where it cannot be kept, nothing needs to be said. user is pt_create_info.kernels_user. */
 typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
 
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again, and
-     * the first scene of a context gets one, as does each that is rendered for some time, a second at first; building
-     * it takes a third of a second. Without, a moving camera and spheres that move build nothing. */
+    /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again,
+     * and the first scene of a context gets one, as does each that is rendered for some time, a second at first;
+     * building it takes a third of a second. Without, a moving camera and spheres that move build nothing. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -397,10 +400,11 @@ typedef struct pt_create_info {
     const pt_vulkan *vulkan;
     /** NULL or empty: the kernels in the library. Else a folder of their GLSL files, see pt/shaders.h. */
     const char *shader_dir;
-    /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes start
-     * sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have built
-     * kernels (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays meet first; on GPUs of
-     * anything, and pt_get_stats), also of those that fail. Drivers that have a cache of their own, as Mesa's lavapipe, give next to nothing. */
+    /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes
+     * start sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have
+     * built kernels (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays meet first; on GPUs
+     * of anything, and pt_get_stats), also of those that fail. Drivers that have a cache of their own, as Mesa's
+     * lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< handed to both; the library does not look at it */
@@ -448,9 +452,10 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
- * Many spheres are put into a tree here, which takes most of the time. Where a scene has as many of them as the one before,
- * the tree's shape is kept while it is good, and the call takes a third to two fifths of the time: so where spheres move a
- * little from picture to picture, or change their colours alone. The image, its bits and its films do not depend on that.
+ * Many spheres are put into a tree here, which takes most of the time. Where a scene has as many of them as the one
+ * before, the tree's shape is kept while it is good, and the call takes a third to two fifths of the time: so where
+ * spheres move a little from picture to picture, or change their colours alone. The image, its bits and its films do
+ * not depend on that.
  *
  * One thread at a time per context. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: a rule is
  * broken; the message has a line for each rule
@@ -473,13 +478,14 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
 
 /** Builds the kernels that pt_accumulate needs for scene, camera and render settings as they are, so that it does not
- * have to: on Mesa's lavapipe a third of a second for a few spheres, on a GPU about as long where its driver has not kept
- * them.
+ * have to: on Mesa's lavapipe a third of a second for a few spheres, on a GPU about as long where its driver has not
+ * kept them.
  *
  * Without this call pt_accumulate builds what it needs. A context keeps the last eight kernels, so that settings which
- * come back find theirs; which one a scene needs is decided by what kinds of things are in it and how many, and on which
- * sides of them the camera is, not by where they are. Here a scene gets a kernel of its own at once where that is faster
- * (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. Drivers cannot be interrupted, and so this call cannot.
+ * come back find theirs; which one a scene needs is decided by what kinds of things are in it and how many, and on
+ * which sides of them the camera is, not by where they are. Here a scene gets a kernel of its own at once where that is
+ * faster (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. Drivers cannot be interrupted, and so this call
+ * cannot.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_UNSUPPORTED: the scene is
  * beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */
@@ -504,8 +510,8 @@ PT_API pt_result pt_accumulate(pt_context *context, const pt_accumulate_info *in
  *
  * What the image's data holds after a failure is undefined. One thread at a time per context.
  * PT_ERROR_INVALID_STATE: there is no sample or, of what camera rays meet first, no scene, camera or render settings.
- * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_DEVICE_LOST; what camera rays meet first can also fail as
- * pt_prepare does. */
+ * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_DEVICE_LOST; what camera rays meet first can also fail
+ * as pt_prepare does. */
 PT_API pt_result pt_readback(pt_context *context, const pt_image *image);
 
 #ifdef __cplusplus

@@ -69,10 +69,10 @@ struct pt_vulkan {
  *            (VK_ACCESS_HOST_READ_BIT): mapped memory that is not coherent is to be invalidated, and commands on the
  *            device see them after a barrier with that source. With signal_semaphore the call returns once the work is
  *            submitted, and commands that wait for the semaphore see them without a barrier, in the stages that wait.
- * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited for.
- *            The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it that
- *            change what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next
- *            pt_readback_to_buffer wait for it. */
+ * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited
+ * for. The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it that change
+ * what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next pt_readback_to_buffer
+ * wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
     uint32_t quantity;         /**< PT_QUANTITY_* of samples; what camera rays meet first is for pt_readback */
@@ -93,8 +93,8 @@ typedef struct pt_buffer_image {
 /** Writes what pt_readback writes, the same bits, into a buffer of the device that pt_create_info.vulkan lent.
  *
  * Where the driver has lost samples, a call without signal_semaphore fails with PT_ERROR_INTERNAL after it has written;
- * what a call with one has lost is reported by the next pt_readback_to_buffer, which does nothing else then. A call that
- * fails otherwise has left buffer and semaphores alone, unless the device was lost.
+ * what a call with one has lost is reported by the next pt_readback_to_buffer, which does nothing else then. A call
+ * that fails otherwise has left buffer and semaphores alone, unless the device was lost.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: the context has a device of its own, or there is no sample.
  * PT_ERROR_INVALID_ARGUMENT: the image breaks a rule. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY,

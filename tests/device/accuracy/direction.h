@@ -36,11 +36,11 @@ inline Real azimuth_bound(Real sine) {
     return sine * (4.5L * std::sqrt(Real{2}) + 1) * half_ulp;
 }
 
-// rotate_to_axis. q, at most sine as |x v.x| + |y v.y| is, errs by 2 u of that; its quotient by 6 u more, 8 u sine; along,
-// of at most sqrt(2), by u for its sum. x and y of the result err by that, by sqrt(2) u for the product and 0.7 u for
-// the sums, z by u for its product, 2 u sine for q and u / 2 for the sum: 8.3 u sine and 3.5 u in all. The sum is that
-// of the basis: its tangents err by 2.5 times what the axis lacks of unit length; two of them, |v.x| + |v.y| <= sqrt(2)
-// sine.
+// rotate_to_axis. q, at most sine as |x v.x| + |y v.y| is, errs by 2 u of that; its quotient by 6 u more, 8 u sine;
+// along, of at most sqrt(2), by u for its sum. x and y of the result err by that, by sqrt(2) u for the product and 0.7
+// u for the sums, z by u for its product, 2 u sine for q and u / 2 for the sum: 8.3 u sine and 3.5 u in all. The sum is
+// that of the basis: its tangents err by 2.5 times what the axis lacks of unit length; two of them, |v.x| + |v.y| <=
+// sqrt(2) sine.
 inline Real rotation_bound(const glm::vec3 &axis, Real sine) {
     const Real length = length_error(axis);
     return sine * (8.3L * half_ulp + 2.5L * std::sqrt(Real{2}) * length) + length + 3.5L * half_ulp;

@@ -151,8 +151,8 @@ struct Wrong {
     std::size_t shadows = 0;    // hits that block a shadow ray that ends before them, or do not block one behind
 };
 
-// Whether the sphere blocks shadow rays as it should. From a ten-thousandth of the distance of the centre on, a tenth of
-// the hit's distance is a hundred times what float32 leaves in doubt.
+// Whether the sphere blocks shadow rays as it should. From a ten-thousandth of the distance of the centre on, a tenth
+// of the hit's distance is a hundred times what float32 leaves in doubt.
 bool blocks_rightly(const Exact &exact, const Result &found, const Item &item) {
     if (exact.met == 1 && exact.distance > 1e-4L * glm::length(Direction(item.centre)))
         return found.blocks_before == 0.0F && found.blocks_behind == 1.0F;

@@ -141,8 +141,8 @@ Bounded cosine_of(const Item &item) {
             2 * half_ulp + length_error(item.normal) + length_error(item.outgoing)};
 }
 
-// The longest chain of roundings is that of the specular term: n + 2, its product with the factor and that with the lobe
-// 3 u, the division by 2 pi 5.5 u, the sum u, and the product with the cosine u.
+// The longest chain of roundings is that of the specular term: n + 2, its product with the factor and that with the
+// lobe 3 u, the division by 2 pi 5.5 u, the sum u, and the product with the cosine u.
 constexpr Real rounding = 11 * half_ulp;
 
 Bounded value_of(const Item &item) {
