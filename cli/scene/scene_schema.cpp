@@ -80,10 +80,10 @@ Schema camera() {
                 {"look_at", described("The point in the middle of the picture", vector())},
                 {"up", described("What is up in the picture; default [0, 1, 0]", direction())},
                 {"projection", described("Default perspective", one_of(projection_names))},
-                {"vertical_extent", described("Height of the view of an orthographic projection, in scene units",
-                                              number(least_length, largest_length))},
                 {"vertical_fov", described("Angle of the picture's height in degrees; default 45",
                                            {{"type", "number"}, {"minimum", 6e-7}, {"exclusiveMaximum", 180}})},
+                {"vertical_extent", described("Height of the view of an orthographic projection, in scene units",
+                                              number(least_length, largest_length))},
                 {"shutter", described("When it opens and closes; default [0, 1]", array_of(time, 2))}},
                {"position", "look_at"}));
 }
