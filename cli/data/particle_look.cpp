@@ -19,9 +19,7 @@ constexpr std::array<std::uint32_t, 7> type_palette{0xe69f00, 0x56b4e9, 0x009e73
                                                     0x0072b2, 0xd55e00, 0xcc79a7};
 
 const std::vector<float> &values_of(const Particles &particles, const std::string &name) {
-    const auto found = std::find_if(particles.columns.begin(), particles.columns.end(),
-                                    [&name](const ParticleColumn &each) { return each.name == name; });
-    return found->values; // asked for by look_columns
+    return particles.find_column(name)->values; // asked for by look_columns
 }
 
 float element_radius(const Particles &particles, std::size_t type, RadiusSource source) {

@@ -1,10 +1,12 @@
 // Particles as a data file holds them: one frame of a simulation, a molecule or a point cloud.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cli {
@@ -30,6 +32,13 @@ struct Particles {
     std::optional<SimulationBox> box;
 
     std::size_t count() const { return positions.size() / 3; }
+
+    // nullptr if there is none of that name.
+    const ParticleColumn *find_column(std::string_view name) const {
+        const auto found = std::find_if(columns.begin(), columns.end(),
+                                        [name](const ParticleColumn &column) { return column.name == name; });
+        return found == columns.end() ? nullptr : &*found;
+    }
 };
 
 } // namespace cli

@@ -1,10 +1,10 @@
 #include "cli/figure/figure_particles.h"
 
 #include "cli/base/exit_code.h"
+#include "cli/data/number_colours.h"
 #include "cli/data/particle_file.h"
 #include "cli/figure/periodic_wrap.h"
 #include "cli/figure/vector3.h"
-#include "cli/image/colour_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +21,6 @@ namespace {
 constexpr std::array<DisplayColour, 7> type_colours{
     {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {213, 94, 0}, {86, 180, 233}, {204, 121, 167}, {240, 228, 66}}};
 constexpr DisplayColour plain_colour{150, 170, 190};
-
-const ParticleColumn *find_column(const Particles &particles, const std::string &name) {
-    const auto found = std::find_if(particles.columns.begin(), particles.columns.end(),
-                                    [&](const ParticleColumn &column) { return column.name == name; });
-    return found == particles.columns.end() ? nullptr : &*found;
-}
 
 // A grid whose cells hold two particles on the average if these fill their box evenly.
 class NeighbourGrid {
@@ -148,14 +142,9 @@ void colour_by_number(FigureParticles &particles, const ParticleColumn &column) 
     const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
     const double least = *low;
     const double range = static_cast<double>(*high) - least;
-    std::vector<float> shares(colour_count);
-    for (std::size_t i = 0; i < colour_count; ++i) {
-        shares[i] = static_cast<float>(i) / (colour_count - 1);
-    }
-    const std::vector<std::uint8_t> bytes = map_colours(shares, colour_count);
     particles.palette.clear();
     for (std::size_t i = 0; i < colour_count; ++i) {
-        particles.palette.push_back({bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2]});
+        particles.palette.push_back(map_colour("viridis", static_cast<double>(i) / (colour_count - 1)));
     }
     std::transform(column.values.begin(), column.values.end(), particles.colours.begin(), [&](float value) {
         const double share = range > 0.0 ? (value - least) / range : 0.5;
@@ -200,7 +189,7 @@ FigureParticles read_figure_particles(const FigureOptions &options) {
     if (options.wraps) {
         wrap_into_box(particles.data);
     }
-    const ParticleColumn *radii = find_column(particles.data, "radius");
+    const ParticleColumn *radii = particles.data.find_column("radius");
     if (options.radius) {
         particles.radii = {*options.radius};
     } else if (radii != nullptr) {
@@ -210,9 +199,9 @@ FigureParticles read_figure_particles(const FigureOptions &options) {
     }
     particles.colours.resize(particles.data.count());
     particles.palette = {plain_colour};
-    const ParticleColumn *types = find_column(particles.data, "type");
+    const ParticleColumn *types = particles.data.find_column("type");
     if (!options.color.empty() && options.color != "type") {
-        colour_by_number(particles, *find_column(particles.data, options.color));
+        colour_by_number(particles, *particles.data.find_column(options.color));
     } else if (types != nullptr) {
         colour_by_type(particles, *types);
     }
