@@ -17,6 +17,7 @@ from pt._errors import IncompatibleError
 from pt._film import Film
 from pt._files import Path
 from pt._library import library
+from pt._stats import Stats
 from pt.farm import _packing, _task
 from pt.farm._checkpoint import read_film, write_film
 from pt.farm._job import Job, name_of
@@ -99,10 +100,6 @@ class _Coordinator:
         if self._film is None:
             raise FarmError("stopped before the first part came back")
         return self._film
-
-    @property
-    def has_film(self) -> bool:
-        return self._film is not None
 
     def finish(self, ended_by: str) -> Result:
         for member in self._members.values():
@@ -307,11 +304,12 @@ class _Coordinator:
         if self._show(self._progress, self._film):
             self._stopped = True
 
-    def look(self) -> None:
+    def look(self) -> Stats:
         """At the film's error."""
         stats = self.film.stats()
         self._progress.samples = stats.mean_sample_count
         self._progress.error, self._progress.error_high = stats.relative_rmse, stats.relative_rmse_high
+        return stats
 
 
 def _added(film: Film, other: Film) -> Film:
@@ -345,10 +343,10 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
         return coordinator.finish("samples" if ended else "stopped")
     goals = np.full(shape, min(16, samples), np.uint32)
     while coordinator.run(goals):
-        coordinator.look()
+        stats = coordinator.look()
         if sampling == Sampling.UNIFORM:
             count = int(goals.max())
-            if coordinator.film.stats().relative_rmse_high <= target_error:
+            if stats.relative_rmse_high <= target_error:
                 return coordinator.finish("error")
             if count >= samples:
                 return coordinator.finish("limit")
