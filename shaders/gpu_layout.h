@@ -52,7 +52,13 @@ PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
 PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
 PT_CONSTANT ID_SPOT_COUNT = 29;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
 PT_CONSTANT ID_ORTHOGRAPHIC = 30;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
-PT_CONSTANT CONSTANT_COUNT = 31;
+// Surfaces that camera rays pass through: the last lamps but for the tree's, the first skies, the last of the spheres that do
+// not emit, and the first planes.
+PT_CONSTANT ID_HIDDEN_LAMPS = 31;
+PT_CONSTANT ID_HIDDEN_SKIES = 32;
+PT_CONSTANT ID_HIDDEN_OTHERS = 33;
+PT_CONSTANT ID_HIDDEN_PLANES = 34;
+PT_CONSTANT CONSTANT_COUNT = 35;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;

@@ -21,12 +21,18 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// First surface that a ray from the camera meets.
+// Spheres that are hidden from the camera: of those that emit a range, and the last of all.
+const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
+const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
+const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
+
+// First surface that a ray from the camera meets, of those that are not hidden from it.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);
-    FOR_EACH(sphere, 0u, SPHERE_COUNT, see_sphere(hit, origin, direction, sphere, time));
-    FOR_EACH(plane, SPHERE_COUNT, SURFACE_COUNT, see_plane(hit, origin, direction, plane, time));
+    FOR_EACH(sphere, 0u, FIRST_HIDDEN, see_sphere(hit, origin, direction, sphere, time));
+    FOR_EACH(sphere, AFTER_HIDDEN, SPHERE_COUNT - HIDDEN_OTHERS, see_sphere(hit, origin, direction, sphere, time));
+    FOR_EACH(plane, SPHERE_COUNT + HIDDEN_PLANES, SURFACE_COUNT, see_plane(hit, origin, direction, plane, time));
     return hit;
 }
 

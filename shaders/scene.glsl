@@ -39,6 +39,10 @@ layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 layout(constant_id = ID_WALK_TRIPS) const uint WALK_TRIPS = 0;
 layout(constant_id = ID_SPOT_COUNT) const uint SPOT_COUNT = 0;
+layout(constant_id = ID_HIDDEN_LAMPS) const uint HIDDEN_LAMPS = 0;
+layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
+layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
+layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];

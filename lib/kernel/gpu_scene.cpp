@@ -231,12 +231,13 @@ GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const Rende
 }
 
 KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    return kernel_surfaces(from_start(scene, camera, settings).distinct.seen);
+    const auto [distinct, start] = from_start(scene, camera, settings);
+    return kernel_surfaces(distinct.seen, scene.tree.get(), start);
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings) {
-    const KernelSurfaces surfaces = kernel_surfaces(distinct.seen);
+    const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
     const Features features = features_of(distinct, surfaces, scene, start, settings);
     return {features,
             words_of(surfaces, scene, start, features),

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace pt {
@@ -64,12 +65,31 @@ std::string digest_with_tree(const PreparedScene &prepared) {
 }
 
 // Of what is left of the work when a stage begins.
+constexpr double share_of_hidden = 0.05;
 constexpr double share_of_outlying = 0.05;
 constexpr double share_of_materials = 0.02;
 
-std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, WorkProgress &progress) {
+// Indices of those that the camera does not see, in ascending order.
+std::vector<std::uint32_t> hidden_spheres(const CheckedScene &checked, WorkProgress &progress) {
+    std::vector<std::uint32_t> hidden;
+    if (std::ranges::none_of(checked.materials, &Material::hidden))
+        return hidden;
+    progress.enter(share_of_hidden, static_cast<double>(checked.spheres.size()));
+    checked.spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {
+        if (checked.materials[sphere.material].hidden)
+            hidden.push_back(static_cast<std::uint32_t>(i));
+    });
+    return hidden;
+}
+
+// With the hidden ones, so that no ray from the camera need ask what a sphere of the tree is made of.
+std::vector<std::uint32_t> left_out_of(const CheckedScene &checked, const std::vector<std::uint32_t> &hidden,
+                                       WorkProgress &progress) {
     progress.enter(share_of_outlying, static_cast<double>(checked.spheres.size()));
-    return outlying_spheres(checked.spheres, progress);
+    const std::vector<std::uint32_t> outlying = outlying_spheres(checked.spheres, progress);
+    std::vector<std::uint32_t> left_out;
+    std::ranges::set_union(hidden, outlying, std::back_inserter(left_out));
+    return left_out;
 }
 
 PreparedScene with_nobody_told(CheckedScene checked, std::uint32_t tree_from) {
@@ -102,9 +122,20 @@ PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from) :
 
 PreparedScene::PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before,
                              WorkProgress &progress) :
-    PreparedScene(checked.spheres.size() < tree_from ? PreparedScene(owned_scene(std::move(checked)))
-                                                     : with_tree(checked, left_out_of(checked, progress),
-                                                                 before ? before->tree.get() : nullptr, progress)) {}
+    PreparedScene(prepared(std::move(checked), tree_from, before ? before->tree.get() : nullptr, progress)) {}
+
+PreparedScene PreparedScene::prepared(CheckedScene checked, std::uint32_t tree_from, const SphereTree *before,
+                                      WorkProgress &progress) {
+    if (checked.spheres.size() >= tree_from) {
+        const std::vector<std::uint32_t> hidden = hidden_spheres(checked, progress);
+        if (checked.spheres.size() - hidden.size() >= tree_from) {
+            const std::vector<std::uint32_t> left_out = left_out_of(checked, hidden, progress);
+            if (left_out.size() < checked.spheres.size())
+                return with_tree(checked, left_out, before, progress);
+        }
+    }
+    return PreparedScene(owned_scene(std::move(checked)));
+}
 
 PreparedScene PreparedScene::with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
                                        const SphereTree *before, WorkProgress &progress) {

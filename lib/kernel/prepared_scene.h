@@ -31,7 +31,7 @@ struct PreparedScene {
     // Without a tree.
     explicit PreparedScene(Scene of);
 
-    // With a tree from so many spheres on. Of the caller's memory nothing is read after that.
+    // With a tree from so many spheres on that the camera may see. Of the caller's memory nothing is read after that.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from);
 
     // The same, with the shape that the tree had before, if there was one and it will do. before may be NULL.
@@ -42,6 +42,10 @@ struct PreparedScene {
     const std::string &digest() const;
 
 private:
+    // before: NULL if there was no tree.
+    static PreparedScene prepared(CheckedScene checked, std::uint32_t tree_from, const SphereTree *before,
+                                  WorkProgress &progress);
+
     // left_out: indices of the spheres that are not in the tree.
     static PreparedScene with_tree(const CheckedScene &checked, const std::vector<std::uint32_t> &left_out,
                                    const SphereTree *before, WorkProgress &progress);

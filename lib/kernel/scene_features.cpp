@@ -1,6 +1,7 @@
 // Finds the features of a scene; see scene_features.h.
 #include "lib/kernel/scene_features.h"
 
+#include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/light_spots.h"
 #include "lib/kernel/point_sequence.h"
@@ -84,7 +85,7 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 
 } // namespace
 
-KernelSurfaces kernel_surfaces(const SeenScene &distinct) {
+KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera) {
     KernelSurfaces surfaces{};
     std::vector<SeenSphere> &spheres = surfaces.spheres;
     spheres.reserve(distinct.spheres.size());
@@ -94,13 +95,27 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct) {
                              [&](const SeenSphere &sphere) { return !sphere.is_flat && is_next(sphere); });
         return static_cast<std::uint32_t>(spheres.size() - before);
     };
-    surfaces.lamp_count = add([](const SeenSphere &sphere) { return sphere.emits && !holds_camera(sphere); });
-    surfaces.sky_count = add([](const SeenSphere &sphere) { return sphere.emits && holds_camera(sphere); });
-    add([](const SeenSphere &sphere) { return !sphere.emits; });
+    const auto is_sky = [&](const SeenSphere &sphere) {
+        return holds_camera(sphere) && !(sphere.hidden && lies_apart(sphere, distinct, tree, camera));
+    };
+    const auto is_lamp = [&](const SeenSphere &sphere) { return sphere.emits && !is_sky(sphere); };
+    HiddenCounts &hidden = surfaces.hidden;
+    surfaces.lamp_count = add([&](const SeenSphere &sphere) { return is_lamp(sphere) && !sphere.hidden; });
+    surfaces.lamp_count += hidden.lamps =
+        add([&](const SeenSphere &sphere) { return is_lamp(sphere) && sphere.hidden; });
+    surfaces.sky_count = hidden.skies =
+        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && sphere.hidden; });
+    surfaces.sky_count +=
+        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && !sphere.hidden; });
+    add([](const SeenSphere &sphere) { return !sphere.emits && !sphere.hidden; });
+    hidden.others = add([](const SeenSphere &sphere) { return !sphere.emits && sphere.hidden; });
     for (const SeenSphere &sphere : distinct.spheres)
         if (sphere.is_flat)
             surfaces.planes.push_back(curved_plane(sphere));
     surfaces.planes.insert(surfaces.planes.end(), distinct.planes.begin(), distinct.planes.end());
+    const auto seen =
+        std::ranges::stable_partition(surfaces.planes, [](const CurvedPlane &plane) { return plane.hidden; });
+    hidden.planes = static_cast<std::uint32_t>(surfaces.planes.size() - seen.size());
     return surfaces;
 }
 
@@ -112,6 +127,18 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     const auto is_behind_a_plane = [&](const SeenSphere &lamp) { return !is_in_region(distinct.seen.planes, lamp); };
     const auto divides = [&](const auto &surface) { return divides_start(surface, camera); };
     const auto is_at_camera = [&](const SeenSphere &sphere) { return may_hold_origin(sphere) || divides(sphere); };
+    const auto lies_apart = [&](const SeenSphere &sphere) {
+        return pt::lies_apart(sphere, distinct.seen, scene.tree.get(), camera);
+    };
+    const auto may_hold_paths = [&](const SeenSphere &sphere) {
+        return sphere.hidden ? !lies_apart(sphere) : is_at_camera(sphere);
+    };
+    // The camera looks through hidden surfaces from one side, and paths may be on the other.
+    const auto is_passed = [&](const SeenSphere &sphere) {
+        return sphere.hidden && (may_hold_origin(sphere) || !lies_apart(sphere));
+    };
+    const bool planes_are_passed =
+        std::ranges::any_of(surfaces.planes, [](const CurvedPlane &plane) { return plane.hidden; });
     const bool planes_divide = std::ranges::any_of(distinct.seen.planes, divides);
     const SphereTree *const tree = scene.tree.get();
     const auto tree_lamps = tree ? static_cast<std::uint32_t>(tree->lamp_materials().size()) : 0;
@@ -126,19 +153,23 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.tree_lamps = tree_lamps;
     features.lamp_count = surfaces.lamp_count + tree_lamps;
     features.sky_count = surfaces.sky_count;
+    features.hidden = surfaces.hidden;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.inside = std::ranges::any_of(surfaces.spheres, is_at_camera) ||
+    features.inside = std::ranges::any_of(surfaces.spheres, may_hold_paths) ||
                       (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
-    features.planes_block = features.curvature || planes_divide || std::ranges::any_of(lamps, is_behind_a_plane) ||
+    features.planes_block = features.curvature || planes_divide || planes_are_passed ||
+                            std::ranges::any_of(lamps, is_behind_a_plane) ||
                             (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
-    // Where rays start on both sides of a surface, the camera does not tell them.
+    // Where rays start on both sides of a surface, or pass it, the camera does not tell them.
     const bool starts_divided =
         planes_divide || std::ranges::any_of(distinct.seen.spheres, divides) || (tree && tree->divides_start(camera));
-    features.known_sides = !starts_divided && (features.inside || features.curvature || distinct.close_planes) &&
+    const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
+    features.known_sides = !starts_divided && !some_are_passed &&
+                           (features.inside || features.curvature || distinct.close_planes) &&
                            std::ranges::all_of(surfaces.planes, has_known_side);
     features.close_lamps = features.lamp_count > 0 && (distinct.close_lamps || (tree && tree->has_close_lamps()));
     features.starts_ahead = camera.start_distance > 0.0 || camera.is_orthographic();
@@ -233,6 +264,10 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_CLOSE_LAMPS] = features.close_lamps ? 1 : 0;
     constants[gpu::ID_STARTS_AHEAD] = features.starts_ahead ? 1 : 0;
     constants[gpu::ID_ORTHOGRAPHIC] = features.orthographic ? 1 : 0;
+    constants[gpu::ID_HIDDEN_LAMPS] = features.hidden.lamps;
+    constants[gpu::ID_HIDDEN_SKIES] = features.hidden.skies;
+    constants[gpu::ID_HIDDEN_OTHERS] = features.hidden.others;
+    constants[gpu::ID_HIDDEN_PLANES] = features.hidden.planes;
     constants[gpu::ID_TREE] = features.tree ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
@@ -285,6 +320,7 @@ std::uint32_t feature_bits(const Features &features) {
     bits |= features.scene_in_uniform ? 0 : PT_FEATURE_LARGE;
     bits |= features.tree ? PT_FEATURE_TREE : 0;
     bits |= features.orthographic ? PT_FEATURE_ORTHOGRAPHIC : 0;
+    bits |= features.hidden.any() ? PT_FEATURE_HIDDEN : 0;
     return bits;
 }
 

@@ -18,11 +18,24 @@
 
 namespace pt {
 
+// Of surfaces that the camera does not see, none of which is in the tree.
+struct HiddenCounts {
+    std::uint32_t lamps;
+    std::uint32_t skies;
+    std::uint32_t others; // spheres that do not emit
+    std::uint32_t planes;
+
+    bool operator==(const HiddenCounts &) const = default;
+
+    bool any() const { return lamps + skies + others + planes > 0; }
+};
+
 struct Features {
     std::uint32_t sphere_count; // spheres held by centre and radius
     std::uint32_t plane_count;  // planes, and spheres held as planes with a curvature (curved_plane.h)
     std::uint32_t lamp_count;   // emitting ones of sphere_count, and of the tree, that can be sampled
     std::uint32_t sky_count;    // emitting ones of sphere_count that hold the camera, and so all paths
+    HiddenCounts hidden;        // surfaces that the camera does not see
     bool many_spheres;          // so many that paths branch less
     std::uint32_t max_path_length;
     std::uint32_t estimator;
@@ -54,16 +67,20 @@ struct Features {
 };
 
 // A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in
-// the scene's order. Paths cannot leave a sphere that holds the camera: one that emits surrounds them all like a sky,
-// which cannot be sampled from within.
+// the scene's order. Hidden ones are the last lamps, the first skies, the last other spheres and the first planes, so
+// that those that the camera sees are two ranges. Paths cannot leave a sphere that holds the camera: one that emits
+// surrounds them all like a sky, which cannot be sampled from within. A hidden one that lies apart from all that is
+// seen is a lamp.
 struct KernelSurfaces {
     std::vector<SeenSphere> spheres; // held by centre and radius
     std::vector<CurvedPlane> planes;
     std::uint32_t lamp_count;
     std::uint32_t sky_count;
+    HiddenCounts hidden;
 };
 
-KernelSurfaces kernel_surfaces(const SeenScene &distinct);
+// tree: NULL if there is none.
+KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);

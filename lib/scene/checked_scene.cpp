@@ -76,6 +76,12 @@ public:
         material.check("glossiness", source.glossiness, glossiness_rule);
     }
 
+    void check(std::uint32_t flags, std::size_t index) const {
+        const Subject material(violations_, "material_flags", index);
+        material.require(flags <= PT_MATERIAL_HIDDEN_FROM_CAMERA, "", flags,
+                         "must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");
+    }
+
     void check(const pt_sphere &source, std::size_t index) const {
         const Subject sphere(violations_, "spheres", index);
         sphere.check_each("center", source.center, length_rule);
@@ -151,6 +157,13 @@ std::vector<Owned> owned_all(std::span<const Element> elements) {
     return all;
 }
 
+std::vector<Material> owned_materials(std::span<const pt_material> materials, std::span<const std::uint32_t> flags) {
+    std::vector<Material> all = owned_all<Material>(materials);
+    for (std::size_t i = 0; i < flags.size(); ++i)
+        all[i].hidden = (flags[i] & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0;
+    return all;
+}
+
 } // namespace
 
 CheckedScene checked_scene(const pt_scene &scene) {
@@ -168,17 +181,19 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);
+    const std::span<const std::uint32_t> flags(scene.material_flags, scene.material_flags ? materials.size() : 0);
     const auto spheres = elements(scene.spheres, scene.sphere_count, "sphere", violations);
     const auto planes = elements(scene.planes, scene.plane_count, "plane", violations);
     const Checker checker(violations, scene.material_count);
     progress.enter(share_of_checks,
                    static_cast<double>(materials.size() + spheres.size() + planes.size()) + elements_of(arrays));
     check_all(materials, checker, progress);
+    check_all(flags, checker, progress);
     check_all(spheres, checker, progress);
     check_sphere_arrays(arrays, scene.material_count, violations, progress);
     check_all(planes, checker, progress);
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
-    return {owned_all<Material>(materials), SphereSource(spheres, arrays), owned_all<Plane>(planes)};
+    return {owned_materials(materials, flags), SphereSource(spheres, arrays), owned_all<Plane>(planes)};
 }
 
 } // namespace pt

@@ -18,10 +18,11 @@ struct CurvedPlane {
     glm::dvec3 way;         // of the surface while the shutter is open
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // into Scene::planes or, of what has a curvature, into Scene::spheres
+    bool hidden = false;    // from the camera
 };
 
 // With its normal towards the camera. index: into Scene::planes.
-CurvedPlane curved_plane(const Plane &plane, const Camera &camera, std::uint32_t index);
+CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index);
 
 // Of a sphere that is_flat: in float32, its centre and radius would put its surface off by 2^-24 of the radius, this
 // does by 2^-24 of what the scene measures.

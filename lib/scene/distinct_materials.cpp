@@ -12,7 +12,7 @@ namespace {
 
 bool are_equal(const Material &a, const Material &b) {
     return a.diffuse == b.diffuse && a.specular == b.specular && a.emission == b.emission &&
-           a.glossiness == b.glossiness;
+           a.glossiness == b.glossiness && a.hidden == b.hidden;
 }
 
 // Equal numbers have equal bits: -0 + 0 = +0.

@@ -49,6 +49,8 @@ void add(Digest &digest, const Material &material) {
     digest.add(material.specular);
     digest.add(material.emission);
     digest.add(static_cast<double>(material.glossiness));
+    if (material.hidden) // so that scenes without such keep the digest that their films have
+        digest.add(std::uint64_t{PT_MATERIAL_HIDDEN_FROM_CAMERA});
 }
 
 std::string digest_of(const Scene &scene) {

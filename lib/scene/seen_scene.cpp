@@ -16,7 +16,8 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera) {
                                   static_cast<std::uint32_t>(seen.spheres.size()));
     seen.planes.reserve(scene.planes.size());
     for (const Plane &plane : scene.planes)
-        seen.planes.push_back(curved_plane(plane, camera, static_cast<std::uint32_t>(seen.planes.size())));
+        seen.planes.push_back(curved_plane(plane, scene.materials[plane.material], camera,
+                                           static_cast<std::uint32_t>(seen.planes.size())));
     return seen;
 }
 

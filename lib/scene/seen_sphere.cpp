@@ -35,6 +35,7 @@ SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Ca
     material(sphere.material),
     index(of_index),
     emits(pt::emits(of_sphere)),
+    hidden(of_sphere.hidden),
     is_flat(is_large(*this, emits ? nearly_flat_lamp : nearly_flat) && moves_little(*this)) {}
 
 // Held by its centre, its surface is off by 2^-24 of the radius. Where that is more than 1/256 of its distance, as for

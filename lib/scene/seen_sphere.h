@@ -15,6 +15,7 @@ struct SeenSphere : MovingBall {
     std::uint32_t material; // index into Scene::materials
     std::uint32_t index;    // into Scene::spheres
     bool emits;
+    bool hidden;  // from the camera
     bool is_flat; // so large that it is held better as a plane with a curvature (curved_plane.h)
 
     SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index = 0);

@@ -136,12 +136,33 @@ Given many(bool moves) {
     return given;
 }
 
+namespace {
+
+// Without what is made of one of the materials, for the camera.
+Given hiding(Given given, std::uint32_t material) {
+    given.flags.assign(given.materials.size(), 0);
+    given.flags[material] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+    return given;
+}
+
+} // namespace
+
 std::vector<Case> cases() {
-    return {{"coursework", coursework()}, {"moving", moving()},
-            {"inside", inside()},         {"huge", huge()},
-            {"narrow", narrow()},         {"far away", far_away()},
-            {"parallel", parallel()},     {"divided", divided()},
-            {"a tree", many(false)},      {"a tree that moves", many(true)}};
+    return {{"coursework", coursework()},
+            {"moving", moving()},
+            {"inside", inside()},
+            {"huge", huge()},
+            {"narrow", narrow()},
+            {"far away", far_away()},
+            {"parallel", parallel()},
+            {"divided", divided()},
+            {"a tree", many(false)},
+            {"a tree that moves", many(true)},
+            {"a hidden ball around the camera", hiding(inside(), 1)},
+            {"a hidden globe", hiding(huge(), 1)},
+            {"a hidden sky", hiding(huge(), 2)},
+            {"hidden lamps", hiding(divided(), 2)},
+            {"hidden, of a tree", hiding(many(true), 1)}};
 }
 
 } // namespace first_hits

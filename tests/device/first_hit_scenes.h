@@ -5,6 +5,7 @@
 #include "tests/support/coursework_scene.h"
 #include "tests/support/scene_of.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,14 @@ struct Given {
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
     pt_camera camera = CourseworkScene::camera();
-    double start_distance = 0.0; // how far ahead of the camera float32 numbers begin, at the least
+    double start_distance = 0.0;           // how far ahead of the camera float32 numbers begin, at the least
+    std::vector<std::uint32_t> flags = {}; // of the materials; none: 0
 
-    pt_scene scene() const { return scene_of(materials, spheres, planes); }
+    pt_scene scene() const {
+        pt_scene scene = scene_of(materials, spheres, planes);
+        scene.material_flags = flags.empty() ? nullptr : flags.data();
+        return scene;
+    }
 
     // With every default written out, as the reference takes it.
     pt_camera full_camera() const {

@@ -146,17 +146,25 @@ struct View {
     }
 };
 
+inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
+    return scene.material_flags == nullptr || scene.material_flags[material] != PT_MATERIAL_HIDDEN_FROM_CAMERA;
+}
+
 // The first surface; nothing where float32 may meet another one, or none.
 inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view, const Ray &ray) {
     std::vector<Meeting> met;
     for (std::uint32_t i = 0; i < scene.sphere_count; ++i) {
         const pt_sphere &sphere = scene.spheres[i];
+        if (!is_seen(scene, sphere.material))
+            continue;
         const Vector open = vector_of(sphere.center) + view.shutter_open * vector_of(sphere.motion) - view.position;
         const bool is_flat = sphere.radius > 32.0L * std::abs(glm::length(open) - sphere.radius);
         met.push_back(meet_sphere(sphere, view.position, ray, ray.time, is_flat));
         met.back().object = i;
     }
     for (std::uint32_t i = 0; i < scene.plane_count; ++i) {
+        if (!is_seen(scene, scene.planes[i].material))
+            continue;
         met.push_back(meet_plane(scene.planes[i], view.position, ray));
         met.back().object = scene.sphere_count + i;
     }

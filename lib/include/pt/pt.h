@@ -99,6 +99,15 @@ typedef struct pt_material {
     float glossiness;  /**< n in [0, 1e9] */
 } pt_material;
 
+/** Bits of pt_scene.material_flags. */
+enum {
+    /** Rays from the camera pass through surfaces of the material; all other rays meet them as if the bit were not set.
+     * So a lamp is out of the picture but lights it, and is in its reflections; a wall lets the camera look into a
+     * room. The spheres are tested one by one, also where others are in a tree (PT_FEATURE_TREE): they should be few.
+     * Of surfaces that stand for others (pt_sphere) it is the first whose material counts in this, too. */
+    PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
+};
+
 /** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
  *
  * Of spheres that float32 cannot tell apart as the camera sees them the first in the scene stands for all, and so of
@@ -174,6 +183,8 @@ typedef struct pt_scene {
      * passes, and leaps where a tree is kept (PT_FEATURE_TREE). */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
+    /** PT_MATERIAL_* bits of each of materials, as many; NULL: 0 for all. The caller's, like the arrays. */
+    const uint32_t *material_flags;
 } pt_scene;
 
 /** Values of pt_camera.projection. */

@@ -20,7 +20,8 @@ enum {
      * context's devices is a GPU from 96 on. Centres are held to 2^-30 of the extent of those in the tree, colours of
      * spheres to a thousandth. */
     PT_FEATURE_TREE = 16,
-    PT_FEATURE_ORTHOGRAPHIC = 32 /**< parallel camera rays */
+    PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
+    PT_FEATURE_HIDDEN = 64        /**< surfaces that the camera does not see */
 };
 
 /** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further

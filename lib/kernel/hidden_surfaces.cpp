@@ -1,0 +1,56 @@
+// Compares spheres with what is near them; see hidden_surfaces.h.
+#include "lib/kernel/hidden_surfaces.h"
+
+#include <algorithm>
+
+namespace pt {
+
+namespace {
+
+// So that float32 has no doubt either.
+double with_margin(double length) {
+    return length * (1.0 + side_margin);
+}
+
+double shortest(const glm::dvec3 &from, const glm::dvec3 &way) {
+    const double length = glm::dot(way, way);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(from, way) / length, 0.0, 1.0) : 0.0;
+    return glm::length(from + nearest * way);
+}
+
+} // namespace
+
+// Both move evenly, so that one passes the other on a straight line, on which it is farthest away at an end.
+bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
+    const glm::dvec3 from = ball.open - surface.open;
+    const glm::dvec3 way = ball.way - surface.way;
+    const double farthest = std::max(glm::length(from), glm::length(from + way));
+    const bool is_beside = shortest(from, way) > with_margin(ball.radius + surface.radius);
+    const bool is_within = with_margin(farthest + ball.radius) < surface.radius;
+    return is_beside || is_within;
+}
+
+bool lies_apart(const MovingBall &ball, const CurvedPlane &flat) {
+    const double open = glm::dot(flat.normal, ball.open) + flat.offset;
+    const double close = glm::dot(flat.normal, ball.close()) + flat.offset;
+    const double radius = with_margin(ball.radius);
+    return std::min(open, close) > radius || std::max(open, close) < -radius;
+}
+
+bool lies_apart(const MovingBall &ball, const PointBox &box) {
+    const double radius = with_margin(ball.radius);
+    const glm::dvec3 low = glm::min(ball.open, ball.close()) - radius;
+    const glm::dvec3 high = glm::max(ball.open, ball.close()) + radius;
+    return glm::any(glm::lessThan(high, box.low)) || glm::any(glm::lessThan(box.high, low));
+}
+
+bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera) {
+    const auto is_apart = [&](const auto &surface) { return surface.hidden || lies_apart(hidden, surface); };
+    const auto of_scene = [&](const PointBox &box) {
+        return PointBox{box.low - camera.position, box.high - camera.position};
+    };
+    return std::ranges::all_of(scene.spheres, is_apart) && std::ranges::all_of(scene.planes, is_apart) &&
+           (tree == nullptr || lies_apart(hidden, of_scene(tree->bounds())));
+}
+
+} // namespace pt

@@ -1,0 +1,269 @@
+// Surfaces that are hidden from the camera, through pt.h. Run alone with --gtest_filter=Hidden*.
+#include "tests/support/batch_fixture.h"
+#include "tests/support/coursework_scene.h"
+#include "tests/support/image_target.h"
+#include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace hiding {
+
+namespace {
+
+constexpr std::uint32_t picture_width = 40;
+constexpr std::uint32_t picture_height = 30;
+
+// Three materials, each also hidden from the camera: a surface has its kind, or its kind + hidden.
+constexpr std::uint32_t hidden = 3;
+
+struct Hiding {
+    std::string name;
+    std::vector<pt_material> materials;
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_plane> planes;
+    std::vector<std::uint32_t> flags = {};
+    pt_camera camera = CourseworkScene::camera();
+
+    Hiding(std::string of, std::array<pt_material, 3> kinds) :
+        name(std::move(of)),
+        materials(kinds.begin(), kinds.end()) {
+        materials.insert(materials.end(), kinds.begin(), kinds.end());
+        flags = {0, 0, 0, 1, 1, 1};
+        camera.position[0] = camera.position[1] = camera.position[2] = 0;
+        camera.target[0] = camera.target[1] = 0;
+        camera.target[2] = -1;
+    }
+
+    pt_scene scene() const {
+        pt_scene scene = scene_of(materials, spheres, planes);
+        scene.material_flags = flags.data();
+        return scene;
+    }
+};
+
+class HiddenFromCamera : public BatchFixture {
+protected:
+    std::vector<float> image_of(const Hiding &given, const pt_render &render, std::uint32_t samples) {
+        return render_image(context(), given.scene(), given.camera, render, samples);
+    }
+
+    std::vector<float> coverage() {
+        std::vector<float> values(std::size_t{3} * picture_width * picture_height);
+        const pt_image target = image_target(values, PT_QUANTITY_COVERAGE);
+        EXPECT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
+        return values;
+    }
+};
+
+pt_sphere ball(double x, double y, double z, double radius, std::uint32_t material) {
+    return {{x, y, z}, radius, {0, 0, 0}, material, 0};
+}
+
+// ---- Light that is 1 wherever one looks
+// -------------------------------------------------------------------------------
+
+// All that there is shines with a radiance of 1, and all around everything that the camera sees. A vertex that reflects
+// half of that has 1.5, whatever stands where: light that leaks, or that is lost, shows.
+constexpr std::uint32_t shining = 0;
+
+Hiding closed(const std::string &name) {
+    const pt_material material{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0};
+    return {name, {material, material, material}};
+}
+
+std::vector<Hiding> closed_scenes() {
+    std::vector<Hiding> scenes;
+    const auto add = [&](const std::string &name) -> Hiding & { return scenes.emplace_back(closed(name)); };
+
+    Hiding &into_shell = add("into a shell");
+    into_shell.spheres = {ball(0, 0, -9, 1, shining), ball(1, 1, -8, 0.5, shining),
+                          ball(0, 0, -9, 4, shining + hidden)};
+
+    Hiding &in_sky = add("under a sky");
+    in_sky.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -3, 40, shining + hidden)};
+
+    Hiding &out_of_shell = add("out of a shell, under a sky");
+    out_of_shell.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, 0, 2, shining + hidden),
+                            ball(0, 0, -3, 40, shining + hidden)};
+
+    Hiding &between_planes = add("between planes");
+    between_planes.spheres = {ball(0, 0, -9, 1, shining), ball(1.5, 0, -9, 0.75, shining)};
+    between_planes.planes = {{{0, 0, 1}, 6, shining + hidden, 0}, {{0, 0, 1}, 12, shining + hidden, 0}};
+
+    // Held as planes with a curvature: the camera hovers over one globe, in which the ball lies, and is in another.
+    Hiding &globes = add("globes");
+    globes.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -1e7 - 5, 1e7, shining + hidden),
+                      ball(0, 0, -1e7 + 3, 1e7, shining + hidden)};
+
+    Hiding &cut = add("a shell that cuts a floor and a ball");
+    cut.spheres = {ball(0, 0, -9, 1, shining), ball(1, 0.5, -8.5, 1, shining + hidden), ball(0, 0, -3, 40, shining)};
+    cut.planes = {{{0, 1, 0}, 0.5, shining, 0}};
+
+    Hiding &moving = add("a shell that moves with its ball");
+    moving.spheres = {ball(-0.2, 0, -9, 1, shining), ball(-0.2, 0, -9, 2, shining + hidden)};
+    for (pt_sphere &sphere : moving.spheres)
+        sphere.motion[0] = 0.4;
+
+    Hiding &past = add("a ball that passes a wall");
+    past.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -3, 40, shining + hidden)};
+    past.spheres[0].motion[2] = -6;
+    past.planes = {{{0, 0, 1}, 11, shining + hidden, 0}};
+
+    Hiding &parallel = add("by parallel rays");
+    parallel.spheres = {ball(0, 0, -9, 1, shining), ball(0, 0, -9, 4, shining + hidden)};
+    parallel.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+    parallel.camera.vertical_fov = 0;
+    parallel.camera.vertical_extent = 5;
+
+    Hiding &tree = add("a tree in a shell");
+    std::mt19937 random(3);
+    const auto share = [&] { return static_cast<double>(random() >> 8) * 0x1p-24; };
+    for (int i = 0; i < 120; ++i)
+        tree.spheres.push_back(ball(4 * share() - 2, 4 * share() - 2, -11 + 4 * share(), 0.1 + 0.4 * share(), shining));
+    tree.spheres.push_back(ball(0, 0, -9, 6, shining + hidden));
+    return scenes;
+}
+
+// Two roundings of each of five operations, as in the furnace of the analytic tests.
+constexpr double few_roundings = 8.0 * 0x1p-24;
+
+// Of the pixels in which something is seen, the largest relative difference from the light that it should have.
+double largest_error(const std::vector<float> &image, const std::vector<float> &coverage, double radiance) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < image.size(); ++i)
+        largest =
+            std::max(largest, std::abs(static_cast<double>(image[i]) - radiance * static_cast<double>(coverage[i])));
+    return largest / radiance;
+}
+
+TEST_F(HiddenFromCamera, ClosedScenesNeitherLeakNorLoseLight) {
+    for (const Hiding &given : closed_scenes()) {
+        SCOPED_TRACE(given.name);
+        for (const std::uint32_t estimator : {PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
+            pt_render render = render_of(picture_width, picture_height, 2);
+            render.estimator = estimator;
+            const std::vector<float> image = image_of(given, render, 16);
+            const std::vector<float> covered = coverage();
+            EXPECT_LE(largest_error(image, covered, 1.5), few_roundings);
+            EXPECT_GT(largest_error(image, covered, 1.545), few_roundings);
+            // Something is seen, and the shells are not.
+            EXPECT_TRUE(std::ranges::any_of(covered, [](float share) { return share == 1.0F; }));
+            const bool has_a_sky = given.name == "a shell that cuts a floor and a ball";
+            EXPECT_NE(has_a_sky, std::ranges::any_of(covered, [](float share) { return share == 0.0F; }));
+        }
+    }
+}
+
+// With lamps that are sampled samples differ. One false alarm in a million for all the scenes.
+TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
+    constexpr std::uint32_t batch_count = 12;
+    for (const Hiding &given : closed_scenes()) {
+        SCOPED_TRACE(given.name);
+        set_up(given.scene(), given.camera);
+        const pt_render emission_alone = render_of(picture_width, picture_height, 1);
+        const Batches seen = render_batches(emission_alone, 1, 64);
+        std::vector<std::size_t> whole;
+        for (std::size_t pixel = 0; pixel < seen[0].size(); ++pixel)
+            if (seen[0][pixel] == 1.0)
+                whole.push_back(pixel);
+        ASSERT_GT(whole.size(), 20U);
+        const Estimate mean =
+            estimate_over(render_batches(render_of(picture_width, picture_height, 2), batch_count, 8), whole);
+        const double bound = student_bound(1e-7, batch_count);
+        EXPECT_LT(std::abs(deviation(mean, 1.5)), bound) << mean.mean << " +- " << mean.standard_error;
+        EXPECT_GT(std::abs(deviation(mean, 1.545)), bound) << mean.mean << " +- " << mean.standard_error;
+    }
+}
+
+// ---- Light that does not arrive
+// ---------------------------------------------------------------------------------------
+
+constexpr std::uint32_t white = 0;
+constexpr std::uint32_t lamp = 1;
+constexpr std::uint32_t black = 2;
+
+Hiding with_lamps(const std::string &name) {
+    return {name,
+            {pt_material{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0},
+             pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0}}};
+}
+
+// What black surfaces keep from the lamp is black to the last bit, though the camera looks through them.
+TEST_F(HiddenFromCamera, BlackSurfacesKeepLightOut) {
+    Hiding shell = with_lamps("a shell");
+    shell.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -9, 1.5, black + hidden), ball(3, 5, -5, 2, lamp)};
+    Hiding wall = with_lamps("a wall");
+    wall.spheres = {ball(0, 0, -9, 1, white), ball(0, 3, 2, 1, lamp)};
+    wall.planes = {{{0, 0, 1}, 5, black + hidden, 0}};
+    Hiding sky = with_lamps("a sky within");
+    sky.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -5, 20, black + hidden), ball(0, 0, -5, 50, lamp + hidden)};
+    Hiding globe = with_lamps("a globe");
+    globe.spheres = {ball(0, 0, -9, 1, white), ball(0, 0, -1e7 - 5, 1e7, black + hidden), ball(0, 3, 2, 1, lamp)};
+    for (const Hiding &given : {shell, wall, sky, globe}) {
+        SCOPED_TRACE(given.name);
+        const pt_render render = render_of(picture_width, picture_height, 4);
+        const std::vector<float> image = image_of(given, render, 8);
+        const std::vector<float> covered = coverage();
+        Hiding open = given;
+        for (pt_sphere &sphere : open.spheres)
+            sphere.radius *= sphere.material == black + hidden ? 1e-3 : 1.0;
+        for (pt_plane &plane : open.planes)
+            plane.offset = -1e6; // behind the camera, and the lamps
+        const std::vector<float> lit = image_of(open, render, 8);
+        double light = 0.0;
+        for (std::size_t i = 0; i < image.size(); ++i)
+            if (covered[i] > 0.0F && lit[i] < 4.0F) { // the lamp itself may be in view
+                ASSERT_EQ(image[i], 0.0F) << "at " << i;
+                light += static_cast<double>(lit[i]);
+            }
+        EXPECT_GT(light, 1.0) << "it is dark without them too";
+    }
+}
+
+// ---- Everything else as it was
+// ----------------------------------------------------------------------------------------
+
+// Whether the camera sees a lamp changes the pixels in which it is, and of the others no bit.
+TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
+    Hiding seen = with_lamps("in view");
+    seen.spheres = {ball(0, -0.5, -9, 1, white), ball(1.5, 1.5, -8, 0.5, lamp), ball(-2, 1, -7, 0.25, lamp)};
+    seen.planes = {{{0, 1, 0}, 1.5, white, 0}};
+    Hiding unseen = seen;
+    unseen.spheres[2].material += hidden;
+    for (const std::uint32_t length : {2U, 4U}) {
+        SCOPED_TRACE("path length " + std::to_string(length));
+        const pt_render emission_alone = render_of(picture_width, picture_height, 1);
+        const pt_render render = render_of(picture_width, picture_height, length);
+        const std::vector<float> lamps = image_of(seen, emission_alone, 8);
+        const std::vector<float> other_lamp = image_of(unseen, emission_alone, 8);
+        const std::vector<float> with = image_of(seen, render, 8);
+        const std::vector<float> without = image_of(unseen, render, 8);
+        std::size_t changed = 0;
+        for (std::size_t i = 0; i < with.size(); ++i)
+            if (lamps[i] == other_lamp[i])
+                ASSERT_EQ(with[i], without[i]) << "at " << i;
+            else
+                changed += without[i] < with[i] ? 1 : 0;
+        EXPECT_GT(changed, 20U);
+    }
+}
+
+TEST_F(HiddenFromCamera, FlagsThatThereAreNotAreRefused) {
+    Hiding given = with_lamps("");
+    given.flags[4] = 6;
+    const pt_scene scene = given.scene();
+    EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
+    EXPECT_EQ(std::string(pt_last_error(context())),
+              "material_flags[4] = 6: must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");
+}
+
+} // namespace
+
+} // namespace hiding

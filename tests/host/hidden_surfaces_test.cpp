@@ -1,0 +1,146 @@
+// Surfaces that the camera does not see: where they keep paths, and what the kernel is told of them.
+#include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/hidden_surfaces.h"
+#include "lib/kernel/scene_features.h"
+#include "lib/scene/scene_digest.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace {
+
+pt::MovingBall ball(double x, double radius, double way = 0.0) {
+    return {{x, 0, 0}, {way, 0, 0}, radius};
+}
+
+TEST(LiesApart, OfBallsIsBesideOrWithin) {
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(3, 1)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 1)));
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(0.5, 2)));  // the surface is a shell around the ball
+    EXPECT_FALSE(lies_apart(ball(0, 2), ball(0.5, 1))); // is in it
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(1.5, 2))); // cuts it
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2, 1)));   // touches it
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(2.001, 1)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(2.00001, 1))); // for float32
+}
+
+TEST(LiesApart, OfBallsThatMoveIsSoAllTheTime) {
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-5, 1, 10)));
+    EXPECT_TRUE(lies_apart(ball(0, 1, 10), ball(-5, 1, 10)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), ball(-3, 5, 7.5))); // the shell reaches it at last
+    EXPECT_TRUE(lies_apart(ball(0, 1), ball(-3, 5, 3)));
+}
+
+TEST(LiesApart, OfPlanesAndBoxes) {
+    const auto plane = [](double offset) { return pt::CurvedPlane{{1, 0, 0}, offset, 0.0, glm::dvec3(0.0), 0, 0}; };
+    EXPECT_TRUE(lies_apart(ball(0, 1), plane(2)));
+    EXPECT_TRUE(lies_apart(ball(0, 1), plane(-2)));
+    EXPECT_FALSE(lies_apart(ball(0, 1), plane(0.5)));
+    EXPECT_FALSE(lies_apart(ball(-5, 1, 10), plane(0)));
+    const pt::PointBox box{{2, -1, -1}, {3, 1, 1}};
+    EXPECT_TRUE(lies_apart(ball(0, 1), box));
+    EXPECT_TRUE(lies_apart(ball(5, 1), box));
+    EXPECT_FALSE(lies_apart(ball(0, 3), box));
+    EXPECT_FALSE(lies_apart(ball(0, 1, 8), box));
+}
+
+enum Kind : std::uint32_t { Dark, Lamp, HiddenDark, HiddenLamp };
+
+pt::Scene scene_of(std::vector<pt::Sphere> spheres, std::vector<pt::Plane> planes = {}) {
+    pt::Scene scene;
+    for (const auto &[emission, hidden] : {std::pair{0.0F, false}, {1.0F, false}, {0.0F, true}, {1.0F, true}})
+        scene.materials.push_back({glm::vec3(0.5F), glm::vec3(0), glm::vec3(emission), 0, hidden});
+    scene.spheres = std::move(spheres);
+    scene.planes = std::move(planes);
+    return scene;
+}
+
+pt::Features features_of(const pt::Scene &scene) {
+    const pt::Camera camera{glm::dvec3(0.0), {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0.0, 1.0};
+    return pt::gpu_scene(pt::PreparedScene(scene), camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4})
+        .features;
+}
+
+pt::Sphere sphere(double z, double radius, Kind kind) {
+    return {{0, 0, z}, radius, glm::dvec3(0.0), kind};
+}
+
+TEST(HiddenSurfaces, AreCountedByKind) {
+    const pt::Features features =
+        features_of(scene_of({sphere(-5, 1, HiddenDark), sphere(-9, 1, HiddenLamp), sphere(-12, 1, Lamp),
+                              sphere(-15, 1, Dark), sphere(0, 90, HiddenLamp), sphere(0, 80, Lamp)},
+                             {{{0, 1, 0}, 3, Dark}, {{0, 1, 0}, 7, HiddenDark}}));
+    EXPECT_EQ(features.lamp_count, 2U);
+    EXPECT_EQ(features.sky_count, 2U);
+    EXPECT_EQ(features.hidden.lamps, 1U);
+    EXPECT_EQ(features.hidden.skies, 1U);
+    EXPECT_EQ(features.hidden.others, 1U);
+    EXPECT_EQ(features.hidden.planes, 1U);
+    EXPECT_TRUE(pt::feature_bits(features) & PT_FEATURE_HIDDEN);
+    EXPECT_FALSE(pt::feature_bits(features_of(scene_of({sphere(-5, 1, Dark)}))) & PT_FEATURE_HIDDEN);
+}
+
+TEST(HiddenSurfaces, LyingApartLeaveTheKernelAsItIs) {
+    const auto with = [](Kind lamp) {
+        return features_of(scene_of({sphere(-5, 1, Dark), sphere(-9, 1, lamp)}, {{{0, 1, 0}, 3, Dark}}));
+    };
+    pt::Features hidden = with(HiddenLamp);
+    EXPECT_EQ(std::exchange(hidden.hidden, {}), (pt::HiddenCounts{1, 0, 0, 0}));
+    EXPECT_EQ(hidden, with(Lamp));
+}
+
+TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
+    // The camera looks into a shell, out of one, through a plane.
+    const pt::Features into = features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, HiddenDark)}));
+    EXPECT_TRUE(into.inside);
+    EXPECT_FALSE(into.known_sides);
+    const pt::Features out_of = features_of(scene_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)}));
+    EXPECT_FALSE(out_of.inside); // of paths
+    EXPECT_FALSE(out_of.known_sides);
+    const pt::Features through =
+        features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}}));
+    EXPECT_TRUE(through.planes_block);
+    EXPECT_FALSE(through.known_sides);
+}
+
+TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
+    const auto with = [](double radius) {
+        return features_of(scene_of({sphere(-5, 1, Dark), sphere(0, radius, HiddenLamp)}));
+    };
+    EXPECT_EQ(with(0.1).lamp_count, 1U);
+    EXPECT_EQ(with(0.1).hidden.lamps, 1U);
+    EXPECT_EQ(with(50).sky_count, 1U);
+    EXPECT_EQ(with(50).hidden.skies, 1U);
+}
+
+TEST(HiddenSurfaces, AreNotInTheTree) {
+    std::vector<pt_material> materials(2, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0});
+    const std::vector<std::uint32_t> flags = {0, PT_MATERIAL_HIDDEN_FROM_CAMERA};
+    std::vector<pt_sphere> spheres;
+    for (std::uint32_t i = 0; i < 100; ++i)
+        spheres.push_back({{3.0 * i, 0, -9}, 1, {0, 0, 0}, i % 10 == 3 ? 1U : 0U, 0});
+    pt_scene scene{};
+    scene.struct_size = sizeof scene;
+    scene.material_count = 2;
+    scene.materials = materials.data();
+    scene.material_flags = flags.data();
+    scene.sphere_count = 100;
+    scene.spheres = spheres.data();
+    const pt::PreparedScene prepared(pt::checked_scene(scene), 90);
+    ASSERT_TRUE(prepared.tree);
+    EXPECT_EQ(prepared.tree->sphere_count(), 90U);
+    ASSERT_EQ(prepared.scene.indices.size(), 10U);
+    for (std::uint32_t i = 0; i < 10; ++i)
+        EXPECT_EQ(prepared.scene.indices[i], 10 * i + 3);
+    EXPECT_FALSE(pt::PreparedScene(pt::checked_scene(scene), 91).tree); // seen ones are counted
+}
+
+TEST(HiddenSurfaces, MakeAnotherScene) {
+    EXPECT_NE(digest_of(scene_of({sphere(-5, 1, Dark)})), digest_of(scene_of({sphere(-5, 1, HiddenDark)})));
+    EXPECT_EQ(digest_of(scene_of({sphere(-5, 1, HiddenDark)})), digest_of(scene_of({sphere(-5, 1, HiddenDark)})));
+}
+
+} // namespace
