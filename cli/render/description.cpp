@@ -20,12 +20,14 @@ void append(Json &row, const Number (&vector)[Count]) {
 
 Json materials_of(const SceneFile &file) {
     Json rows = Json::array();
-    for (const pt_material &material : file.materials) {
+    for (std::uint32_t i = 0; i < file.materials.size(); ++i) {
+        const pt_material &material = file.materials[i];
         Json &row = rows.emplace_back(Json::array());
         append(row, material.diffuse);
         append(row, material.specular);
         append(row, material.emission);
         row.push_back(material.glossiness);
+        row.push_back(file.is_hidden(i));
     }
     return rows;
 }

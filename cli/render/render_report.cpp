@@ -24,7 +24,8 @@ struct BitName {
 constexpr std::array feature_names{
     BitName{PT_FEATURE_LAMPS, "lamps"},   BitName{PT_FEATURE_GLOSS, "gloss"},
     BitName{PT_FEATURE_MOTION, "motion"}, BitName{PT_FEATURE_LARGE, "large"},
-    BitName{PT_FEATURE_TREE, "tree"},     BitName{PT_FEATURE_ORTHOGRAPHIC, "orthographic"}};
+    BitName{PT_FEATURE_TREE, "tree"},     BitName{PT_FEATURE_ORTHOGRAPHIC, "orthographic"},
+    BitName{PT_FEATURE_HIDDEN, "hidden"}};
 constexpr std::array uncertainty_names{BitName{PT_UNCERTAIN_RMSE, "rmse"},
                                        BitName{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
                                        BitName{PT_UNCERTAIN_UNSEEN, "unseen"}, BitName{PT_UNCERTAIN_UNMET, "unmet"}};

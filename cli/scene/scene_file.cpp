@@ -76,6 +76,18 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     return arrays;
 }
 
+std::vector<std::uint32_t> SceneFile::material_flags() const {
+    std::vector<std::uint32_t> flags(hidden_materials.empty() ? 0 : materials.size());
+    for (const std::uint32_t material : hidden_materials) {
+        flags[material] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+    }
+    return flags;
+}
+
+bool SceneFile::is_hidden(std::uint32_t material) const {
+    return std::find(hidden_materials.begin(), hidden_materials.end(), material) != hidden_materials.end();
+}
+
 std::size_t SceneFile::surface_count() const {
     std::size_t count = spheres.size() + planes.size();
     for (const ParticleEntry &entry : particles) {

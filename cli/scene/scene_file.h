@@ -34,8 +34,9 @@ struct SceneFile {
     std::string path;
     std::size_t text_hash; // of what was read
     std::vector<OverriddenValue> overridden;
-    std::vector<std::string> material_names; // like all three arrays in the order of the file
+    std::vector<std::string> material_names; // like all these arrays in the order of the file
     std::vector<pt_material> materials;
+    std::vector<std::uint32_t> hidden_materials; // indices of those that are hidden from the camera
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
     std::vector<ParticleEntry> particles; // without positions before load_particles
@@ -53,9 +54,11 @@ struct SceneFile {
     std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
 
-    pt_scene scene() const;                             // points into this object, and has no particles
-    std::vector<pt_sphere_array> sphere_arrays() const; // these are in them, one array an entry
+    pt_scene scene() const;                             // points into this object, and has none of what follows
+    std::vector<pt_sphere_array> sphere_arrays() const; // of the particles, one array an entry
+    std::vector<std::uint32_t> material_flags() const;  // empty: 0 for all
     std::size_t surface_count() const;
+    bool is_hidden(std::uint32_t material) const; // from the camera
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
     // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".

@@ -120,7 +120,9 @@ Schema materials() {
         object({{"diffuse", described("Share of the light that is scattered evenly; default 0", colour())},
                 {"specular", described("Weight of the lobe about the mirror direction; default 0", colour())},
                 {"glossiness", described("The lobe's exponent; default 0", number(0.0, 1e9))},
-                {"emission", described("Light of its own, a radiance; default 0", colour())}});
+                {"emission", described("Light of its own, a radiance; default 0", colour())},
+                {"hidden_from_camera",
+                 described("Whether the camera looks through it; default false", {{"type", "boolean"}})}});
     return {{"description", "By their names"}, {"type", "object"}, {"additionalProperties", material}};
 }
 

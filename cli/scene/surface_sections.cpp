@@ -11,7 +11,7 @@ namespace cli {
 using nlohmann::json;
 
 void SurfaceSections::material(const JsonPlace &place, const json &value) {
-    const JsonObject object(value, place, {"diffuse", "specular", "glossiness", "emission"});
+    const JsonObject object(value, place, {"diffuse", "specular", "glossiness", "emission", "hidden_from_camera"});
     pt_material material{};
     if (const json *diffuse = object.find("diffuse")) {
         store(read_colour(*diffuse, place.member("diffuse")), material.diffuse);
@@ -24,6 +24,11 @@ void SurfaceSections::material(const JsonPlace &place, const json &value) {
     }
     if (const json *emission = object.find("emission")) {
         store(read_colour(*emission, place.member("emission")), material.emission);
+    }
+    const json *hidden = object.find("hidden_from_camera");
+    const bool is_hidden = hidden != nullptr && read_boolean(*hidden, place.member("hidden_from_camera"));
+    if (is_hidden) {
+        scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
     }
     scene_.materials.push_back(material);
     scene_.material_names.emplace_back(place.key);

@@ -97,7 +97,8 @@ public:
     std::optional<std::size_t> find() const {
         for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
             const pt_sphere &ball = scene_.spheres[i];
-            if (!emits(material_of(ball)) && surrounds_camera(ball) && !holds_light(ball)) {
+            const bool is_dark = !emits(material_of(ball)) && !scene_.is_hidden(ball.material);
+            if (is_dark && surrounds_camera(ball) && !holds_light(ball)) {
                 return i;
             }
         }

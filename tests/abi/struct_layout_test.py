@@ -121,7 +121,7 @@ def wrong_types(structs, declared):
 
 
 PREFIXES = {"Result": "PT_", "ColumnType": "PT_TYPE_", "LogLevel": "PT_LOG_", "CreateFlag": "PT_CREATE_",
-            "DeviceKind": "PT_DEVICE_"}  # others: PT_QUANTITY_ of Quantity
+            "DeviceKind": "PT_DEVICE_", "MaterialFlag": "PT_MATERIAL_"}  # others: PT_QUANTITY_ of Quantity
 
 
 def python_enumerators(module):

@@ -39,7 +39,7 @@ constexpr const char *small = R"({
   "spheres": [ { "center": [1, 2, 3], "radius": 0.5, "material": "b", "motion": [0, 1, 0] },
                { "center": [4, 5, 6], "radius": 1, "material": "a" } ],
   "planes":  [ { "normal": [0, 1, 0], "offset": 4.5, "material": "b" } ],
-  "materials": { "unused": {}, "b": { "diffuse": 0.25, "glossiness": 40 },
+  "materials": { "unused": {}, "b": { "diffuse": 0.25, "glossiness": 40, "hidden_from_camera": true },
                  "a": { "specular": [0.1, 0.2, 0.3], "emission": 7 } },
   "camera": { "position": [0, 0, 1], "look_at": [0, 0, -1], "up": [1, 0, 0], "vertical_fov": 90, "shutter": [0.25, 0.5] },
   "film": { "width": 320, "height": 2e2, "exposure": -1.5, "tonemap": "agx", "gamma": 2.2 },
@@ -55,6 +55,7 @@ TEST(SceneFile, ReadsEverything) {
     EXPECT_EQ(list(scene.materials[1].diffuse), (std::vector<float>{0.25F, 0.25F, 0.25F}));
     EXPECT_EQ(scene.materials[1].glossiness, 40.0F);
     EXPECT_EQ(list(scene.materials[2].specular), (std::vector<float>{0.1F, 0.2F, 0.3F}));
+    EXPECT_EQ(scene.material_flags(), (std::vector<std::uint32_t>{0, PT_MATERIAL_HIDDEN_FROM_CAMERA, 0}));
     EXPECT_EQ(list(scene.materials[2].emission), (std::vector<float>{7, 7, 7}));
     ASSERT_EQ(scene.spheres.size(), 2U);
     EXPECT_EQ(list(scene.spheres[0].center), (std::vector<double>{1, 2, 3}));
@@ -170,6 +171,8 @@ TEST(SceneFile, WrongTypesAreNamed) {
     EXPECT_EQ(refusal("[]"), "1: must contain an object, is an array");
     EXPECT_EQ(refusal("1"), "1: must contain an object, is a number");
     EXPECT_EQ(refusal(R"({"spheres":{}})"), "1: spheres: must be an array, is an object");
+    EXPECT_EQ(refusal(R"({"materials":{"a":{"hidden_from_camera":1}}})"),
+              "1: materials.a.hidden_from_camera: must be true or false, is 1");
     EXPECT_EQ(refusal(R"({"camera":null})"), "1: camera: must be an object, is null");
     EXPECT_EQ(refusal(R"({"planes":[{},true]})"), "1: planes[0]: \"normal\" is missing");
     EXPECT_EQ(refusal(R"({"planes":[true]})"), "1: planes[0]: must be an object, is true");

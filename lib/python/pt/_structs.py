@@ -45,7 +45,7 @@ class pt_scene(Sized):
                 ("plane_count", c_uint32), ("materials", POINTER(pt_material)), ("spheres", POINTER(pt_sphere)),
                 ("planes", POINTER(pt_plane)), ("sphere_arrays", POINTER(pt_sphere_array)),
                 ("sphere_array_count", c_uint32), ("reserved", c_uint32), ("progress", pt_progress_fn),
-                ("progress_user", c_void_p)]
+                ("progress_user", c_void_p), ("material_flags", POINTER(c_uint32))]
 
 
 class pt_camera(Sized):

@@ -41,7 +41,7 @@ def name_of(packed: bytes) -> str:
 def job_of(description: Mapping[str, Any], device: str | None) -> Job:
     """Of what `pt render --describe` says."""
     camera, render = description["camera"], description["render"]
-    materials = [Material(tuple(m[0:3]), tuple(m[3:6]), tuple(m[6:9]), m[9]) for m in description["materials"]]
+    materials = [Material(tuple(m[0:3]), tuple(m[3:6]), tuple(m[6:9]), m[9], m[10]) for m in description["materials"]]
     spheres = [Sphere(tuple(s[0:3]), s[3], s[7], tuple(s[4:7])) for s in description["spheres"]]
     planes = [Plane(tuple(p[0:3]), p[3], p[4]) for p in description["planes"]]
     numbers: dict[str, Any] = {**render, "estimator": Estimator(render["estimator"]),
