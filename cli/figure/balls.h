@@ -1,7 +1,7 @@
 // The balls that a figure shows, where their owner has them.
 #pragma once
 
-#include "cli/figure/vector3.h"
+#include <glm/glm.hpp>
 
 #include <cstddef>
 #include <span>
@@ -9,7 +9,7 @@
 namespace cli {
 
 struct Ball {
-    Vector3 center;
+    glm::dvec3 center;
     double radius;
 };
 

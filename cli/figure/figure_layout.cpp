@@ -10,12 +10,12 @@
 namespace cli {
 namespace {
 
-ViewExtents extents_of(const ViewFrame &frame, const Balls &balls, std::span<const Vector3> points) {
+ViewExtents extents_of(const ViewFrame &frame, const Balls &balls, std::span<const glm::dvec3> points) {
     ViewExtents extents(frame);
     for (std::size_t i = 0; i < balls.count(); ++i) {
         extents.add(balls[i]);
     }
-    for (const Vector3 &point : points) {
+    for (const glm::dvec3 &point : points) {
         extents.add({point, 0.0});
     }
     return extents;
@@ -41,23 +41,24 @@ ImageSize shape_of(const ViewExtents &extents) {
     return {side(std::sqrt(pixel_count * aspect)), side(std::sqrt(pixel_count / aspect))};
 }
 
-Bounds bounds_of(const Balls &balls, std::span<const Vector3> points, const Vector3 &center) {
+Bounds bounds_of(const Balls &balls, std::span<const glm::dvec3> points, const glm::dvec3 &center) {
     Bounds bounds{center, 0.0};
     const auto include = [&bounds](const Ball &ball) {
-        const double reach = length(moved(ball.center, -1.0, bounds.center)) + ball.radius;
+        const double reach = glm::length(ball.center - bounds.center) + ball.radius;
         bounds.radius = std::max(bounds.radius, reach);
     };
     for (std::size_t i = 0; i < balls.count(); ++i) {
         include(balls[i]);
     }
-    for (const Vector3 &point : points) {
+    for (const glm::dvec3 &point : points) {
         include({point, 0.0});
     }
     return bounds;
 }
 
 // Below all, by a hair: a ball in the plane would meet it in one point, where roundings decide what is before.
-Floor floor_below(const Balls &balls, std::span<const Vector3> points, const Bounds &bounds, const Compass &compass) {
+Floor floor_below(const Balls &balls, std::span<const glm::dvec3> points, const Bounds &bounds,
+                  const Compass &compass) {
     constexpr double gap = 1e-4;
     const ViewExtents extents = extents_of({compass.right, compass.front, compass.up}, balls, points);
     return {compass.up, extents.nearest() - gap * bounds.radius};
@@ -66,7 +67,7 @@ Floor floor_below(const Balls &balls, std::span<const Vector3> points, const Bou
 } // namespace
 
 FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std::optional<SimulationBox> &box) {
-    std::vector<Vector3> points;
+    std::vector<glm::dvec3> points;
     if (box) {
         const auto corners = corners_of(*box);
         points.assign(corners.begin(), corners.end());
@@ -83,7 +84,7 @@ FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std
     std::optional<Floor> floor;
     if (options.has_floor) {
         floor = floor_below(balls, points, bounds, compass);
-        if (dot(floor->normal, layout.camera.position) <= floor->height) {
+        if (glm::dot(floor->normal, layout.camera.position) <= floor->height) {
             throw Failure(ExitCode::usage, "--floor: the camera is below it, by --view, and would see nothing else");
         }
     }

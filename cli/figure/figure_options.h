@@ -34,7 +34,7 @@ struct FigureOptions {
 
     std::optional<ImageSize> size; // nothing: as the data are
     ViewDirection view{view_names.front(), {}};
-    Vector3 up{0.0, 0.0, 1.0};
+    glm::dvec3 up{0.0, 0.0, 1.0};
     Projection projection = Projection::perspective;
 
     FigureStyle style = FigureStyle::matte;

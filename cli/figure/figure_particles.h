@@ -18,10 +18,6 @@ struct FigureParticles {
     Legend legend;
 };
 
-// Half of the distance to the nearest neighbour, its median over some particles: then most balls just touch. 1 for a
-// single particle.
-double typical_radius(const std::vector<double> &positions);
-
 // Reads the file. Throws Failure, ExitCode::file for a file without particles.
 FigureParticles read_figure_particles(const FigureOptions &options);
 

@@ -2,6 +2,7 @@
 
 #include "cli/base/json_text.h"
 
+#include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -17,10 +18,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
+ordered_json vector_json(const glm::dvec3 &vector) {
+    return {vector.x, vector.y, vector.z};
+}
+
 ordered_json camera_json(const FittedCamera &camera) {
-    ordered_json json{{"position", camera.position},
-                      {"look_at", moved(camera.position, camera.target_distance, camera.frame.forward)},
-                      {"up", camera.frame.up}};
+    ordered_json json{{"position", vector_json(camera.position)},
+                      {"look_at", vector_json(camera.position + camera.target_distance * camera.frame.forward)},
+                      {"up", vector_json(camera.frame.up)}};
     if (camera.projection == Projection::orthographic) {
         json["projection"] = "orthographic";
         json["vertical_extent"] = camera.view_height;
@@ -32,7 +37,7 @@ ordered_json camera_json(const FittedCamera &camera) {
 
 void add_lamp(ordered_json &scene, const std::string &name, const StageLamp &lamp) {
     scene["materials"][name] = {{"emission", lamp.emission}};
-    scene["spheres"].push_back({{"center", lamp.center}, {"radius", lamp.radius}, {"material", name}});
+    scene["spheres"].push_back({{"center", vector_json(lamp.center)}, {"radius", lamp.radius}, {"material", name}});
 }
 
 // IEC 61966-2-1.
@@ -86,7 +91,7 @@ ordered_json stage_json(const FigureLayout &layout, std::uint32_t sample_count) 
     if (stage.floor) {
         scene["materials"]["floor"] = {{"diffuse", stage.floor_albedo}};
         scene["planes"].push_back(
-            {{"normal", stage.floor->normal}, {"offset", -stage.floor->height}, {"material", "floor"}});
+            {{"normal", vector_json(stage.floor->normal)}, {"offset", -stage.floor->height}, {"material", "floor"}});
     }
     return scene;
 }
@@ -107,7 +112,7 @@ SceneFile figure_scene(const SceneFile &stage, const Stage &look, const FigurePa
     for (std::size_t i = 0; i < balls.count(); ++i) {
         const Ball ball = balls[i];
         pt_sphere sphere{};
-        std::copy(ball.center.begin(), ball.center.end(), std::begin(sphere.center));
+        std::copy_n(glm::value_ptr(ball.center), 3, std::begin(sphere.center));
         sphere.radius = ball.radius;
         sphere.material = first_material + particles.colours[i];
         scene.spheres.push_back(sphere);

@@ -17,14 +17,14 @@ inline constexpr std::array<std::string_view, 3> figure_style_names{"matte", "gl
 std::optional<FigureStyle> find_figure_style(std::string_view name);
 
 struct StageLamp {
-    Vector3 center;
+    glm::dvec3 center;
     double radius;
     double emission; // radiance, of all channels
 };
 
 struct Floor {
-    Vector3 normal; // unit, upwards
-    double height;  // along the normal
+    glm::dvec3 normal; // unit, upwards
+    double height;     // along the normal
 };
 
 struct Stage {
@@ -41,7 +41,7 @@ struct Stage {
 
 // A ball around all that is seen.
 struct Bounds {
-    Vector3 center;
+    glm::dvec3 center;
     double radius;
 };
 
