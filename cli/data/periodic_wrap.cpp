@@ -19,10 +19,11 @@ std::array<glm::dvec3, 3> edges_as_vectors(const SimulationBox &box) {
 
 // What gives the shares of the edges: the rows of the inverse of the matrix whose columns are the edges, which are
 // cross products of the others, over the volume (Cramer).
-std::array<glm::dvec3, 3> reciprocal_edges(const std::array<glm::dvec3, 3> &edges) {
+std::array<glm::dvec3, 3> reciprocal_edges(const std::array<glm::dvec3, 3> &edges, const std::string &file) {
     const double volume = glm::dot(edges[0], glm::cross(edges[1], edges[2]));
     if (volume == 0.0 || !std::isfinite(volume)) {
-        throw Failure(ExitCode::file, "--wrap: the simulation box has no volume");
+        throw Failure(ExitCode::scene,
+                      file + ": the simulation box has no volume, into which particles could be wrapped");
     }
     std::array<glm::dvec3, 3> reciprocal{};
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -33,13 +34,13 @@ std::array<glm::dvec3, 3> reciprocal_edges(const std::array<glm::dvec3, 3> &edge
 
 } // namespace
 
-void wrap_into_box(Particles &particles) {
+void wrap_into_box(Particles &particles, const std::string &file) {
     if (!particles.box) {
         return;
     }
     const SimulationBox &box = *particles.box;
     const std::array<glm::dvec3, 3> edges = edges_as_vectors(box);
-    const std::array<glm::dvec3, 3> reciprocal = reciprocal_edges(edges);
+    const std::array<glm::dvec3, 3> reciprocal = reciprocal_edges(edges, file);
     const glm::dvec3 origin = glm::make_vec3(box.origin.data());
     for (std::size_t i = 0; i < particles.count(); ++i) {
         glm::dvec3 position = glm::make_vec3(&particles.positions[3 * i]);

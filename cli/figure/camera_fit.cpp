@@ -60,9 +60,7 @@ FittedCamera fit_camera(const Balls &balls, std::span<const glm::dvec3> points, 
     } else {
         const double tangent = used * std::tan(0.5 * camera.vertical_fov);
         PyramidFit fit(frame, tangent * aspect, tangent);
-        for (std::size_t i = 0; i < balls.count(); ++i) {
-            fit.add(balls[i]);
-        }
+        balls.each([&fit](const Ball &ball) { fit.add(ball); });
         for (const glm::dvec3 &point : points) {
             fit.add({point, 0.0});
         }

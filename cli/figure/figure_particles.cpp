@@ -1,98 +1,105 @@
 #include "cli/figure/figure_particles.h"
 
 #include "cli/base/exit_code.h"
+#include "cli/base/report_file.h"
 #include "cli/data/number_colours.h"
-#include "cli/data/particle_file.h"
-#include "cli/data/periodic_wrap.h"
-#include "cli/data/typical_radius.h"
+#include "cli/data/particle_condition.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <numeric>
-#include <unordered_map>
+#include <filesystem>
 
 namespace cli {
 namespace {
 
-// Okabe and Ito 2008, "Color Universal Design", without black and in an order whose first two differ most in lightness
-// too; the colour-blind can tell them apart.
-constexpr std::array<DisplayColour, 7> type_colours{
-    {{0, 114, 178}, {230, 159, 0}, {0, 158, 115}, {213, 94, 0}, {86, 180, 233}, {204, 121, 167}, {240, 228, 66}}};
-constexpr DisplayColour plain_colour{150, 170, 190};
-
-std::string type_name(const Particles &particles, double type) {
-    const auto index = static_cast<std::size_t>(std::max(type, 0.0));
-    return index < particles.type_names.size() ? particles.type_names[index]
-                                               : std::to_string(static_cast<std::int64_t>(type));
+// As the scene that is written names it: by a path from its folder.
+std::string path_from(const std::string &scene, const std::string &data) {
+    const std::filesystem::path path(data);
+    if (path.is_absolute() || scene.empty() || scene == standard_stream) {
+        return data;
+    }
+    const std::filesystem::path folder = std::filesystem::absolute(scene).parent_path();
+    return std::filesystem::absolute(path).lexically_normal().lexically_proximate(folder.lexically_normal()).string();
 }
 
-void colour_by_type(FigureParticles &particles, const ParticleColumn &types) {
-    std::vector<float> known(types.values);
-    std::sort(known.begin(), known.end());
-    known.erase(std::unique(known.begin(), known.end()), known.end());
-    particles.palette.clear();
-    for (std::size_t i = 0; i < known.size(); ++i) {
-        particles.palette.push_back(type_colours[i % type_colours.size()]);
-        particles.legend.swatches.push_back({type_name(particles.data, known[i]), particles.palette.back()});
+ParticleEntry entry_of(const FigureOptions &options) {
+    ParticleEntry entry;
+    entry.file = path_from(options.scene, options.data);
+    entry.query.frame = options.frame;
+    entry.query.where = options.where;
+    entry.wraps = options.wraps;
+    entry.radius = options.radius;
+    entry.colour = options.color;
+    if (entry.colour.source == ColourSource::map || entry.colour.source == ColourSource::components) {
+        entry.colour.map = options.colormap.value_or(entry.colour.map);
+        entry.colour.range = options.color_range;
     }
-    particles.legend.title = types.name;
-    std::transform(types.values.begin(), types.values.end(), particles.colours.begin(), [&](float type) {
-        return static_cast<std::uint32_t>(std::lower_bound(known.begin(), known.end(), type) - known.begin());
-    });
+    return entry;
 }
 
-void colour_by_number(FigureParticles &particles, const ParticleColumn &column) {
-    constexpr std::size_t colour_count = 256;
-    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-    const double least = *low;
-    const double range = static_cast<double>(*high) - least;
-    particles.palette.clear();
-    for (std::size_t i = 0; i < colour_count; ++i) {
-        particles.palette.push_back(map_colour("viridis", static_cast<double>(i) / (colour_count - 1)));
+// That asks for a column.
+std::string option_of(const FigureOptions &options, const std::string &column) {
+    const auto has = [&column](const std::vector<std::string> &names) {
+        return std::find(names.begin(), names.end(), column) != names.end();
+    };
+    for (const std::string &condition : options.where) {
+        if (parse_condition(condition).column == column) {
+            return "--where " + condition;
+        }
     }
-    std::transform(column.values.begin(), column.values.end(), particles.colours.begin(), [&](float value) {
-        const double share = range > 0.0 ? (value - least) / range : 0.5;
-        return static_cast<std::uint32_t>(std::lround(share * (colour_count - 1)));
-    });
-    particles.legend = {column.name, ColourBar{least, *high, particles.palette}, {}};
+    return has(options.color.columns) ? "--color " + options.color_text : "--radius " + options.radius_text;
+}
+
+// Of a scale that other colours than those of numbers would leave out.
+void require_numbers(const FigureOptions &options, const ParticleEntry &entry) {
+    const ColourSource source = entry.shown_colour.source;
+    const std::string column = options.color.columns.empty() ? "" : ", which " + options.color_text + " is not";
+    if (options.colormap && source != ColourSource::map) {
+        throw Failure(ExitCode::usage, "--colormap: needs --color and a column of numbers" + column);
+    }
+    if (options.color_range && source != ColourSource::map && source != ColourSource::components) {
+        throw Failure(ExitCode::usage, "--color-range: needs --color and columns of numbers" + column);
+    }
 }
 
 } // namespace
 
-FigureParticles read_figure_particles(const FigureOptions &options) {
-    ParticleQuery query;
-    query.frame = options.frame;
-    query.if_present = {"type", "radius"};
-    if (!options.color.empty()) {
-        query.columns = {options.color};
+ParticleEntry read_figure_particles(const FigureOptions &options) {
+    ParticleEntry entry = entry_of(options);
+    try {
+        load(entry, options.data);
+    } catch (const UnknownColumn &unknown) {
+        throw Failure(unknown.code(), option_of(options, unknown.name) + ": " + unknown.what());
+    } catch (const RefusedLook &refused) {
+        throw Failure(refused.code(),
+                      (refused.of_radius ? "--radius " + options.radius_text : "--color") + ": " + refused.what());
     }
-    FigureParticles particles{};
-    particles.data = read_particles(options.data, query);
-    if (particles.data.count() == 0) {
-        throw Failure(ExitCode::file, options.data + ": has no particles");
+    if (entry.count() == 0) {
+        throw Failure(ExitCode::file,
+                      options.data + ": has no particles" + (options.where.empty() ? "" : " for which --where holds"));
     }
-    if (options.wraps) {
-        wrap_into_box(particles.data);
+    require_numbers(options, entry);
+    return entry;
+}
+
+Legend legend_of(const ParticleEntry &particles) {
+    const ParticleColour &colour = particles.shown_colour;
+    Legend legend;
+    if (colour.source == ColourSource::map) {
+        constexpr std::size_t colour_count = 256;
+        ColourBar bar{(*colour.range)[0], (*colour.range)[1], {}};
+        for (std::size_t i = 0; i < colour_count; ++i) {
+            bar.colours.push_back(map_colour(colour.map, static_cast<double>(i) / (colour_count - 1)));
+        }
+        legend.bar = bar;
     }
-    const ParticleColumn *radii = particles.data.find_column("radius");
-    if (options.radius) {
-        particles.radii = {*options.radius};
-    } else if (radii != nullptr) {
-        particles.radii.assign(radii->values.begin(), radii->values.end());
-    } else {
-        particles.radii = {typical_radius(particles.data.positions)};
+    if (colour.source == ColourSource::map || colour.source == ColourSource::type) {
+        legend.title = colour.columns[0];
     }
-    particles.colours.resize(particles.data.count());
-    particles.palette = {plain_colour};
-    const ParticleColumn *types = particles.data.find_column("type");
-    if (!options.color.empty() && options.color != "type") {
-        colour_by_number(particles, *particles.data.find_column(options.color));
-    } else if (types != nullptr) {
-        colour_by_type(particles, *types);
-    }
-    return particles;
+    std::transform(particles.types.begin(), particles.types.end(), std::back_inserter(legend.swatches),
+                   [](const TypeColour &type) {
+                       return Swatch{type.name, type.colour};
+                   });
+    return legend;
 }
 
 } // namespace cli

@@ -47,6 +47,7 @@ Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bo
     stage.surround = {bounds.center, 10.0 * far, surround_brightness};
     stage.floor = floor;
     stage.floor_albedo = 0.8;
+    stage.diffuse = 1.0;
     stage.max_path_length = 4;
     if (style == FigureStyle::ambient_occlusion) {
         stage.surround.emission = 1.0;
@@ -57,6 +58,7 @@ Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bo
     stage.key = soft_lamp(direction, far, bounds, key_half_angle, key_brightness);
     if (style == FigureStyle::glossy) {
         stage.specular = 0.12;
+        stage.diffuse = 1.0 - stage.specular; // a white ball gives off no more than it receives
         stage.glossiness = 60.0;
     }
     return stage;

@@ -34,7 +34,8 @@ struct Stage {
     std::optional<StageLamp> key; // a large lamp far behind the left shoulder of the camera, for the shape of bodies
     std::optional<Floor> floor;
     double floor_albedo;
-    double specular; // of the particles
+    double diffuse; // of the particles, which their colours multiply
+    double specular;
     double glossiness;
     unsigned max_path_length;
 };

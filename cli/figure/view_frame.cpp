@@ -22,12 +22,7 @@ std::optional<glm::dvec3> parse_vector(std::string_view text) {
         vector[i] = *number;
         text.remove_prefix(std::min(comma + 1, text.size()));
     }
-    // Of any size: squares of what is scaled by the largest do not leave the range of numbers.
-    const double largest = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
-    if (largest == 0.0) {
-        return std::nullopt;
-    }
-    return glm::normalize(vector / largest);
+    return unit_vector(vector);
 }
 
 // Of the three-quarter view, above the horizon.
@@ -70,7 +65,13 @@ std::optional<ViewDirection> parse_view(std::string_view text) {
     return vector ? std::optional(ViewDirection{{}, *vector}) : std::nullopt;
 }
 
-std::optional<glm::dvec3> parse_up(std::string_view text) {
+std::optional<glm::dvec3> unit_vector(const glm::dvec3 &vector) {
+    // Of any size: squares of what is scaled by the largest do not leave the range of numbers.
+    const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+    return largest == 0.0 ? std::nullopt : std::optional(glm::normalize(vector / largest));
+}
+
+std::optional<glm::dvec3> parse_axis(std::string_view text) {
     const bool is_negative = text.starts_with('-');
     const std::string_view axis = text.substr(is_negative ? 1 : 0);
     if (axis.size() == 1 && axis[0] >= 'x' && axis[0] <= 'z') {
@@ -78,7 +79,12 @@ std::optional<glm::dvec3> parse_up(std::string_view text) {
         up[axis[0] - 'x'] = is_negative ? -1.0 : 1.0;
         return up;
     }
-    return parse_vector(text);
+    return std::nullopt;
+}
+
+std::optional<glm::dvec3> parse_up(std::string_view text) {
+    const auto axis = parse_axis(text);
+    return axis ? axis : parse_vector(text);
 }
 
 Compass compass_of(const glm::dvec3 &up) {

@@ -28,7 +28,13 @@ struct ViewDirection {
 // "front", or "1,-2,0.5". Nothing for what is neither, and for 0,0,0.
 std::optional<ViewDirection> parse_view(std::string_view text);
 
-// "z", "-y", or "0,1,1".
+// Nothing for 0.
+std::optional<glm::dvec3> unit_vector(const glm::dvec3 &vector);
+
+// "z" or "-y".
+std::optional<glm::dvec3> parse_axis(std::string_view text);
+
+// The same, or "0,1,1".
 std::optional<glm::dvec3> parse_up(std::string_view text);
 
 // How large the data are along up, as a share of how large they are across it: 0 for a flat layer, 1 for a cube.

@@ -10,6 +10,7 @@
 #include "cli/film/film_file.h"
 #include "cli/image/display_image.h"
 #include "cli/image/image_target.h"
+#include "cli/scene/scene_completion.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
@@ -136,7 +137,7 @@ void check_sources_are_kept(const RenderOptions &options) {
 SceneFile read_scene(const RenderOptions &options) {
     const SceneText scene = read_scene_text(options.scene);
     SceneFile file = parse_scene(scene.text, scene.path, options.overrides);
-    load_particles(file);
+    complete_scene(file, options.size);
     return file;
 }
 

@@ -79,7 +79,7 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
 std::size_t SceneFile::surface_count() const {
     std::size_t count = spheres.size() + planes.size();
     for (const ParticleEntry &entry : particles) {
-        count += entry.positions.size() / 3;
+        count += entry.count();
     }
     return count;
 }
@@ -129,13 +129,6 @@ SceneFile parse_scene(std::string_view text, const std::string &path, const std:
 SceneText read_scene_text(const std::string &path) {
     return path == standard_stream ? SceneText{"standard input", read_standard_input()}
                                    : SceneText{path, read_file(path)};
-}
-
-SceneFile read_scene_file(const std::string &path) {
-    const SceneText scene = read_scene_text(path);
-    SceneFile file = parse_scene(scene.text, scene.path);
-    load_particles(file);
-    return file;
 }
 
 } // namespace cli

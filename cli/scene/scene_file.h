@@ -5,6 +5,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/json_path.h"
 #include "cli/base/library_error.h"
+#include "cli/figure/figure_look.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 #include "cli/scene/animation.h"
@@ -38,7 +39,8 @@ struct SceneFile {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
-    std::vector<ParticleEntry> particles; // without positions before load_particles
+    std::vector<ParticleEntry> particles; // as they are asked for, before complete_scene
+    std::optional<FigureLook> figure;     // camera and light are to follow from the particles
     pt_camera camera;
     std::vector<AnimatedValue> animation;
 
@@ -66,9 +68,7 @@ struct SceneFile {
     ExitCode blame(const BrokenRule &rule) const;
 };
 
-// The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not
-// a scene file.
-SceneFile read_scene_file(const std::string &path);
+// Throw Failure(ExitCode::scene) if the text is not a scene file.
 SceneFile parse_scene(std::string_view text, const std::string &path);
 SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides);
 

@@ -43,8 +43,9 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
 
 void SurfaceSections::particles(const JsonPlace &place, const json &value) {
     ParticleEntry entry = read_particle_entry(place, value);
-    const JsonObject object(value, place, {"file", "format", "frame", "where", "radius", "color", "material"});
-    entry.material = references_.number(place.member("material"), object.require("material"));
+    if (entry.has_material) {
+        entry.material = references_.number(place.member("material"), value.at("material"));
+    }
     scene_.particles.push_back(std::move(entry));
 }
 
@@ -63,7 +64,7 @@ void SurfaceSections::resolve_materials() {
         sphere.material = indices[sphere.material];
     }
     for (ParticleEntry &entry : scene_.particles) {
-        entry.material = indices[entry.material];
+        entry.material = entry.has_material ? indices[entry.material] : 0;
     }
     for (pt_plane &plane : scene_.planes) {
         plane.material = indices[plane.material];

@@ -21,10 +21,14 @@ constexpr double rounding = 1e-12;
 
 struct Cloud {
     std::vector<double> centers;
-    std::vector<double> radii;
+    std::vector<float> radii;
     std::vector<glm::dvec3> points;
 
-    Balls balls() const { return {centers, radii}; }
+    Balls balls() const {
+        Balls balls;
+        balls.add(centers, radii);
+        return balls;
+    }
 };
 
 // Balls and points, of which some are far from the origin; one ball may be much larger than the others.
@@ -38,7 +42,7 @@ Cloud random_cloud(std::mt19937_64 &random) {
         for (glm::length_t axis = 0; axis < 3; ++axis) {
             cloud.centers.push_back(shift[axis] + stretch[axis] * share(random));
         }
-        cloud.radii.push_back(0.5 * std::pow(share(random), 4.0) + 1e-3);
+        cloud.radii.push_back(static_cast<float>(0.5 * std::pow(share(random), 4.0) + 1e-3));
     }
     cloud.points.resize(random() % 4);
     for (glm::dvec3 &point : cloud.points) {
@@ -57,9 +61,7 @@ ViewFrame random_frame(std::mt19937_64 &random) {
 
 FittedCamera fitted(const Cloud &cloud, const ViewFrame &frame, Projection projection, double aspect) {
     cli::ViewExtents extents(frame);
-    for (std::size_t i = 0; i < cloud.balls().count(); ++i) {
-        extents.add(cloud.balls()[i]);
-    }
+    cloud.balls().each([&extents](const Ball &ball) { extents.add(ball); });
     for (const glm::dvec3 &point : cloud.points) {
         extents.add({point, 0.0});
     }
@@ -93,9 +95,7 @@ double largest_reach(const Cloud &cloud, const FittedCamera &camera, double aspe
         largest = std::max({largest, reach(camera, ball, camera.frame.right, half_height * aspect),
                             reach(camera, ball, camera.frame.up, half_height)});
     };
-    for (std::size_t i = 0; i < cloud.balls().count(); ++i) {
-        include(cloud.balls()[i]);
-    }
+    cloud.balls().each(include);
     for (const glm::dvec3 &point : cloud.points) {
         include({point, 0.0});
     }
