@@ -5,8 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <iterator>
 #include <numbers>
 
 namespace cli {
@@ -63,14 +61,6 @@ ordered_json stage_json(const FigureLayout &layout) {
     return scene;
 }
 
-template <typename Surface>
-void append_surfaces(std::vector<Surface> &surfaces, const std::vector<Surface> &more, std::uint32_t first_material) {
-    std::transform(more.begin(), more.end(), std::back_inserter(surfaces), [first_material](Surface surface) {
-        surface.material += first_material;
-        return surface;
-    });
-}
-
 } // namespace
 
 Balls balls_of(const SceneFile &scene) {
@@ -90,8 +80,14 @@ void furnish(SceneFile &scene, const FigureLayout &layout) {
     const auto first_material = static_cast<std::uint32_t>(scene.materials.size());
     scene.materials.insert(scene.materials.end(), stage.materials.begin(), stage.materials.end());
     scene.material_names.insert(scene.material_names.end(), stage.material_names.begin(), stage.material_names.end());
-    append_surfaces(scene.spheres, stage.spheres, first_material);
-    append_surfaces(scene.planes, stage.planes, first_material);
+    for (pt_sphere lamp : stage.spheres) {
+        lamp.material += first_material;
+        scene.add_sphere(lamp, std::nullopt);
+    }
+    for (pt_plane floor : stage.planes) {
+        floor.material += first_material;
+        scene.planes.push_back(floor);
+    }
     for (ParticleEntry &entry : scene.particles) {
         if (!entry.has_material) {
             entry.material = static_cast<std::uint32_t>(scene.materials.size() - 1); // the last of the stage

@@ -1,5 +1,6 @@
 #include "cli/scene/particle_section.h"
 
+#include "cli/base/message.h"
 #include "cli/base/suggestion.h"
 #include "cli/data/number_colours.h"
 #include "cli/data/particle_types.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <span>
 
@@ -218,11 +220,12 @@ ParticleEntry read_particle_entry(const JsonPlace &place, const json &value) {
 }
 
 void load_particles(SceneFile &scene) {
+    const std::vector<std::string> paths = particle_paths(scene);
     for (std::size_t i = 0; i < scene.particles.size(); ++i) {
         const std::string place = scene.path + ": particles[" + std::to_string(i) + "]";
         ParticleEntry &entry = scene.particles[i];
         try {
-            load(entry, particle_path(scene, entry));
+            load(entry, paths[i]);
         } catch (const RefusedLook &refused) {
             throw Failure(refused.code(), place + (refused.of_radius ? ".radius: " : ".color: ") + refused.what());
         } catch (const Failure &failure) {
@@ -231,8 +234,20 @@ void load_particles(SceneFile &scene) {
     }
 }
 
-std::string particle_path(const SceneFile &scene, const ParticleEntry &entry) {
-    return (std::filesystem::path(scene.path).parent_path() / entry.file).string();
+void tell_chosen_ranges(const SceneFile &scene) {
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        if (const std::string range = scene.particles[i].chosen_range(); !range.empty()) {
+            print_message(scene.path + ": particles[" + std::to_string(i) + "].color: " + range);
+        }
+    }
+}
+
+std::vector<std::string> particle_paths(const SceneFile &scene) {
+    const std::filesystem::path folder = std::filesystem::path(scene.path).parent_path();
+    std::vector<std::string> paths;
+    std::transform(scene.particles.begin(), scene.particles.end(), std::back_inserter(paths),
+                   [&folder](const ParticleEntry &entry) { return (folder / entry.file).string(); });
+    return paths;
 }
 
 } // namespace cli

@@ -5,6 +5,7 @@
 #include "cli/scene/particle_entry.h"
 
 #include <string>
+#include <vector>
 
 namespace cli {
 
@@ -16,7 +17,10 @@ ParticleEntry read_particle_entry(const JsonPlace &place, const nlohmann::json &
 // Reads the files. Throws Failure.
 void load_particles(SceneFile &scene);
 
-// Where an entry's file is.
-std::string particle_path(const SceneFile &scene, const ParticleEntry &entry);
+// What the colours of particles show where no range is given: tells the ranges on stderr.
+void tell_chosen_ranges(const SceneFile &scene);
+
+// Where the files are, one an entry.
+std::vector<std::string> particle_paths(const SceneFile &scene);
 
 } // namespace cli

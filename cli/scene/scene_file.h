@@ -13,6 +13,7 @@
 
 #include <pt/pt.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,6 +39,7 @@ struct SceneFile {
     std::vector<std::string> material_names; // like all three arrays in the order of the file
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
+    std::vector<std::array<float, 3>> sphere_colours; // of each sphere where any has one, else empty
     std::vector<pt_plane> planes;
     std::vector<ParticleEntry> particles; // as they are asked for, before complete_scene
     std::optional<FigureLook> figure;     // camera and light are to follow from the particles
@@ -55,8 +57,12 @@ struct SceneFile {
     std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
 
-    pt_scene scene() const;                             // points into this object, and has no particles
-    std::vector<pt_sphere_array> sphere_arrays() const; // these are in them, one array an entry
+    void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour);
+
+    // Both point into this object. Particles are in arrays, one an entry; spheres too, in the first one, if any of them
+    // has a colour.
+    pt_scene scene() const;
+    std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t surface_count() const;
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be

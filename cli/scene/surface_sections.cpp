@@ -3,6 +3,7 @@
 #include "cli/base/store.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ void SurfaceSections::material(const JsonPlace &place, const json &value) {
 }
 
 void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
-    const JsonObject object(value, place, {"center", "radius", "material", "motion"});
+    const JsonObject object(value, place, {"center", "radius", "material", "motion", "color"});
     pt_sphere sphere{};
     store(read_vector(object.require("center"), place.member("center")), sphere.center);
     sphere.radius = read_number(object.require("radius"), place.member("radius"));
@@ -38,7 +39,9 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
     if (const json *motion = object.find("motion")) {
         store(read_vector(*motion, place.member("motion")), sphere.motion);
     }
-    scene_.spheres.push_back(sphere);
+    const json *colour = object.find("color");
+    scene_.add_sphere(sphere,
+                      colour == nullptr ? std::nullopt : std::optional(read_colour(*colour, place.member("color"))));
 }
 
 void SurfaceSections::particles(const JsonPlace &place, const json &value) {
