@@ -197,6 +197,13 @@ ParticleQuery read_query(const JsonObject &object, const JsonPlace &place) {
     return query;
 }
 
+// With its dot. Of a condition nothing but the column is known.
+std::string key_that_names(const ParticleEntry &entry, const std::string &column) {
+    const std::vector<std::string> &columns = entry.colour.columns;
+    const bool is_of_colour = std::find(columns.begin(), columns.end(), column) != columns.end();
+    return is_of_colour ? ".color" : entry.radius.column == column ? ".radius" : "";
+}
+
 } // namespace
 
 ParticleEntry read_particle_entry(const JsonPlace &place, const json &value) {
@@ -226,6 +233,8 @@ void load_particles(SceneFile &scene) {
         ParticleEntry &entry = scene.particles[i];
         try {
             load(entry, paths[i]);
+        } catch (const UnknownColumn &unknown) {
+            throw Failure(unknown.code(), place + key_that_names(entry, unknown.name) + ": " + unknown.what());
         } catch (const RefusedLook &refused) {
             throw Failure(refused.code(), place + (refused.of_radius ? ".radius: " : ".color: ") + refused.what());
         } catch (const Failure &failure) {

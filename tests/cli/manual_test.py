@@ -5,6 +5,7 @@ command_line.py."""
 import json
 import os
 import re
+import shlex
 import shutil
 
 from command_line import PT, SCENES, CommandLineTest, main, read_png
@@ -124,7 +125,7 @@ class RealDevice(CommandLineTest):
         self.assertGreater(len({value for line in lines for value in line}), 100)  # it shows something
 
     def test_commands_of_the_manual_run(self):
-        commands = [line.split() for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
+        commands = [shlex.split(line) for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
                     for line in block.splitlines() if line.startswith("pt ")]
         self.assertGreater(len(commands), 5)
         for command in commands:
