@@ -119,6 +119,7 @@ private:
     double bottom_ = 0.0;
 };
 
+// Both ends have their numbers, and round ones are between them.
 void draw_bar(Drawing &drawing, const ColourBar &bar, double top) {
     constexpr double width = 18.0;
     constexpr double height = 180.0;
@@ -132,10 +133,19 @@ void draw_bar(Drawing &drawing, const ColourBar &bar, double top) {
     }
     drawing.define(gradient + "  </linearGradient></defs>\n");
     drawing.rectangle(margin, top, width, height, "fill=\"url(#colours)\" stroke=\"#333333\"");
-    const std::vector<double> ticks =
-        bar.high > bar.low ? tick_values(bar.low, bar.high, most_ticks) : std::vector<double>{bar.low};
+    const double range = bar.high - bar.low;
+    std::vector<double> ticks{bar.low};
+    if (range > 0.0) {
+        const double apart = line_height / height * range; // of words that do not overlap
+        for (const double tick : tick_values(bar.low, bar.high, most_ticks)) {
+            if (tick > bar.low + apart && tick < bar.high - apart) {
+                ticks.push_back(tick);
+            }
+        }
+        ticks.push_back(bar.high);
+    }
     for (const double tick : ticks) {
-        const double share = bar.high > bar.low ? (tick - bar.low) / (bar.high - bar.low) : 0.5;
+        const double share = range > 0.0 ? (tick - bar.low) / range : 0.5;
         const double y = top + height * (1.0 - share);
         drawing.line(margin + width, y, margin + width + tick_length, y);
         drawing.text(margin + width + 2.0 * tick_length, y, number_text("%.6g", tick));

@@ -3,6 +3,7 @@
 Arguments: see command_line.py."""
 
 import json
+import os
 import xml.etree.ElementTree
 
 from command_line import PT, CommandLineTest, main, read_png
@@ -65,6 +66,26 @@ class Pictures(FigureTest):
         self.expect(0, "render", "a.json", "-o", "c.exr", "--seed", "1", "-q")
         self.assertNotEqual(self.contents("a.exr"), self.contents("c.exr"))
 
+    def test_scenes_with_a_figure(self):
+        """Each pair is one picture: the options, and the scene of a few lines."""
+        for options, figure, particles in (
+                ((), {}, {}),
+                (("--view", "1,-2,0.5", "--up", "-y", "--projection", "orthographic", "--floor"),
+                 {"view": [2, -4, 1], "up": "-y", "projection": "orthographic", "floor": True}, {}),
+                (("--style", "glossy", "--color", "speed", "--colormap", "cividis", "--color-range", "-1,1"),
+                 {"style": "glossy"}, {"color": {"column": "speed", "map": "cividis", "range": [-1, 1]}}),
+                (("--style", "ambient-occlusion", "--radius", "0.3", "--where", "speed > 0", "--view", "top"),
+                 {"style": "ambient-occlusion", "view": "top"}, {"radius": 0.3, "where": ["speed > 0"]})):
+            with self.subTest(options=options):
+                self.write("s.json", json.dumps({"figure": figure, "particles": [{"file": "a.xyz", **particles}]}))
+                self.figure("-o", "a.exr", "--write-scene", "w.json", *options, *SMALL)
+                self.expect(0, "render", "s.json", "-o", "b.exr", "-q", *SMALL)
+                self.expect(0, "render", "w.json", "-o", "c.exr", "-q")
+                for name in "b.exr", "c.exr":
+                    self.expect(0, "compare", "a.exr", name, "--max-difference", "0", "-q")
+        self.expect(0, "render", "s.json", "-o", "b.exr", "-q", *SMALL, "--set", "figure.view=front")
+        self.expect(8, "compare", "a.exr", "b.exr", "--max-difference", "0", "-q")
+
     def test_transparent(self):
         self.figure("-o", "a.png", "--background", "transparent", *SMALL)
         rows = self.pixels("a.png", 4)
@@ -75,8 +96,8 @@ class Pictures(FigureTest):
 class Files(FigureTest):
     """What needs no device."""
 
-    def legend(self, column):
-        self.figure("--color", column, "--legend", "l.svg")
+    def legend(self, column, *options):
+        self.figure("--color", column, "--legend", "l.svg", *options)
         self.assertEqual(self.files(), ["a.xyz", "l.svg"])
         names = {"svg": "http://www.w3.org/2000/svg"}
         root = xml.etree.ElementTree.parse(self.path("l.svg")).getroot()
@@ -101,12 +122,21 @@ class Files(FigureTest):
         colours = {circle.attrib["fill"] for circle in root.findall("svg:circle", names)}
         self.assertEqual(len(colours), 3)
 
-    def test_the_scene_has_the_particles(self):
-        self.figure("--write-scene", "a.json", "--radius", "0.25", *SMALL)
-        scene = json.loads(self.read("a.json"))
-        balls = [sphere for sphere in scene["spheres"] if sphere["radius"] == 0.25]
-        self.assertEqual([ball["center"] for ball in balls], [[0, 0, 0], [1.5, 0, 0], [0, 1.5, 1]])
-        self.assertEqual(len({ball["material"] for ball in balls}), 3)
+    def test_legend_has_the_range(self):
+        for options, ends in (((), SPEEDS[::2]), (("--color-range", "-3,2.75"), (-3, 2.75))):
+            _, _, texts = self.legend("speed", *options)
+            self.assertEqual((float(texts[1]), float(texts[-1])), ends)
+            self.assertEqual("pt: --color: speed from -1.5 to 2\n" in self.errors, not options)
+
+    def test_the_scene_names_the_particles(self):
+        os.mkdir(self.path("out"))
+        self.figure("--write-scene", "out/a.json", "--radius", "H=0.25,O=0.5,<C>=1", "--where", "y < 1", "--frame", "0",
+                    "--color", "speed", "--colormap", "magma", *SMALL)
+        scene = json.loads(self.read("out/a.json"))
+        self.assertEqual(scene["particles"], [
+            {"file": "../a.xyz", "frame": 0, "where": ["y < 1"],
+             "radius": {"types": {"<C>": 1, "H": 0.25, "O": 0.5}},
+             "color": {"column": "speed", "map": "magma", "range": [-1.5, 0.25]}, "material": "particles"}])
         self.assertEqual(scene["materials"]["surround"], {"emission": LIGHT})
         self.assertEqual((scene["film"]["width"], scene["film"]["height"], scene["render"]["spp"]), (WIDTH, HEIGHT, 2))
 
@@ -120,14 +150,68 @@ class Refusals(FigureTest):
                               (["--up", "w"], "--up: must be x, y or z"),
                               (["--radius", "0"], "--radius: must be a number from"),
                               (["--projection", "fisheye"], '--projection: unknown projection "fisheye"'),
-                              (["--floor", "--view", "bottom"], "--floor: the camera is below it, by --view"),
-                              (["--color", "mass"], 'a.xyz: unknown column "mass", known: '),
+                              (["--floor", "--view", "bottom"], "--floor: the camera is below it, by the view"),
+                              (["--color", "mass"], '--color mass: a.xyz: unknown column "mass", known: '),
+                              (["--color", "sped"], 'unknown column "sped", did you mean "speed"?'),
+                              (["--color", "x,y,mass"], '--color x,y,mass: a.xyz: unknown column "mass"'),
+                              (["--radius", "mass"], '--radius mass: a.xyz: unknown column "mass"'),
+                              (["--where", "mass > 1"], '--where mass > 1: a.xyz: unknown column "mass"'),
+                              (["--where", "speed"], '--where: "speed": must be a column, one of <'),
+                              (["--radius", "covalent"], "--radius covalent: a.xyz: the type <C>: must be an element"),
+                              (["--radius", "O=1,H=2"],
+                               "--radius O=1,H=2: a.xyz: the type <C> is none of those with a radius, H and O"),
+                              (["--radius", "O=1,O=2"], "--radius: must be a number from"),
+                              (["--radius", "O=-1"], "--radius: must be a number from"),
+                              (["--colormap", "magna"], '--colormap: unknown colour map "magna", did you mean "magma"?'),
+                              (["--colormap", "magma"], "--colormap: needs --color and a column of numbers"),
+                              (["--color", "type", "--color-range", "0,1"],
+                               "--color-range: needs --color and columns of numbers, which type is not"),
+                              (["--color-range", "1,1"], "--color-range: must be two numbers like"),
                               (["--frame", "1"], "frame 1: the file has 1 frame"),
                               (["--legend", "a.xyz"], "--legend"),
                               (["-o", "b.jpg", "--background", "transparent"], "--background transparent: -o b.jpg")):
             with self.subTest(options=options):
                 self.figure("-o", "a.png", *SMALL, *options, code=2, error=said)
                 self.assertEqual(self.files(), ["a.xyz"])
+
+    def test_scenes(self):
+        """Faults of "figure" and of "particles", by the rest of the scene and what is said."""
+        particles = {"file": "a.xyz"}
+        material = {"materials": {"a": {"diffuse": 1}}}
+        for scene, said in (
+                ({"particles": [particles]}, 'particles[0]: "material" is missing, which only particles of a figure'),
+                ({"figure": {}}, "figure: the scene has no particles"),
+                ({"figure": {}, "particles": [particles], "camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]}},
+                 "camera: a scene has either a camera or a figure"),
+                ({"figure": {"view": "frnt"}}, 'figure.view: unknown view "frnt", did you mean "front"?'),
+                ({"figure": {"up": "1,0,0"}}, "figure.up: must be x, y or z"),
+                ({"figure": {"up": [0, 0, 0]}}, "figure.up: must not be [0, 0, 0]"),
+                ({"figure": {"floor": 1}}, "figure.floor: must be true or false, is 1"),
+                ({"figure": {"floor": True, "view": "bottom"}, "particles": [particles]},
+                 "figure.floor: the camera is below it"),
+                ({"figure": {}, "particles": [{**particles, "where": ["x > 9"]}]}, "figure: its particles are none"),
+                ({"figure": {}, "particles": [{**particles, "radius": {"types": {"H": 1, "O": 1}}}]},
+                 "particles[0].radius: a.xyz: the type <C> is none of those with a radius, H and O"),
+                ({"figure": {}, "particles": [{**particles, "color": {"types": {"H": 1}}}]},
+                 "particles[0].color: a.xyz: the type O is none of those with a colour, H"),
+                ({"figure": {}, "particles": [{**particles, "color": {"types": {"H": 1.5}}}]},
+                 "particles[0].color.types.H: must be from 0 to 1, is 1.5"),
+                ({"figure": {}, "particles": [{**particles, "radius": {"types": {"H": 0}}}]},
+                 "particles[0].radius.types.H: must be > 0, is 0"),
+                ({"figure": {}, "particles": [{**particles, "radius": {"types": {"H": 1}, "column": "x"}}]},
+                 'particles[0].radius: must be a number, or have one of "column", "elements" or "types"'),
+                ({**material, "particles": [{**particles, "material": "a", "color": {"column": "mass"}}]},
+                 'particles[0].color: a.xyz: unknown column "mass", known: ')):
+            with self.subTest(scene=scene):
+                self.write("s.json", json.dumps(scene))
+                self.expect(3, "render", "s.json", "-o", "a.png", error=said)
+                self.assertEqual(self.files(), ["a.xyz", "s.json"])
+        self.write("s.json", json.dumps({"figure": {}, "particles": [particles]}))
+        self.expect(2, "render", "s.json", "-o", "a.png", "--stats", "a.xyz",
+                    error="--stats a.xyz: is the same file as the particles")
+
+    def test_data_without_a_name(self):
+        self.expect(2, "figure", "-", "--write-scene", "a.json", error="--write-scene: a scene names the file")
 
     def test_nothing_to_write(self):
         self.figure(code=2, error="-o, --write-scene or --legend is missing")
@@ -138,6 +222,8 @@ class Refusals(FigureTest):
         self.expect(3, "figure", "b.xyz", "-o", "a.png", error="pt: b.xyz")
         self.write("b.xyz", "0\n\n")
         self.expect(6, "figure", "b.xyz", "-o", "a.png", error="pt: b.xyz: has no particles")
+        self.expect(6, "figure", "a.xyz", "--where", "x > 9", "-o", "a.png",
+                    error="pt: a.xyz: has no particles for which --where holds")
         self.assertEqual(self.files(), ["a.xyz", "b.xyz"])
 
 

@@ -5,6 +5,7 @@ command_line.py."""
 import json
 import os
 import re
+import shlex
 import shutil
 
 from command_line import PT, SCENES, CommandLineTest, main, read_png
@@ -12,7 +13,7 @@ from command_line import PT, SCENES, CommandLineTest, main, read_png
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
 
-SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
+SECTIONS = {"camera": "{%s}", "figure": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
             "particles": "[{%s}]", "planes": "[{%s}]"}
 # What a section has to have beside the key that is looked at.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
@@ -65,8 +66,10 @@ def beyond(least, largest):
 def scene_with(section, values):
     """A scene file whose section has these values, by key, and no more than it has to have beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
-    materials = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
-    return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], materials)
+    others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
+    if section == "figure":
+        others += ', "particles": [{"file": "melt.dump", "format": "xyz"}]'
+    return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)
 
 
 class SceneFile(CommandLineTest):
@@ -122,7 +125,7 @@ class RealDevice(CommandLineTest):
         self.assertGreater(len({value for line in lines for value in line}), 100)  # it shows something
 
     def test_commands_of_the_manual_run(self):
-        commands = [line.split() for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
+        commands = [shlex.split(line) for block in re.findall(r"```sh\n(.*?)```", MANUAL, re.DOTALL)
                     for line in block.splitlines() if line.startswith("pt ")]
         self.assertGreater(len(commands), 5)
         for command in commands:

@@ -22,7 +22,8 @@ SCENE = {
     "film": {"width": 4, "height": 2, "exposure": "auto", "tonemap": "neutral", "gamma": 2.2},
     "render": {"max_path_length": 2, "spp": 1, "seed": 7, "sampler": "sobol", "estimator": "mis"},
     "materials": {"a": {"diffuse": 0.5, "specular": [0.1, 0.2, 0.3], "glossiness": 10, "emission": [3, 2, 1]}},
-    "spheres": [{"center": [0, 1, 0], "radius": 0.5, "material": "a", "motion": [1, 0, 0]}],
+    "spheres": [{"center": [0, 1, 0], "radius": 0.5, "material": "a", "motion": [1, 0, 0],
+                 "color": [0.5, 1, 0]}],
     "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "a"}],
     "animation": {"camera.position": [[0, [0, 1, 6]], [10, [1, 1, 6]]], "materials.a.glossiness": [[0, 10], [5, 20]]}}
 
@@ -67,6 +68,7 @@ def changes():
 class Schema(CommandLineTest):
     def setUp(self):
         super().setUp()
+        self.fake = self.program
         self.expect(0, "schema")
         self.schema = json.loads(self.output)
         self.validator = jsonschema.Draft7Validator(self.schema)
@@ -95,11 +97,43 @@ class Schema(CommandLineTest):
         self.assertIn(code, (0, 3), self.errors)
         return code == 3
 
+    def test_it_refuses_what_the_program_refuses_of_particles(self):
+        self.write("a.xyz", "1\nProperties=species:S:1:pos:R:3:vx:R:1\nO 0 0 -5 1.5\n")
+        red = {"r": {"diffuse": 0.5}}
+        counts = {True: 0, False: 0}
+        for key, values in (
+                ("radius", (1, 0, -1, "vx", {}, {"column": "vx"}, {"column": "vx", "scale": 2}, {"column": 1},
+                            {"elements": "covalent"}, {"elements": "Bohr"}, {"types": {"O": 1}}, {"types": {}},
+                            {"types": {"O": 0}}, {"types": {"O": "1"}}, {"types": {"O": 1}, "column": "vx"})),
+                ("color", (0.5, 1.5, [1, 0, 0], [1, 0], "type", "vx", {"types": {"O": [1, 0, 0]}}, {"types": {"O": 2}},
+                           {"types": []}, {"column": "vx", "map": "magma", "range": [0, 1]}, {"column": "vx", "map": "m"},
+                           {"columns": ["x", "y", "z"]}, {"columns": ["x", "y"]}, {"range": [0, 1]})),
+                ("wrap", (True, False, 1, "true")), ("where", (["x < 1"], "x < 1")), ("frame", (0, -1, 0.5)),
+                ("format", ("xyz", "pdb"))):
+            for value in values:
+                particles = {"file": "a.xyz", "radius": 1, "material": "r", key: value}
+                scene = {"materials": red, "particles": [particles]}
+                is_valid = self.validator.is_valid(scene)
+                # The stand-in for the library accepts everything.
+                refused = self.refused_by(self.fake, scene, "--size", "4x2")
+                refused = refused or (not is_valid and self.refused_by(PT, scene))
+                self.assertEqual(refused, not is_valid, particles)
+                counts[is_valid] += 1
+        for key, values in (("view", ("top", "upside", [1, 2, 3], [0, 0, 0], 1)), ("up", ("z", "-x", "w", [0, 1, 0])),
+                            ("style", ("glossy", "shiny")), ("projection", ("orthographic", "fisheye")),
+                            ("floor", (True, 0)), ("zoom", (1,))):
+            for value in values:
+                scene = {"figure": {key: value}, "particles": [{"file": "a.xyz"}]}
+                is_valid = self.validator.is_valid(scene)
+                self.assertEqual(self.refused_by(self.fake, scene), not is_valid, scene)
+                counts[is_valid] += 1
+        self.assertGreater(min(counts.values()), 15, counts)
+
     def test_it_refuses_what_the_program_refuses(self):
-        fake, counts = self.program, {"valid": 0, "reader": 0, "library": 0, "beyond": 0}
+        counts = {"valid": 0, "reader": 0, "library": 0, "beyond": 0}
         for scene in changes():
             is_valid = self.validator.is_valid(scene)
-            refused = self.refused_by(fake, scene, "--size", "4x2")
+            refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
             # The stand-in for the library accepts everything: the rules of the library need a device.
             if not refused and not is_valid:

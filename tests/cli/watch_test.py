@@ -38,6 +38,25 @@ class Scenes(WatchTest):
         self.assertEqual(pt.end(), 0)
         self.assertEqual(pt.count("wrote"), 5, pt.seen)
 
+    def test_particles_of_files(self):
+        scene = json.loads(scene_text(3))
+        scene["particles"] = [{"file": "data/a.xyz", "radius": 1, "material": "light"}]
+        os.mkdir(self.path("data"))
+        self.write("data/a.xyz", "1\n\nH 0 0 0\n")
+        self.write("s.json", json.dumps(scene))
+        pt = self.watch()
+        pt.line_with("watching s.json and its particles; Ctrl-C ends")
+        self.write("data/a.xyz", "2\n\nH 0 0 0\nH 1 0 0\n")
+        pt.line_with("pt: changed: data/a.xyz")
+        pt.line_with("wrote a.png")
+        self.save("data/a.xyz", "1\n\nH 0 0 zero\n")
+        pt.line_with("pt: s.json: particles[0]: data/a.xyz:3: ")
+        self.save("data/a.xyz", "1\n\nH 0 0 0\n")
+        pt.line_with("wrote a.png")
+        self.save("s.json", scene_text(4))
+        pt.line_with("wrote a.png: 4x2")
+        self.assertEqual(pt.end(), 0)
+
     def test_a_wrong_scene_is_told_once_and_waited_out(self):
         pt = self.watch()
         pt.line_with("watching")
