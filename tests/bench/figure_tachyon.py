@@ -29,7 +29,8 @@ def write_scene(file, data, view, width, height):
     zoom = 0.5 / math.tan(math.radians(camera["vertical_fov"]) / 2)
     file.write(f"BEGIN_SCENE\nRESOLUTION {width} {height}\n"
                f"CAMERA\nZOOM {zoom:.9g}\nASPECTRATIO 1\nANTIALIASING 0\n"
-               f"RAYDEPTH 8\nCENTER {texts(camera['position'])}\nVIEWDIR {texts(forward)}\nUPDIR {texts(camera['up'])}\n"
+               f"RAYDEPTH 8\nCENTER {texts(camera['position'])}\nVIEWDIR {texts(forward)}\n"
+               f"UPDIR {texts(camera['up'])}\n"
                f"END_CAMERA\nDIRECTIONAL_LIGHT DIRECTION {texts(light)} COLOR 1 1 1\nBACKGROUND 1 1 1\n")
     for kind, colour in enumerate(COLOURS, 1):
         file.write(f"TEXDEF type{kind} AMBIENT 0 DIFFUSE {ALBEDO} SPECULAR 0 OPACITY 1 "

@@ -14,7 +14,7 @@ option, and where it is not on the path.
 
 Measured is the whole command, from the file to the PNG: CPU seconds of all its threads, wall seconds, and its peak
 memory, which of several processes of one command is that of the largest. Medians over rounds, each of all programs in
-turn. Noise, by --noise: of pt and Mitsuba the root of the mean square between pictures of two seeds over the root of 2;
+turn. Noise, by --noise: of pt and Mitsuba the root of the mean square between two seeds over the root of 2;
 of the others, whose random numbers are always the same, that to a picture with 16 times the samples; in steps of 8 bits,
 over the pixels that are not white in both. What a program leaves out of the light is no noise.
 """
@@ -71,7 +71,8 @@ def programs(options):
         return lambda data, view, out: [python, os.path.join(HERE, name), data, view, out, width, height, *settings]
 
     def pt_figure(seed):
-        return lambda data, view, out: [options.pt, "figure", data, "-o", out, *LOOK, "--size", options.size, "--spp", samples, "--seed", seed, "--quiet"]
+        return lambda data, view, out: [options.pt, "figure", data, "-o", out, *LOOK, "--size", options.size,
+                                        "--spp", samples, "--seed", seed, "--quiet"]
 
     found = [Program("pt figure", pt_figure("0"), pt_figure("1"), True)]
     if options.mitsuba:
