@@ -15,8 +15,8 @@ option, and where it is not on the path.
 Measured is the whole command, from the file to the PNG: CPU seconds of all its threads, wall seconds, and its peak
 memory, which of several processes of one command is that of the largest. Medians over rounds, each of all programs in
 turn. Noise, by --noise: of pt and Mitsuba the root of the mean square between two seeds over the root of 2;
-of the others, whose random numbers are always the same, that to a picture with 16 times the samples; in steps of 8 bits,
-over the pixels that are not white in both. What a program leaves out of the light is no noise.
+of the others, whose random numbers are always the same, that to a picture with 16 times the samples; in steps of 8
+bits, over the pixels that are not white in both. What a program leaves out of the light is no noise.
 """
 
 import argparse
