@@ -111,6 +111,13 @@ std::uint64_t read_whole_number(const json &value, const JsonPlace &place, std::
     return number;
 }
 
+bool read_truth(const json &value, const JsonPlace &place) {
+    if (!value.is_boolean()) {
+        refuse_value(value, place, "must be true or false");
+    }
+    return value.get<bool>();
+}
+
 std::string_view read_text(const json &value, const JsonPlace &place) {
     if (!value.is_string()) {
         refuse_value(value, place, "must be a string");

@@ -52,6 +52,7 @@ double read_number(const nlohmann::json &value, const JsonPlace &place);
 float read_float(const nlohmann::json &value, const JsonPlace &place);
 std::uint64_t read_whole_number(const nlohmann::json &value, const JsonPlace &place, std::uint64_t smallest,
                                 std::uint64_t largest);
+bool read_truth(const nlohmann::json &value, const JsonPlace &place);
 std::string_view read_text(const nlohmann::json &value, const JsonPlace &place);
 std::array<double, 3> read_vector(const nlohmann::json &value, const JsonPlace &place);
 std::array<double, 2> read_pair(const nlohmann::json &value, const JsonPlace &place);

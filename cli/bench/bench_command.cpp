@@ -14,7 +14,7 @@
 #include "cli/bench/bench_run.h"
 #include "cli/image/image_reader.h"
 #include "cli/scene/render_settings.h"
-#include "cli/scene/scene_file.h"
+#include "cli/scene/scene_completion.h"
 #include "cli/scene/scene_setup.h"
 
 #include <algorithm>
@@ -132,7 +132,7 @@ void write_report(const BenchOptions &options, const BenchReport &report) {
 int run_bench(const BenchOptions &options) {
     require_distinct_files({{"the scene", options.scene}, {"--reference", options.reference}},
                            {{"--csv", options.csv}, {"--json", options.json}});
-    const SceneFile file = read_scene_file(options.scene);
+    const SceneFile file = read_scene_file(options.scene, options.size);
     choose_vector_width(file.surface_count()); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);
     require_host_memory(settings, file.path, 2); // the reference, and the one compared with it

@@ -7,13 +7,14 @@
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
 #include "cli/compare/compare_report.h"
-#include "cli/image/colour_map.h"
+#include "cli/data/number_colours.h"
 #include "cli/image/image_file.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace cli {
@@ -54,17 +55,26 @@ void require_comparable(const DecodedImage &image, const DecodedImage &reference
     }
 }
 
+// Dark is no difference, bright the largest, white what is not finite.
+std::vector<std::uint8_t> difference_picture(std::span<const float> differences, float largest) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * differences.size());
+    for (const float difference : differences) {
+        const double share = largest > 0.0F ? difference / largest : 0.0;
+        const auto colour =
+            std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : map_colour("viridis", share);
+        bytes.insert(bytes.end(), colour.begin(), colour.end());
+    }
+    return bytes;
+}
+
 // Returns what the brightest colour stands for.
-float write_difference(const std::string &path, std::uint32_t width, std::vector<float> differences) {
+float write_difference(const std::string &path, std::uint32_t width, const std::vector<float> &differences) {
     const float largest = std::accumulate(differences.begin(), differences.end(), 0.0F,
                                           [](float most, float each) { return std::fmax(most, each); });
-    if (largest > 0.0F) {
-        std::transform(differences.begin(), differences.end(), differences.begin(),
-                       [largest](float difference) { return difference / largest; });
-    }
-    const std::vector<std::uint8_t> bytes = map_colours(differences, width);
     const auto height = static_cast<std::uint32_t>(differences.size() / width);
-    ImageWriter().write_signal({path, ImageFormat::png}, whole_window(width, height), bytes, {});
+    ImageWriter().write_signal({path, ImageFormat::png}, whole_window(width, height),
+                               difference_picture(differences, largest), {});
     return largest;
 }
 

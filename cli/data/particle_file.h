@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -24,6 +25,15 @@ struct ParticleQuery {
     // hold for what is kept.
     std::vector<std::string> where;
     ExitCode blame = ExitCode::usage; // of a condition that is none, and of columns that the file lacks
+};
+
+// A column that the file lacks.
+struct UnknownColumn : Failure {
+    UnknownColumn(ExitCode code, const std::string &message, std::string column) :
+        Failure(code, message),
+        name(std::move(column)) {}
+
+    std::string name;
 };
 
 inline constexpr std::array<std::string_view, 7> particle_formats{"lammps", "xyz", "ply", "csv", "tsv", "npy", "npz"};

@@ -135,7 +135,7 @@ std::uint32_t ParticleRows::require_slot(std::span<const std::string> columns, c
     const std::uint32_t slot = slot_of(columns, name);
     if (slot == unused) {
         const std::vector<std::string_view> known(columns.begin(), columns.end());
-        throw Failure(query_.blame, file_ + ": " + unknown_name("column", name, known));
+        throw UnknownColumn(query_.blame, file_ + ": " + unknown_name("column", name, known), name);
     }
     return slot;
 }
@@ -148,7 +148,7 @@ void ParticleRows::bind_columns(std::span<const std::string> columns) {
         const bool is_new =
             std::none_of(bound.begin(), bound.end(), [&name](const ParticleColumn &each) { return each.name == name; });
         if (is_new) {
-            particles_.columns.push_back({name, {}});
+            particles_.columns.push_back({name, {}, false});
             column_slots_.push_back(slot);
         }
     };
@@ -280,6 +280,7 @@ void ParticleRows::name_used_types() {
         if (has_words_[column_slots_[i]] == 0) {
             continue;
         }
+        particles_.columns[i].has_words = true;
         for (float &value : particles_.columns[i].values) {
             float &number = numbers[static_cast<std::size_t>(value)];
             if (number == unknown) {

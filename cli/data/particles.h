@@ -15,6 +15,7 @@ namespace cli {
 struct ParticleColumn {
     std::string name;
     std::vector<float> values;
+    bool has_words = false; // the values are indices into type_names
 };
 
 // The parallelepiped that a simulation fills: origin + a * edges[0] + b * edges[1] + c * edges[2], a, b, c in [0, 1].
@@ -27,7 +28,7 @@ struct SimulationBox {
 struct Particles {
     std::vector<double> positions;       // x, y, z of each particle, in the units of the file
     std::vector<ParticleColumn> columns; // those that were asked for, each as long as there are particles
-    // Where types are words, like the symbols of elements, the column of types holds indices into these.
+    // Where types are words, like the symbols of elements.
     std::vector<std::string> type_names;
     std::optional<SimulationBox> box;
 

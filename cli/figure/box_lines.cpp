@@ -1,17 +1,19 @@
 #include "cli/figure/box_lines.h"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <cstddef>
 
 namespace cli {
 
 // Bit i of a corner's number says whether it is at the end of edge i.
-std::array<Vector3, 8> corners_of(const SimulationBox &box) {
-    std::array<Vector3, 8> corners{};
+std::array<glm::dvec3, 8> corners_of(const SimulationBox &box) {
+    std::array<glm::dvec3, 8> corners{};
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {
-        corners[corner] = box.origin;
+        corners[corner] = glm::make_vec3(box.origin.data());
         for (std::size_t edge = 0; edge < box.edges.size(); ++edge) {
             if ((corner >> edge & 1U) != 0) {
-                corners[corner] = moved(corners[corner], 1.0, box.edges[edge]);
+                corners[corner] += glm::make_vec3(box.edges[edge].data());
             }
         }
     }
@@ -19,7 +21,7 @@ std::array<Vector3, 8> corners_of(const SimulationBox &box) {
 }
 
 std::array<Segment, 12> edges_of(const SimulationBox &box) {
-    const std::array<Vector3, 8> corners = corners_of(box);
+    const std::array<glm::dvec3, 8> corners = corners_of(box);
     std::array<Segment, 12> edges{};
     std::size_t count = 0;
     for (std::size_t corner = 0; corner < corners.size(); ++corner) {

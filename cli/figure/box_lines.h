@@ -8,7 +8,7 @@
 
 namespace cli {
 
-std::array<Vector3, 8> corners_of(const SimulationBox &box);
+std::array<glm::dvec3, 8> corners_of(const SimulationBox &box);
 std::array<Segment, 12> edges_of(const SimulationBox &box);
 
 } // namespace cli

@@ -12,7 +12,7 @@ enum class Projection { perspective, orthographic };
 
 struct FittedCamera {
     ViewFrame frame;
-    Vector3 position;
+    glm::dvec3 position;
     double target_distance; // from the position along the view to the middle of what is seen
     Projection projection;
     double vertical_fov; // full angle in radians, of the perspective
@@ -31,7 +31,7 @@ public:
     double depth() const { return high_[2] - low_[2]; }
     double nearest() const { return low_[2]; } // along the view
     double farthest() const { return high_[2]; }
-    Vector3 center() const; // in the world
+    glm::dvec3 center() const; // in the world
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -56,11 +56,11 @@ public:
     PyramidFit(const ViewFrame &frame, double horizontal_tangent, double vertical_tangent);
 
     void add(const Ball &ball);
-    Vector3 apex() const;
+    glm::dvec3 apex() const;
 
 private:
     struct Pair { // left and right, or bottom and top
-        Vector3 across;
+        glm::dvec3 across;
         double sine;
         double cosine;
         double low = std::numeric_limits<double>::infinity(); // s above
@@ -79,7 +79,7 @@ inline constexpr double figure_vertical_fov = 0.35; // radians, 20 degrees
 inline constexpr double figure_margin = 0.03;
 
 // points: what has to be seen as well, like the corners of a box. extents: of all of them. There must be one at least.
-FittedCamera fit_camera(const Balls &balls, std::span<const Vector3> points, const ViewExtents &extents,
+FittedCamera fit_camera(const Balls &balls, std::span<const glm::dvec3> points, const ViewExtents &extents,
                         const ViewFrame &frame, Projection projection, double aspect);
 
 } // namespace cli

@@ -10,6 +10,7 @@
 #include "cli/base/source_date.h"
 #include "cli/base/vector_width.h"
 #include "cli/figure/box_lines.h"
+#include "cli/figure/figure_particles.h"
 #include "cli/figure/figure_picture.h"
 #include "cli/figure/figure_scene.h"
 #include "cli/image/display_image.h"
@@ -23,6 +24,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <stdexcept>
 #include <unistd.h>
 
 namespace cli {
@@ -43,6 +45,9 @@ void check_names(const FigureOptions &options) {
             throw Failure(ExitCode::usage, "--background transparent: -o " + path + ": JPEG has no alpha; .png has");
         }
     }
+    if (options.data == standard_stream && !options.scene.empty()) {
+        throw Failure(ExitCode::usage, "--write-scene: a scene names the file of its particles, which - is not");
+    }
     require_distinct_files({{"the data", options.data}}, outputs);
     check_report_file(options.legend);
     check_report_file(options.scene);
@@ -61,6 +66,28 @@ pt_create_info create_info(const FigureOptions &options) {
     info.struct_size = sizeof(pt_create_info);
     info.device = options.device.empty() ? nullptr : options.device.c_str();
     return info;
+}
+
+// The box, where it is to be seen.
+std::optional<SimulationBox> shown_box(const FigureOptions &options, const SceneFile &scene) {
+    return options.shows_box ? scene.particles.front().box : std::nullopt;
+}
+
+std::vector<Segment> lines_of(const FigureOptions &options, const SceneFile &scene) {
+    const std::optional<SimulationBox> box = shown_box(options, scene);
+    if (!box) {
+        return {};
+    }
+    const auto edges = edges_of(*box);
+    return {edges.begin(), edges.end()};
+}
+
+FigureLayout layout_of(const FigureOptions &options, const SceneFile &scene) {
+    try {
+        return lay_out(options.look, options.size, balls_of(scene), shown_box(options, scene));
+    } catch (const std::invalid_argument &error) {
+        throw Failure(ExitCode::usage, std::string("--floor: ") + error.what());
+    }
 }
 
 // A line is as wide as a thousandth and a half of the picture is long, and never thinner than a pixel.
@@ -97,12 +124,16 @@ void write_outputs(const FigureOptions &options, const RenderReport &report, con
     }
 }
 
+std::uint32_t sample_count_of(const FigureOptions &options) {
+    return options.sample_count.value_or(default_figure_samples);
+}
+
 // Returns the exit code.
-int draw(const FigureOptions &options, const FigureParticles &particles, const FigureLayout &layout) {
+int draw(const FigureOptions &options, SceneFile &scene, const FigureLayout &layout) {
     const auto start = Clock::now();
-    const std::uint32_t sample_count = options.sample_count.value_or(default_figure_samples);
-    const SceneFile stage = stage_scene(layout, sample_count, options.data);
-    const SceneFile scene = figure_scene(stage, layout.stage, particles);
+    const SceneFile stage = stage_scene(layout, options.data);
+    furnish(scene, layout);
+    scene.sample_count = sample_count_of(options);
     const RenderSettings settings = merge_settings(render_options(options), scene);
     require_host_memory(settings, options.data, 4);
     for (const std::string &path : options.outputs) {
@@ -131,14 +162,13 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
     report.automatic_exposure = !settings.exposure.stops;
     report.tone_map = ToneMap{settings.exposure.stops ? *settings.exposure.stops : automatic_exposure(image.radiance),
                               settings.tone_curve, settings.gamma};
-    const Balls balls(particles.data.positions, particles.radii);
-    const auto edges =
-        particles.data.box && options.shows_box ? edges_of(*particles.data.box) : std::array<Segment, 12>{};
+    const Balls balls = balls_of(scene);
+    const std::vector<Segment> lines = lines_of(options, scene);
     const FigureContents contents{
         balls,
-        {static_cast<std::uint32_t>(stage.spheres.size()), static_cast<std::uint32_t>(balls.count())},
+        {static_cast<std::uint32_t>(scene.spheres.size()), static_cast<std::uint32_t>(balls.count())},
         layout.camera,
-        particles.data.box && options.shows_box ? std::span<const Segment>(edges) : std::span<const Segment>(),
+        lines,
         line_width(layout.size),
         options.has_outlines};
     const Overlay overlay = read_overlay(context, contents, settings);
@@ -162,18 +192,21 @@ int draw(const FigureOptions &options, const FigureParticles &particles, const F
 
 int run_figure(const FigureOptions &options) {
     check_names(options);
-    const FigureParticles particles = read_figure_particles(options);
-    const Balls balls(particles.data.positions, particles.radii);
-    const FigureLayout layout =
-        lay_out(options, balls, options.shows_box ? particles.data.box : std::optional<SimulationBox>());
+    SceneFile scene{};
+    scene.path = options.data;
+    scene.particles.push_back(read_figure_particles(options));
+    const ParticleEntry &particles = scene.particles.front();
+    const FigureLayout layout = layout_of(options, scene);
+    if (const std::string range = particles.chosen_range(); !range.empty() && !options.quiet) {
+        print_message("--color: " + range);
+    }
     if (!options.legend.empty()) {
-        write_report_file(options.legend, legend_svg(particles.legend));
+        write_report_file(options.legend, legend_svg(legend_of(particles)));
     }
     if (!options.scene.empty()) {
-        write_report_file(options.scene,
-                          figure_scene_text(layout, options.sample_count.value_or(default_figure_samples), particles));
+        write_report_file(options.scene, figure_scene_text(layout, sample_count_of(options), particles));
     }
-    return options.outputs.empty() ? static_cast<int>(ExitCode::done) : draw(options, particles, layout);
+    return options.outputs.empty() ? static_cast<int>(ExitCode::done) : draw(options, scene, layout);
 }
 
 } // namespace cli

@@ -1,21 +1,19 @@
 #include "cli/figure/figure_layout.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/figure/box_lines.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 namespace cli {
 namespace {
 
-ViewExtents extents_of(const ViewFrame &frame, const Balls &balls, std::span<const Vector3> points) {
+ViewExtents extents_of(const ViewFrame &frame, const Balls &balls, std::span<const glm::dvec3> points) {
     ViewExtents extents(frame);
-    for (std::size_t i = 0; i < balls.count(); ++i) {
-        extents.add(balls[i]);
-    }
-    for (const Vector3 &point : points) {
+    balls.each([&extents](const Ball &ball) { extents.add(ball); });
+    for (const glm::dvec3 &point : points) {
         extents.add({point, 0.0});
     }
     return extents;
@@ -24,9 +22,7 @@ ViewExtents extents_of(const ViewFrame &frame, const Balls &balls, std::span<con
 // Of the centres, along up and across it: a layer has 0, however large its balls are.
 double relative_height(const Balls &balls, const Compass &compass) {
     ViewExtents extents({compass.right, compass.up, compass.front});
-    for (std::size_t i = 0; i < balls.count(); ++i) {
-        extents.add({balls[i].center, 0.0});
-    }
+    balls.each([&extents](const Ball &ball) { extents.add({ball.center, 0.0}); });
     const double across = std::hypot(extents.width(), extents.depth());
     return across > 0.0 ? extents.height() / (across / std::sqrt(2.0)) : 1.0;
 }
@@ -41,23 +37,22 @@ ImageSize shape_of(const ViewExtents &extents) {
     return {side(std::sqrt(pixel_count * aspect)), side(std::sqrt(pixel_count / aspect))};
 }
 
-Bounds bounds_of(const Balls &balls, std::span<const Vector3> points, const Vector3 &center) {
+Bounds bounds_of(const Balls &balls, std::span<const glm::dvec3> points, const glm::dvec3 &center) {
     Bounds bounds{center, 0.0};
     const auto include = [&bounds](const Ball &ball) {
-        const double reach = length(moved(ball.center, -1.0, bounds.center)) + ball.radius;
+        const double reach = glm::length(ball.center - bounds.center) + ball.radius;
         bounds.radius = std::max(bounds.radius, reach);
     };
-    for (std::size_t i = 0; i < balls.count(); ++i) {
-        include(balls[i]);
-    }
-    for (const Vector3 &point : points) {
+    balls.each(include);
+    for (const glm::dvec3 &point : points) {
         include({point, 0.0});
     }
     return bounds;
 }
 
 // Below all, by a hair: a ball in the plane would meet it in one point, where roundings decide what is before.
-Floor floor_below(const Balls &balls, std::span<const Vector3> points, const Bounds &bounds, const Compass &compass) {
+Floor floor_below(const Balls &balls, std::span<const glm::dvec3> points, const Bounds &bounds,
+                  const Compass &compass) {
     constexpr double gap = 1e-4;
     const ViewExtents extents = extents_of({compass.right, compass.front, compass.up}, balls, points);
     return {compass.up, extents.nearest() - gap * bounds.radius};
@@ -65,29 +60,30 @@ Floor floor_below(const Balls &balls, std::span<const Vector3> points, const Bou
 
 } // namespace
 
-FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std::optional<SimulationBox> &box) {
-    std::vector<Vector3> points;
+FigureLayout lay_out(const FigureLook &look, const std::optional<ImageSize> &size, const Balls &balls,
+                     const std::optional<SimulationBox> &box) {
+    std::vector<glm::dvec3> points;
     if (box) {
         const auto corners = corners_of(*box);
         points.assign(corners.begin(), corners.end());
     }
-    const Compass compass = compass_of(options.up);
-    const ViewFrame frame = view_frame(options.view, options.up, relative_height(balls, compass));
+    const Compass compass = compass_of(look.up);
+    const ViewFrame frame = view_frame(look.view, look.up, relative_height(balls, compass));
     const ViewExtents extents = extents_of(frame, balls, points);
 
     FigureLayout layout{};
-    layout.size = options.size.value_or(shape_of(extents));
+    layout.size = size.value_or(shape_of(extents));
     const double aspect = static_cast<double>(layout.size.width) / layout.size.height;
-    layout.camera = fit_camera(balls, points, extents, frame, options.projection, aspect);
+    layout.camera = fit_camera(balls, points, extents, frame, look.projection, aspect);
     const Bounds bounds = bounds_of(balls, points, extents.center());
     std::optional<Floor> floor;
-    if (options.has_floor) {
+    if (look.has_floor) {
         floor = floor_below(balls, points, bounds, compass);
-        if (dot(floor->normal, layout.camera.position) <= floor->height) {
-            throw Failure(ExitCode::usage, "--floor: the camera is below it, by --view, and would see nothing else");
+        if (glm::dot(floor->normal, layout.camera.position) <= floor->height) {
+            throw std::invalid_argument("the camera is below it, by the view, and would see nothing else");
         }
     }
-    layout.stage = make_stage(options.style, layout.camera, bounds, floor);
+    layout.stage = make_stage(look.style, layout.camera, bounds, floor);
     return layout;
 }
 

@@ -4,7 +4,7 @@
 #include "cli/base/number.h"
 #include "cli/data/particles.h"
 #include "cli/figure/balls.h"
-#include "cli/figure/figure_options.h"
+#include "cli/figure/figure_look.h"
 
 #include <optional>
 
@@ -16,8 +16,9 @@ struct FigureLayout {
     Stage stage;
 };
 
-// box: what is seen of it, if anything is. Throws Failure(ExitCode::usage) for a floor that would be between the camera
-// and the balls. There must be one ball.
-FigureLayout lay_out(const FigureOptions &options, const Balls &balls, const std::optional<SimulationBox> &box);
+// size: of the picture; nothing: as the balls are. box: what is seen of it, if anything is. Throws
+// std::invalid_argument for a floor that would be between the camera and the balls. There must be one ball.
+FigureLayout lay_out(const FigureLook &look, const std::optional<ImageSize> &size, const Balls &balls,
+                     const std::optional<SimulationBox> &box);
 
 } // namespace cli

@@ -1,11 +1,13 @@
 // The options of `pt figure`: their names, help and syntax.
 #pragma once
 
+#include "cli/data/particle_colour.h"
+#include "cli/data/particle_radius.h"
 #include "cli/figure/composition.h"
-#include "cli/figure/stage.h"
-#include "cli/figure/view_frame.h"
+#include "cli/figure/figure_look.h"
 #include "cli/image/display_options.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,7 +19,6 @@ class App;
 
 namespace cli {
 
-inline constexpr std::array<std::string_view, 2> projection_names{"perspective", "orthographic"};
 inline constexpr std::array<std::string_view, 2> box_names{"lines", "none"};
 
 struct FigureOptions {
@@ -29,16 +30,17 @@ struct FigureOptions {
 
     std::int64_t frame = -1;
     bool wraps = false;
-    std::string color;            // the column that the colours say; empty: types, if there are any
-    std::optional<double> radius; // of all; nothing: the file's, or what suits the distances
+    std::vector<std::string> where; // conditions of particles that are shown
+    ParticleRadius radius;
+    std::string radius_text; // as it was given
+    ParticleColour color;
+    std::string color_text;
+    std::optional<std::string> colormap;
+    std::optional<std::array<double, 2>> color_range;
 
     std::optional<ImageSize> size; // nothing: as the data are
-    ViewDirection view{view_names.front(), {}};
-    Vector3 up{0.0, 0.0, 1.0};
-    Projection projection = Projection::perspective;
+    FigureLook look;
 
-    FigureStyle style = FigureStyle::matte;
-    bool has_floor = false;
     FigureBackground background = FigureBackground::white;
     bool has_outlines = false;
     bool shows_box = true;

@@ -1,28 +1,15 @@
-// The particles of a figure with what they look like: a radius for all, and a colour for each.
+// The particles of a figure, by the options of `pt figure`.
 #pragma once
 
-#include "cli/data/particles.h"
 #include "cli/figure/figure_options.h"
 #include "cli/figure/legend.h"
-
-#include <cstdint>
-#include <vector>
+#include "cli/scene/particle_entry.h"
 
 namespace cli {
 
-struct FigureParticles {
-    Particles data;
-    std::vector<double> radii;          // of each, or one for all
-    std::vector<DisplayColour> palette; // at least one
-    std::vector<std::uint32_t> colours; // of each particle, an index into the palette
-    Legend legend;
-};
+// Reads the file. Throws Failure, which names the option that is at fault; ExitCode::file for a file without particles.
+ParticleEntry read_figure_particles(const FigureOptions &options);
 
-// Half of the distance to the nearest neighbour, its median over some particles: then most balls just touch. 1 for a
-// single particle.
-double typical_radius(const std::vector<double> &positions);
-
-// Reads the file. Throws Failure, ExitCode::file for a file without particles.
-FigureParticles read_figure_particles(const FigureOptions &options);
+Legend legend_of(const ParticleEntry &particles);
 
 } // namespace cli

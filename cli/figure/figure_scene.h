@@ -1,25 +1,28 @@
-// A figure as a scene file: what `pt figure` renders, and `pt render` too.
+// A figure as a scene: what `pt figure` renders, and `pt render` too.
 #pragma once
 
 #include "cli/figure/figure_layout.h"
-#include "cli/figure/figure_particles.h"
 #include "cli/scene/scene_file.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace cli {
 
-// The scene without its particles, as text and as the program reads it. name: what messages call it.
-nlohmann::ordered_json stage_json(const FigureLayout &layout, std::uint32_t sample_count);
-SceneFile stage_scene(const FigureLayout &layout, std::uint32_t sample_count, const std::string &name);
+// Of all particles of a scene.
+Balls balls_of(const SceneFile &scene);
 
-// With the particles: a material for each colour, and spheres behind those of the stage.
-SceneFile figure_scene(const SceneFile &stage, const Stage &look, const FigureParticles &particles);
+// What stands around the particles, without them. name: what messages call it.
+SceneFile stage_scene(const FigureLayout &layout, const std::string &name);
 
-// A scene file that gives every bit of the numbers back.
-std::string figure_scene_text(const FigureLayout &layout, std::uint32_t sample_count, const FigureParticles &particles);
+// Gives a scene the camera and the light, and its particles without a material that of the figure. The size, the
+// exposure and the length of paths are what the scene does not say otherwise.
+void furnish(SceneFile &scene, const FigureLayout &layout);
+
+// A scene file of the same, which names the file of the particles and gives every bit of the numbers back.
+std::string figure_scene_text(const FigureLayout &layout, std::uint32_t sample_count, const ParticleEntry &particles);
 
 } // namespace cli

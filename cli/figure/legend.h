@@ -1,15 +1,13 @@
 // The legend of a figure, as a picture of its own (SVG 1.1), to be placed where the page has room.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include "cli/data/particle_colour.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cli {
-
-using DisplayColour = std::array<std::uint8_t, 3>; // sRGB
 
 // Numbers as colours, from the first colour for low to the last for high, evenly spaced.
 struct ColourBar {

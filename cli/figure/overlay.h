@@ -13,8 +13,8 @@
 namespace cli {
 
 struct Segment {
-    Vector3 begin;
-    Vector3 end;
+    glm::dvec3 begin;
+    glm::dvec3 end;
 };
 
 // Shares of each pixel, from 0 to 1.

@@ -21,12 +21,12 @@ public:
         height_(height) {}
 
     // For a perspective the point has to be before the camera.
-    ScreenPoint project(const Vector3 &point) const {
-        const Vector3 way = moved(point, -1.0, camera_.position);
-        const double depth = dot(camera_.frame.forward, way);
+    ScreenPoint project(const glm::dvec3 &point) const {
+        const glm::dvec3 way = point - camera_.position;
+        const double depth = glm::dot(camera_.frame.forward, way);
         const double scale = pixels_per_length(depth);
-        return {0.5 * width_ + scale * dot(camera_.frame.right, way),
-                0.5 * height_ - scale * dot(camera_.frame.up, way), depth};
+        return {0.5 * width_ + scale * glm::dot(camera_.frame.right, way),
+                0.5 * height_ - scale * glm::dot(camera_.frame.up, way), depth};
     }
 
     // Across the view, at this depth.

@@ -11,16 +11,16 @@ constexpr double one_degree = std::numbers::pi / 180.0;
 
 // A lamp of a given half angle that gives `white` surfaces which face it the radiance `brightness`: their irradiance is
 // pi * radiance * sin^2 of the half angle (Lambert), and they give back a pi-th of it.
-StageLamp soft_lamp(const Vector3 &direction, double distance, const Bounds &bounds, double half_angle,
+StageLamp soft_lamp(const glm::dvec3 &direction, double distance, const Bounds &bounds, double half_angle,
                     double brightness) {
     const double sine = std::sin(half_angle);
-    return {moved(bounds.center, distance, direction), distance * sine, brightness / (sine * sine)};
+    return {bounds.center + distance * direction, distance * sine, brightness / (sine * sine)};
 }
 
-Vector3 in_view(const ViewFrame &frame, double azimuth, double elevation) {
+glm::dvec3 in_view(const ViewFrame &frame, double azimuth, double elevation) {
     const double level = std::cos(elevation);
-    return moved(moved(moved({}, level * std::sin(azimuth), frame.right), -level * std::cos(azimuth), frame.forward),
-                 std::sin(elevation), frame.up);
+    return level * std::sin(azimuth) * frame.right - level * std::cos(azimuth) * frame.forward +
+           std::sin(elevation) * frame.up;
 }
 
 } // namespace
@@ -47,16 +47,18 @@ Stage make_stage(FigureStyle style, const FittedCamera &camera, const Bounds &bo
     stage.surround = {bounds.center, 10.0 * far, surround_brightness};
     stage.floor = floor;
     stage.floor_albedo = 0.8;
+    stage.diffuse = 1.0;
     stage.max_path_length = 4;
     if (style == FigureStyle::ambient_occlusion) {
         stage.surround.emission = 1.0;
         stage.max_path_length = 2; // what the surround gives directly: darker clefts than in nature
         return stage;
     }
-    const Vector3 direction = in_view(camera.frame, -35.0 * one_degree, 40.0 * one_degree);
+    const glm::dvec3 direction = in_view(camera.frame, -35.0 * one_degree, 40.0 * one_degree);
     stage.key = soft_lamp(direction, far, bounds, key_half_angle, key_brightness);
     if (style == FigureStyle::glossy) {
         stage.specular = 0.12;
+        stage.diffuse = 1.0 - stage.specular; // a white ball gives off no more than it receives
         stage.glossiness = 60.0;
     }
     return stage;

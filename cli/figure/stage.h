@@ -17,14 +17,14 @@ inline constexpr std::array<std::string_view, 3> figure_style_names{"matte", "gl
 std::optional<FigureStyle> find_figure_style(std::string_view name);
 
 struct StageLamp {
-    Vector3 center;
+    glm::dvec3 center;
     double radius;
     double emission; // radiance, of all channels
 };
 
 struct Floor {
-    Vector3 normal; // unit, upwards
-    double height;  // along the normal
+    glm::dvec3 normal; // unit, upwards
+    double height;     // along the normal
 };
 
 struct Stage {
@@ -34,14 +34,15 @@ struct Stage {
     std::optional<StageLamp> key; // a large lamp far behind the left shoulder of the camera, for the shape of bodies
     std::optional<Floor> floor;
     double floor_albedo;
-    double specular; // of the particles
+    double diffuse; // of the particles, which their colours multiply
+    double specular;
     double glossiness;
     unsigned max_path_length;
 };
 
 // A ball around all that is seen.
 struct Bounds {
-    Vector3 center;
+    glm::dvec3 center;
     double radius;
 };
 

@@ -204,15 +204,6 @@ void decode(const char *path, pt_decoded_sink sink, void *user) {
     sink(user, &image);
 }
 
-void map_colours(const float *numbers, uint32_t width, uint32_t height, float *light) {
-    const OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 1, OIIO::TypeDesc::FLOAT);
-    const OIIO::ImageBuf source(spec, const_cast<float *>(numbers)); // only read
-    const OIIO::ImageBuf colours = OIIO::ImageBufAlgo::color_map(source, 0, "viridis");
-    if (colours.has_error() || !colours.get_pixels(colours.roi(), OIIO::TypeDesc::FLOAT, light)) {
-        throw std::runtime_error(colours.geterror());
-    }
-}
-
 int32_t failure(std::string_view text, char *message, size_t message_size) {
     const size_t length = std::min(text.size(), message_size - 1);
     std::memcpy(message, text.data(), length);
@@ -247,10 +238,4 @@ pt_encode_image(const pt_image_data *image, pt_image_sink sink, void *user, char
 extern "C" __attribute__((visibility("default"))) int32_t
 pt_decode_image(const char *path, pt_decoded_sink sink, void *user, char *message, size_t message_size) {
     return guard([&] { decode(path, sink, user); }, message, message_size);
-}
-
-extern "C" __attribute__((visibility("default"))) int32_t pt_map_colours(const float *numbers, uint32_t width,
-                                                                         uint32_t height, float *light, char *message,
-                                                                         size_t message_size) {
-    return guard([&] { map_colours(numbers, width, height, light); }, message, message_size);
 }

@@ -79,13 +79,7 @@ using pt_decoded_sink = void (*)(void *user, const pt_decoded_image *image);
 // Reads a file in any format that OpenImageIO knows. Returns like pt_encode_image.
 using pt_decode_image_fn = int32_t (*)(const char *path, pt_decoded_sink sink, void *user, char *message,
                                        size_t message_size);
-
-// Writes width * height R, G, B triples of linear light in [0, 1]: colours of the map viridis for numbers in [0, 1], to
-// which others are limited. Returns like pt_encode_image.
-using pt_map_colours_fn = int32_t (*)(const float *numbers, uint32_t width, uint32_t height, float *light,
-                                      char *message, size_t message_size);
 }
 
 #define PT_ENCODE_IMAGE_SYMBOL "pt_encode_image"
 #define PT_DECODE_IMAGE_SYMBOL "pt_decode_image"
-#define PT_MAP_COLOURS_SYMBOL "pt_map_colours"

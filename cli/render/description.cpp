@@ -1,9 +1,12 @@
 #include "cli/render/description.h"
 
-#include "cli/base/exit_code.h"
+#include "cli/base/base64.h"
 #include "cli/base/vector_width.h"
 
 #include <cstdlib>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace cli {
 namespace {
@@ -11,9 +14,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Numbers one after the other, those of vectors too.
-template <std::size_t Count, typename Number>
-void append(Json &row, const Number (&vector)[Count]) {
-    for (const Number component : vector) {
+template <typename Vector>
+void append(Json &row, const Vector &vector) {
+    for (const auto component : vector) {
         row.push_back(component);
     }
 }
@@ -38,8 +41,29 @@ Json spheres_of(const SceneFile &file) {
         row.push_back(sphere.radius);
         append(row, sphere.motion);
         row.push_back(sphere.material);
+        if (!file.sphere_colours.empty()) {
+            append(row, file.sphere_colours[rows.size() - 1]);
+        }
     }
     return rows;
+}
+
+// Of millions of numbers, as the machine has them.
+template <typename Number>
+std::string column_of(const std::vector<Number> &numbers) {
+    return base64(std::as_bytes(std::span(numbers)));
+}
+
+Json particles_of(const SceneFile &file) {
+    Json arrays = Json::array();
+    for (const ParticleEntry &entry : file.particles) {
+        const bool is_coloured = !entry.colours.empty();
+        arrays.push_back({{"center", column_of(entry.positions)},
+                          {"radius", column_of(entry.radii)},
+                          {"material", entry.material},
+                          {"color", is_coloured ? Json(column_of(entry.colours)) : Json(entry.shown_colour.constant)}});
+    }
+    return arrays;
 }
 
 Json planes_of(const SceneFile &file) {
@@ -78,16 +102,13 @@ Json camera_of(const pt_camera &camera) {
 } // namespace
 
 Json description_of(const SceneFile &file, const RenderSettings &settings, std::optional<std::uint32_t> frame) {
-    if (!file.particles.empty()) {
-        throw Failure(ExitCode::scene,
-                      file.path + ": particles[0]: --describe takes scenes without files of particles");
-    }
     const pt_render &render = settings.render;
     const std::optional<double> &stops = settings.exposure.stops;
     return {
         {"frame", frame ? Json(*frame) : Json(nullptr)},
         {"materials", materials_of(file)},
         {"spheres", spheres_of(file)},
+        {"sphere_arrays", particles_of(file)},
         {"planes", planes_of(file)},
         {"camera", camera_of(file.camera)},
         {"render",

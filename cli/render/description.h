@@ -13,7 +13,9 @@
 namespace cli {
 
 // Scene, camera and settings as the library takes them (pt.h), how pictures of them are shown, and the environment that
-// the program gives the driver. frame: of an animation; nothing: a picture.
+// the program gives the driver. A sphere is a row of center, radius, motion, material and, where any has one, colour;
+// an array has columns of float64, float32 and uint8 by base64, in the order of the machine's bytes. frame: of an
+// animation; nothing: a picture.
 nlohmann::ordered_json description_of(const SceneFile &file, const RenderSettings &settings,
                                       std::optional<std::uint32_t> frame);
 

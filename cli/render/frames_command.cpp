@@ -11,7 +11,6 @@
 #include "cli/render/render_picture.h"
 #include "cli/scene/animation_section.h"
 #include "cli/scene/render_settings.h"
-#include "cli/scene/scene_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -92,7 +91,8 @@ public:
         std::string lines;
         for (std::uint64_t frame = options_.frames->first; frame <= options_.frames->last; ++frame) {
             const auto number = static_cast<std::uint32_t>(frame);
-            const SceneFile file = scene_of(number);
+            SceneFile file = scene_of(number);
+            complete_scene(options_, file);
             lines += description_line(description_of(file, settings_of(options_, file, number), number));
         }
         write_report_file(options_.description, lines);
@@ -119,7 +119,7 @@ private:
         times.start = std::chrono::steady_clock::now();
         check_names(options);
         SceneFile file = scene_of(frame);
-        load_particles(file);
+        complete_scene(options, file);
         const RenderSettings settings = settings_of(options, file, frame);
         check_outputs(options, settings);
         times.create_start = std::chrono::steady_clock::now();

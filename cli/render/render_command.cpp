@@ -26,7 +26,8 @@ int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *vie
     if (options.description.empty()) {
         check_names(options);
     }
-    const SceneFile file = read_scene(options);
+    SceneFile file = read_scene(options);
+    complete_scene(options, file);
     const RenderSettings settings = merge_settings(options, file);
     if (!options.description.empty()) {
         write_report_file(options.description, description_line(description_of(file, settings, std::nullopt)));

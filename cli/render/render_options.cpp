@@ -216,7 +216,8 @@ const char *const render_help =
     "hundredths and shown, so that it can be given as a number where pictures are to be compared.\n\n"
     "A file that cannot be written whole is left as it was. The metadata of images say what made them, and no time:\n"
     "equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a date.\n\n"
-    "With --watch, what is wrong with a scene or a shader is told once, and the picture stays as it was until that is\n"
+    "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays as it was "
+    "until that is\n"
     "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {

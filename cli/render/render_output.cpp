@@ -10,6 +10,7 @@
 #include "cli/film/film_file.h"
 #include "cli/image/display_image.h"
 #include "cli/image/image_target.h"
+#include "cli/scene/scene_completion.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
@@ -135,9 +136,19 @@ void check_sources_are_kept(const RenderOptions &options) {
 
 SceneFile read_scene(const RenderOptions &options) {
     const SceneText scene = read_scene_text(options.scene);
-    SceneFile file = parse_scene(scene.text, scene.path, options.overrides);
-    load_particles(file);
-    return file;
+    return parse_scene(scene.text, scene.path, options.overrides);
+}
+
+void complete_scene(const RenderOptions &options, SceneFile &scene) {
+    std::vector<NamedFile> sources;
+    for (const std::string &path : particle_paths(scene)) {
+        sources.push_back({"the particles", path});
+    }
+    require_distinct_files(sources, outputs_of(options));
+    complete_scene(scene, options.size);
+    if (!options.quiet) {
+        tell_chosen_ranges(scene);
+    }
 }
 
 void check_names(const RenderOptions &options) {

@@ -16,8 +16,12 @@
 
 namespace cli {
 
-// With the values that --set gives in place of its own. Throws Failure.
+// With the values that --set gives in place of its own, but without the particles of files. Throws Failure.
 SceneFile read_scene(const RenderOptions &options);
+
+// Reads the files of particles, which no output may be, and fits the figure, if the scene is one; tells the ranges that
+// colours show by default. Throws Failure.
+void complete_scene(const RenderOptions &options, SceneFile &scene);
 
 // Throws Failure(ExitCode::usage) if an output's name tells no known format, or the output is another one or a source.
 void check_names(const RenderOptions &options);

@@ -1,7 +1,6 @@
 #include "cli/render/source_watch.h"
 
 #include <algorithm>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -44,7 +43,7 @@ void SourceWatch::look() {
         for (const std::filesystem::path &directory : directories_of(seen_)) {
             events_.watch(directory);
         }
-        SourceFiles found = read_source_files(scene_, shader_dir_);
+        SourceFiles found = read_source_files(scene_, shader_dir_, data_);
         is_new = found != seen_;
         if (is_new) {
             seen_ = std::move(found);
@@ -56,6 +55,31 @@ void SourceWatch::look() {
 void SourceWatch::begin() {
     look();
     begun_ = seen_;
+}
+
+void SourceWatch::follow(const std::set<std::filesystem::path> &data) {
+    for (const std::filesystem::path &path : data_) {
+        if (!data.contains(path)) {
+            begun_.erase(path);
+            seen_.erase(path);
+        }
+    }
+    data_ = data;
+    for (const std::filesystem::path &path : data_) {
+        seen_.try_emplace(path); // its directory is watched before it is looked at
+    }
+    look();
+    for (const std::filesystem::path &path : data_) {
+        begun_.try_emplace(path, seen_.at(path));
+    }
+}
+
+SourceFiles SourceWatch::scene() const {
+    SourceFiles files{{scene_, begun_.at(scene_)}};
+    for (const std::filesystem::path &path : data_) {
+        files.emplace(path, begun_.at(path));
+    }
+    return files;
 }
 
 bool SourceWatch::changed(std::chrono::milliseconds timeout) {

@@ -5,6 +5,7 @@
 #include "cli/scene/source_files.h"
 
 #include <chrono>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,13 @@ public:
     // The files are to be used as they are now: changes from here on count.
     void begin();
 
-    // As it was then.
-    const std::optional<std::string> &scene_text() const { return begun_.at(scene_); }
+    // What the scene takes its particles from, from here on: these files, as they are now.
+    void follow(const std::set<std::filesystem::path> &data);
+
+    bool has_data() const { return !data_.empty(); }
+
+    // The scene and these files, as they were then.
+    SourceFiles scene() const;
 
     // Whether their contents differ from then, and have been the same for a moment: saving takes some steps. Waits
     // for so long at the most, until something happens in their directories or a signal comes.
@@ -35,6 +41,7 @@ private:
 
     std::filesystem::path scene_;
     std::filesystem::path shader_dir_;
+    std::set<std::filesystem::path> data_;
     DirectoryEvents events_;
     SourceFiles begun_;
     SourceFiles seen_;             // at the last look

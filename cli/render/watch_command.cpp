@@ -96,7 +96,10 @@ private:
         RenderTimes times{};
         times.start = std::chrono::steady_clock::now();
         check_names(options_);
-        const SceneFile file = read_scene(options_);
+        SceneFile file = read_scene(options_);
+        const std::vector<std::string> particles = particle_paths(file);
+        sources_.follow({particles.begin(), particles.end()}); // before they are read
+        complete_scene(options_, file);
         const RenderSettings settings = merge_settings(options_, file);
         check_outputs(options_, settings);
         times.create_start = std::chrono::steady_clock::now();
@@ -111,7 +114,7 @@ private:
         outcome_ = render_picture(*context_, options_, file, settings, times, superseded, viewer_);
         if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
             rendered_outcome_ = *outcome_;
-            rendered_scene_ = sources_.scene_text();
+            rendered_scene_ = sources_.scene();
         }
     }
 
@@ -127,7 +130,7 @@ private:
 
     // Kernels that differ have discarded the samples of the picture.
     bool is_up_to_date() const {
-        return rendered_scene_ && rendered_scene_ == sources_.scene_text() && context_->sample_count() > 0;
+        return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->sample_count() > 0;
     }
 
     void print_unless_quiet(const std::string &message) const {
@@ -138,8 +141,9 @@ private:
 
     void tell_once_what_is_watched() {
         if (!std::exchange(is_told_, true) && !options_.quiet) {
+            const std::string data = sources_.has_data() ? " and its particles" : "";
             const std::string shaders = options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir;
-            print_for_people("watching " + options_.scene + shaders + "; Ctrl-C ends\n",
+            print_for_people("watching " + options_.scene + data + shaders + "; Ctrl-C ends\n",
                              options_.stats == standard_stream);
         }
     }
@@ -157,7 +161,7 @@ private:
     TevViewer *viewer_;
     SourceWatch sources_;
     std::unique_ptr<Context> context_;
-    std::optional<std::string> rendered_scene_; // text of the scene that the files show; nothing if they show none
+    std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
     Outcome rendered_outcome_ = Outcome::written;
     std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
     bool is_first_ = true;

@@ -19,6 +19,7 @@ public:
     explicit CameraSection(pt_camera &camera);
 
     void begin() { is_there_ = true; }
+    bool is_there() const { return is_there_; }
     void item(const JsonPlace &place, const nlohmann::json &value);
 
     // At the end of the file: refuses a section that lacks what a camera has to have.

@@ -7,7 +7,6 @@
 namespace cli {
 namespace {
 
-constexpr std::uint32_t default_side = 512;
 constexpr std::uint32_t default_sample_count = 64;
 
 template <typename Value>

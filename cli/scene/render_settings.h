@@ -17,6 +17,9 @@
 
 namespace cli {
 
+// Pixels.
+inline constexpr std::uint32_t default_side = 512;
+
 // Of a pixel, where a target error or a time says when to stop.
 inline constexpr std::uint32_t default_most_samples = 65536;
 

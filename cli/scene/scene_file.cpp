@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -38,6 +39,19 @@ std::optional<std::string> read_again(const SceneFile &scene) {
     }
 }
 
+pt_sphere_array coloured(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colours) {
+    constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
+    pt_sphere_array array{};
+    array.struct_size = sizeof array;
+    array.count = static_cast<std::uint32_t>(spheres.size());
+    array.center = {&spheres[0].center, stride, PT_TYPE_FLOAT64};
+    array.radius = {&spheres[0].radius, stride, PT_TYPE_FLOAT64};
+    array.motion = {&spheres[0].motion, stride, PT_TYPE_FLOAT64};
+    array.material = {&spheres[0].material, stride, PT_TYPE_UINT32};
+    array.color = {colours.data(), sizeof colours[0], PT_TYPE_FLOAT32};
+    return array;
+}
+
 // What has taken the place of the file's value there; nullptr if nothing has.
 const OverriddenValue *find_override(const SceneFile &scene, const JsonPath &path) {
     const auto found = std::find_if(scene.overridden.rbegin(), scene.overridden.rend(),
@@ -57,11 +71,22 @@ std::string explain_rule(const SceneFile &scene, const std::optional<std::string
 
 } // namespace
 
+void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour) {
+    constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
+    if (colour && sphere_colours.empty()) {
+        sphere_colours.assign(spheres.size(), white);
+    }
+    spheres.push_back(sphere);
+    if (!sphere_colours.empty() || colour) {
+        sphere_colours.push_back(colour.value_or(white));
+    }
+}
+
 pt_scene SceneFile::scene() const {
     pt_scene scene{};
     scene.struct_size = sizeof(pt_scene);
     scene.material_count = static_cast<std::uint32_t>(materials.size());
-    scene.sphere_count = static_cast<std::uint32_t>(spheres.size());
+    scene.sphere_count = sphere_colours.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
     scene.plane_count = static_cast<std::uint32_t>(planes.size());
     scene.materials = materials.data();
     scene.spheres = spheres.data();
@@ -71,6 +96,9 @@ pt_scene SceneFile::scene() const {
 
 std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
+    if (!sphere_colours.empty()) {
+        arrays.push_back(coloured(spheres, sphere_colours));
+    }
     std::transform(particles.begin(), particles.end(), std::back_inserter(arrays),
                    [](const ParticleEntry &entry) { return entry.spheres(); });
     return arrays;
@@ -79,7 +107,7 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
 std::size_t SceneFile::surface_count() const {
     std::size_t count = spheres.size() + planes.size();
     for (const ParticleEntry &entry : particles) {
-        count += entry.positions.size() / 3;
+        count += entry.count();
     }
     return count;
 }
@@ -129,13 +157,6 @@ SceneFile parse_scene(std::string_view text, const std::string &path, const std:
 SceneText read_scene_text(const std::string &path) {
     return path == standard_stream ? SceneText{"standard input", read_standard_input()}
                                    : SceneText{path, read_file(path)};
-}
-
-SceneFile read_scene_file(const std::string &path) {
-    const SceneText scene = read_scene_text(path);
-    SceneFile file = parse_scene(scene.text, scene.path);
-    load_particles(file);
-    return file;
 }
 
 } // namespace cli

@@ -5,6 +5,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/json_path.h"
 #include "cli/base/library_error.h"
+#include "cli/figure/figure_look.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 #include "cli/scene/animation.h"
@@ -12,6 +13,7 @@
 
 #include <pt/pt.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,8 +39,10 @@ struct SceneFile {
     std::vector<std::string> material_names; // like all three arrays in the order of the file
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
+    std::vector<std::array<float, 3>> sphere_colours; // of each sphere where any has one, else empty
     std::vector<pt_plane> planes;
-    std::vector<ParticleEntry> particles; // without positions before load_particles
+    std::vector<ParticleEntry> particles; // as they are asked for, before complete_scene
+    std::optional<FigureLook> figure;     // camera and light are to follow from the particles
     pt_camera camera;
     std::vector<AnimatedValue> animation;
 
@@ -53,8 +57,12 @@ struct SceneFile {
     std::optional<std::uint32_t> sampler;
     std::optional<std::uint32_t> estimator;
 
-    pt_scene scene() const;                             // points into this object, and has no particles
-    std::vector<pt_sphere_array> sphere_arrays() const; // these are in them, one array an entry
+    void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour);
+
+    // Both point into this object. Particles are in arrays, one an entry; spheres too, in the first one, if any of them
+    // has a colour.
+    pt_scene scene() const;
+    std::vector<pt_sphere_array> sphere_arrays() const;
     std::size_t surface_count() const;
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
@@ -66,9 +74,7 @@ struct SceneFile {
     ExitCode blame(const BrokenRule &rule) const;
 };
 
-// The path - is standard input. Throws Failure: ExitCode::file if the file cannot be read, ExitCode::scene if it is not
-// a scene file.
-SceneFile read_scene_file(const std::string &path);
+// Throw Failure(ExitCode::scene) if the text is not a scene file.
 SceneFile parse_scene(std::string_view text, const std::string &path);
 SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides);
 

@@ -21,10 +21,24 @@ JsonPath renamed_path(const FieldName &name) {
     return path;
 }
 
+// Of an element of a column: spheres of the file may be an array before those of particles, whose components are
+// spheres.
+JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
+    const std::size_t of_spheres = scene.sphere_colours.empty() ? 0 : 1;
+    if (*rule.index < of_spheres) {
+        return {{"spheres", 0, false}, {{}, rule.component.value_or(0), true}, {rule.member, 0, false}};
+    }
+    JsonPath path{{"particles", 0, false}, {{}, *rule.index - of_spheres, true}, {rule.member, 0, false}};
+    if (rule.component) {
+        path.push_back({{}, *rule.component, true});
+    }
+    return path;
+}
+
 // Of what the file calls as pt.h does, but for materials, which have names there; empty if it is none of the file's.
 JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
     if (rule.subject == "sphere_arrays" && rule.index) {
-        return {{"particles", 0, false}, {{}, *rule.index, true}, {rule.member, 0, false}};
+        return path_in_arrays(scene, rule);
     }
     static constexpr std::array<std::string_view, 5> sections{"camera", "render", "materials", "spheres", "planes"};
     if (std::find(sections.begin(), sections.end(), rule.subject) == sections.end()) {
@@ -56,7 +70,7 @@ std::string place_text(const std::string &file, std::optional<std::size_t> line,
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     const FieldName *name = find_field_name(rule);
     JsonPath path = name != nullptr ? renamed_path(*name) : path_of_member(scene, rule);
-    if (!path.empty() && rule.component) {
+    if (!path.empty() && rule.component && rule.subject != "sphere_arrays") {
         path.push_back({{}, *rule.component, true});
     }
     return path;

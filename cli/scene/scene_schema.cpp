@@ -3,6 +3,7 @@
 #include "cli/base/method_names.h"
 #include "cli/data/number_colours.h"
 #include "cli/data/particle_file.h"
+#include "cli/figure/figure_look.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
 #include "cli/scene/camera_section.h"
@@ -74,6 +75,11 @@ Schema colour() {
     return {{"anyOf", {number(0.0, largest_length), array_of(number(0.0, largest_length), 3)}}};
 }
 
+// Of light that is reflected.
+Schema share_colour() {
+    return {{"anyOf", {number(0.0, 1.0), array_of(number(0.0, 1.0), 3)}}};
+}
+
 Schema camera() {
     const Schema time = number(0.0, 1.0);
     return described(
@@ -133,34 +139,56 @@ Schema spheres() {
                    object({{"center", described("At time 0", vector())},
                            {"radius", number(least_length, largest_length)},
                            {"material", {{"type", "string"}}},
-                           {"motion", described("Way from time 0 to time 1; default [0, 0, 0]", vector())}},
+                           {"motion", described("Way from time 0 to time 1; default [0, 0, 0]", vector())},
+                           {"color", described("Multiplies the material's diffuse; default 1", share_colour())}},
                           {"center", "radius", "material"}));
+}
+
+// A value for each type of particles, by its name.
+Schema by_type(const Schema &value) {
+    return {{"type", "object"}, {"additionalProperties", value}, {"minProperties", 1}};
+}
+
+Schema figure() {
+    const Schema view{{"anyOf", {one_of(view_names), direction()}}};
+    const Schema up{{"anyOf", {{{"enum", {"x", "y", "z", "-x", "-y", "-z"}}}, direction()}}};
+    return described("In place of a camera: camera and light follow from the particles, as of pt figure",
+                     object({{"view", described("Where they are seen from; default three-quarter", view)},
+                             {"up", described("What is up in the data; default z", up)},
+                             {"projection", described("Default perspective", one_of(projection_names))},
+                             {"style", described("Surfaces and light; default matte", one_of(figure_style_names))},
+                             {"floor", described("For shadows; default false", {{"type", "boolean"}})}}));
 }
 
 Schema particles() {
     const Schema text{{"type", "string"}};
     const Schema range = array_of({{"type", "number"}}, 2);
     const Schema scale{{"type", "number"}};
+    const Schema length = number(least_length, largest_length);
     const Schema radius{
         {"anyOf",
-         {number(least_length, largest_length), object({{"column", text}, {"scale", scale}}, {"column"}),
-          object({{"elements", {{"enum", {"van-der-waals", "covalent"}}}}, {"scale", scale}}, {"elements"})}}};
+         {length, object({{"column", text}, {"scale", scale}}, {"column"}),
+          object({{"elements", {{"enum", {"van-der-waals", "covalent"}}}}, {"scale", scale}}, {"elements"}),
+          object({{"types", by_type({{"type", "number"}, {"exclusiveMinimum", 0}})}, {"scale", scale}}, {"types"})}}};
     const Schema colours{
         {"anyOf",
-         {number(0.0, 1.0),
-          array_of(number(0.0, 1.0), 3),
+         {share_colour(),
           {{"const", "type"}},
+          object({{"types", by_type(share_colour())}}, {"types"}),
           object({{"columns", array_of(text, 3)}, {"map", one_of(colour_map_names)}, {"range", range}}, {"columns"}),
           object({{"column", text}, {"map", one_of(colour_map_names)}, {"range", range}}, {"column"})}}};
     return list_of("Spheres at the particles of a file",
                    object({{"file", described("Relative to the scene's folder", text)},
                            {"format", described("Default: by its first bytes or its name", one_of(particle_formats))},
                            {"frame", described("From 0, or from the last, -1, on; default -1", {{"type", "integer"}})},
+                           {"wrap", described("Into the periodic box; default false", {{"type", "boolean"}})},
                            {"where", list_of("Conditions that all hold, like z < 5", text)},
-                           {"radius", radius},
-                           {"color", described("Multiplies the material's diffuse; default 1", colours)},
-                           {"material", text}},
-                          {"file", "radius", "material"}));
+                           {"radius", described("Default: as of pt figure", radius)},
+                           {"color", described("Multiplies the material's diffuse; default 1, or without a material "
+                                               "as of pt figure",
+                                               colours)},
+                           {"material", described("Default: that of the figure", text)}},
+                          {"file"}));
 }
 
 Schema planes() {
@@ -185,6 +213,7 @@ Schema animation() {
 
 nlohmann::ordered_json scene_schema() {
     Schema schema = object({{"camera", camera()},
+                            {"figure", figure()},
                             {"film", film()},
                             {"render", render()},
                             {"materials", materials()},

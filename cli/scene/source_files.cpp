@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace cli {
@@ -17,6 +18,17 @@ std::optional<std::string> contents_of(const std::filesystem::path &path) {
     } catch (const Failure &) {
         return std::nullopt;
     }
+}
+
+// Its size and the time of its last change.
+std::optional<std::string> state_of(const std::filesystem::path &path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) {
+        return std::nullopt;
+    }
+    const auto time = std::filesystem::last_write_time(path, error);
+    return std::to_string(size) + " bytes at " + std::to_string(time.time_since_epoch().count());
 }
 
 // The name in a line `#include "name"`, blanks allowed; empty for other lines. Lines that the preprocessor would skip
@@ -65,9 +77,13 @@ SourceFiles read_shader_files(const std::filesystem::path &shader_dir) {
     return files;
 }
 
-SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir) {
+SourceFiles read_source_files(const std::filesystem::path &scene, const std::filesystem::path &shader_dir,
+                              const std::set<std::filesystem::path> &data) {
     SourceFiles files = read_shader_files(shader_dir);
     files.try_emplace(scene, contents_of(scene));
+    for (const std::filesystem::path &path : data) {
+        files.try_emplace(path, state_of(path));
+    }
     return files;
 }
 

@@ -3,6 +3,7 @@
 #include "cli/base/store.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,7 @@ void SurfaceSections::material(const JsonPlace &place, const json &value) {
 }
 
 void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
-    const JsonObject object(value, place, {"center", "radius", "material", "motion"});
+    const JsonObject object(value, place, {"center", "radius", "material", "motion", "color"});
     pt_sphere sphere{};
     store(read_vector(object.require("center"), place.member("center")), sphere.center);
     sphere.radius = read_number(object.require("radius"), place.member("radius"));
@@ -38,13 +39,16 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
     if (const json *motion = object.find("motion")) {
         store(read_vector(*motion, place.member("motion")), sphere.motion);
     }
-    scene_.spheres.push_back(sphere);
+    const json *colour = object.find("color");
+    scene_.add_sphere(sphere,
+                      colour == nullptr ? std::nullopt : std::optional(read_colour(*colour, place.member("color"))));
 }
 
 void SurfaceSections::particles(const JsonPlace &place, const json &value) {
     ParticleEntry entry = read_particle_entry(place, value);
-    const JsonObject object(value, place, {"file", "format", "frame", "where", "radius", "color", "material"});
-    entry.material = references_.number(place.member("material"), object.require("material"));
+    if (entry.has_material) {
+        entry.material = references_.number(place.member("material"), value.at("material"));
+    }
     scene_.particles.push_back(std::move(entry));
 }
 
@@ -63,7 +67,7 @@ void SurfaceSections::resolve_materials() {
         sphere.material = indices[sphere.material];
     }
     for (ParticleEntry &entry : scene_.particles) {
-        entry.material = indices[entry.material];
+        entry.material = entry.has_material ? indices[entry.material] : 0;
     }
     for (pt_plane &plane : scene_.planes) {
         plane.material = indices[plane.material];

@@ -1,6 +1,8 @@
 // Reads the data of the analytic tests; see scenes.h.
 #include "tests/analytic/scenes.h"
 
+#include "cli/scene/scene_completion.h"
+
 #include <fstream>
 #include <sstream>
 #include <stdexcept>

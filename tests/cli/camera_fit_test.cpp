@@ -12,12 +12,8 @@ namespace {
 
 using cli::Ball;
 using cli::Balls;
-using cli::cross;
-using cli::dot;
 using cli::FittedCamera;
-using cli::moved;
 using cli::Projection;
-using cli::Vector3;
 using cli::ViewFrame;
 
 // A few roundings of coordinates that are up to a hundred times as large as the distances here.
@@ -25,45 +21,48 @@ constexpr double rounding = 1e-12;
 
 struct Cloud {
     std::vector<double> centers;
-    std::vector<double> radii;
-    std::vector<Vector3> points;
+    std::vector<float> radii;
+    std::vector<glm::dvec3> points;
 
-    Balls balls() const { return {centers, radii}; }
+    Balls balls() const {
+        Balls balls;
+        balls.add(centers, radii);
+        return balls;
+    }
 };
 
 // Balls and points, of which some are far from the origin; one ball may be much larger than the others.
 Cloud random_cloud(std::mt19937_64 &random) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     Cloud cloud;
-    const Vector3 shift{20.0 * share(random) - 10.0, 20.0 * share(random) - 10.0, 20.0 * share(random) - 10.0};
-    const Vector3 stretch{share(random), share(random), share(random)};
+    const glm::dvec3 shift{20.0 * share(random) - 10.0, 20.0 * share(random) - 10.0, 20.0 * share(random) - 10.0};
+    const glm::dvec3 stretch{share(random), share(random), share(random)};
     const std::size_t count = 1 + random() % 12;
     for (std::size_t i = 0; i < count; ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (glm::length_t axis = 0; axis < 3; ++axis) {
             cloud.centers.push_back(shift[axis] + stretch[axis] * share(random));
         }
-        cloud.radii.push_back(0.5 * std::pow(share(random), 4.0) + 1e-3);
+        cloud.radii.push_back(static_cast<float>(0.5 * std::pow(share(random), 4.0) + 1e-3));
     }
     cloud.points.resize(random() % 4);
-    for (Vector3 &point : cloud.points) {
-        point = moved(shift, share(random), stretch);
+    for (glm::dvec3 &point : cloud.points) {
+        point = shift + share(random) * stretch;
     }
     return cloud;
 }
 
 ViewFrame random_frame(std::mt19937_64 &random) {
     std::normal_distribution<double> normal;
-    const Vector3 forward = cli::normalized({normal(random), normal(random), normal(random)});
-    const Vector3 right = cli::normalized(cross(forward, Vector3{normal(random), normal(random), normal(random)}));
-    return {right, cross(right, forward), forward};
+    const glm::dvec3 forward = glm::normalize(glm::dvec3{normal(random), normal(random), normal(random)});
+    const glm::dvec3 right =
+        glm::normalize(glm::cross(forward, glm::dvec3{normal(random), normal(random), normal(random)}));
+    return {right, glm::cross(right, forward), forward};
 }
 
 FittedCamera fitted(const Cloud &cloud, const ViewFrame &frame, Projection projection, double aspect) {
     cli::ViewExtents extents(frame);
-    for (std::size_t i = 0; i < cloud.balls().count(); ++i) {
-        extents.add(cloud.balls()[i]);
-    }
-    for (const Vector3 &point : cloud.points) {
+    cloud.balls().each([&extents](const Ball &ball) { extents.add(ball); });
+    for (const glm::dvec3 &point : cloud.points) {
         extents.add({point, 0.0});
     }
     return fit_camera(cloud.balls(), cloud.points, extents, frame, projection, aspect);
@@ -72,13 +71,13 @@ FittedCamera fitted(const Cloud &cloud, const ViewFrame &frame, Projection proje
 // How far from the middle of the picture a ball's outline reaches, to each side: 1 is the side of the picture. In a
 // perspective the outline is a cone about the center's direction; in the plane of `across` and forward, rays that touch
 // the ball make the angle asin(r / d) with it. The fit is found in another way, by signed distances to planes.
-double reach(const FittedCamera &camera, const Ball &ball, const Vector3 &across, double half_extent) {
-    const Vector3 way = moved(ball.center, -1.0, camera.position);
-    const double aside = dot(across, way);
+double reach(const FittedCamera &camera, const Ball &ball, const glm::dvec3 &across, double half_extent) {
+    const glm::dvec3 way = ball.center - camera.position;
+    const double aside = glm::dot(across, way);
     if (camera.projection == Projection::orthographic) {
         return (std::abs(aside) + ball.radius) / half_extent;
     }
-    const double along = dot(camera.frame.forward, way);
+    const double along = glm::dot(camera.frame.forward, way);
     const double distance = std::hypot(aside, along);
     if (distance <= ball.radius) {
         return INFINITY;
@@ -96,10 +95,8 @@ double largest_reach(const Cloud &cloud, const FittedCamera &camera, double aspe
         largest = std::max({largest, reach(camera, ball, camera.frame.right, half_height * aspect),
                             reach(camera, ball, camera.frame.up, half_height)});
     };
-    for (std::size_t i = 0; i < cloud.balls().count(); ++i) {
-        include(cloud.balls()[i]);
-    }
-    for (const Vector3 &point : cloud.points) {
+    cloud.balls().each(include);
+    for (const glm::dvec3 &point : cloud.points) {
         include({point, 0.0});
     }
     return largest;
@@ -120,7 +117,7 @@ TEST_P(CameraFit, ShowsAllAndIsTight) {
         ASSERT_NEAR(largest_reach(cloud, camera, aspect), used, rounding * 100.0) << "cloud " << i;
 
         if (GetParam() == Projection::perspective) {
-            camera.position = moved(camera.position, 0.01 * camera.target_distance, frame.forward);
+            camera.position += 0.01 * camera.target_distance * frame.forward;
         } else {
             camera.view_height *= 0.99;
         }

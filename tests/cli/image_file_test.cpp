@@ -2,7 +2,6 @@
 #include "cli/image/image_file.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/image/colour_map.h"
 #include "cli/image/image_reader.h"
 #include "cli/image/image_target.h"
 #include "tests/cli/temporary_folder.h"
@@ -122,17 +121,6 @@ TEST(ImageFile, ALayerIsReadByItsName) {
                   std::string::npos)
             << failure.what();
     }
-}
-
-// The ends of viridis as its authors publish them, #440154 and #fde725.
-TEST(ImageFile, ColoursStandForNumbers) {
-    const std::array<float, 6> numbers{0.0F, 1.0F, std::numeric_limits<float>::quiet_NaN(), 0.0F, 2.0F, 0.5F};
-    const std::vector<std::uint8_t> bytes = cli::map_colours(numbers, 3);
-    ASSERT_EQ(bytes.size(), 18U);
-    const std::vector<std::uint8_t> expected{0x44, 0x01, 0x54, 0xfd, 0xe7, 0x25, 255, 255,
-                                             255,  0x44, 0x01, 0x54, 0xfd, 0xe7, 0x25};
-    EXPECT_EQ(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + 15), expected);
-    EXPECT_GT(bytes[16], 0x90); // green in the middle, near #21918c
 }
 
 TEST(ImageFile, WordsKeepEveryBit) {

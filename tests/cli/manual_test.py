@@ -12,7 +12,7 @@ from command_line import PT, SCENES, CommandLineTest, main, read_png
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
 
-SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
+SECTIONS = {"camera": "{%s}", "figure": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
             "particles": "[{%s}]", "planes": "[{%s}]"}
 # What a section has to have beside the key that is looked at.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
@@ -65,8 +65,10 @@ def beyond(least, largest):
 def scene_with(section, values):
     """A scene file whose section has these values, by key, and no more than it has to have beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
-    materials = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
-    return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], materials)
+    others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
+    if section == "figure":
+        others += ', "particles": [{"file": "melt.dump", "format": "xyz"}]'
+    return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)
 
 
 class SceneFile(CommandLineTest):

@@ -1,4 +1,5 @@
 // Tests of cli/scene_file, with json_sections and json_value behind it.
+#include "cli/scene/scene_completion.h"
 #include "cli/scene/scene_file.h"
 
 #include "cli/base/exit_code.h"

@@ -21,7 +21,7 @@ constexpr milliseconds long_enough = std::chrono::minutes{10}; // for what comes
 TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
     const TemporaryFolder folder;
     folder.write("scene", "{}");
-    EXPECT_EQ(read_source_files(folder.file("scene"), ""), (SourceFiles{{folder.file("scene"), "{}"}}));
+    EXPECT_EQ(read_source_files(folder.file("scene"), "", {}), (SourceFiles{{folder.file("scene"), "{}"}}));
 
     folder.write("pathtrace.comp",
                  "#include \"a\"\n  #  include \"sub/b\" // remark\n#include <none>\n#included \"no\"\n"
@@ -29,7 +29,7 @@ TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
     std::filesystem::create_directory(folder.file("sub"));
     folder.write("sub/b", "#include \"a\"\n#include \"../c\"");
     folder.write("c", "#include \"pathtrace.comp\"\n");
-    const SourceFiles files = read_source_files(folder.file("scene"), folder.file("."));
+    const SourceFiles files = read_source_files(folder.file("scene"), folder.file("."), {});
     std::vector<std::pair<std::string, bool>> found;
     for (const auto &[path, contents] : files) {
         found.emplace_back(path.lexically_relative(folder.file("")).string(), contents.has_value());
@@ -91,13 +91,13 @@ TEST_P(SourceWatchTest, SeesEachWayToSave) {
     SourceWatch sources = watch();
     folder.write("scene", "2");
     expect_change(sources, {folder.file("scene")});
-    EXPECT_EQ(sources.scene_text(), "2");
+    EXPECT_EQ(sources.scene(), (SourceFiles{{folder.file("scene"), "2"}}));
     folder.write("new", "3");
     std::filesystem::rename(folder.file("new"), folder.file("scene"));
     expect_change(sources, {folder.file("scene")});
     std::filesystem::remove(folder.file("scene"));
     expect_change(sources, {folder.file("scene")});
-    EXPECT_EQ(sources.scene_text(), std::nullopt);
+    EXPECT_EQ(sources.scene(), (SourceFiles{{folder.file("scene"), std::nullopt}}));
     folder.write("scene", "3");
     folder.write("shaders/part", "text");
     expect_change(sources, {folder.file("scene"), folder.file("shaders/part")});
@@ -120,6 +120,24 @@ TEST_P(SourceWatchTest, SeesBehindALink) {
     SourceWatch sources = watch();
     folder.write("shaders/target", "2");
     expect_change(sources, {folder.file("scene")});
+}
+
+// Data are known when the scene has been read: what is written from then on counts.
+TEST_P(SourceWatchTest, FollowsTheData) {
+    std::filesystem::create_directory(folder.file("data"));
+    folder.write("data/melt", "1");
+    SourceWatch sources = watch();
+    sources.follow({folder.file("data/melt"), folder.file("data/none")});
+    const SourceFiles before = sources.scene();
+    EXPECT_EQ(before.size(), 3U);
+    folder.write("data/melt", "22");
+    expect_change(sources, {folder.file("data/melt")});
+    EXPECT_NE(sources.scene(), before);
+    folder.write("data/none", "1");
+    expect_change(sources, {folder.file("data/none")});
+    sources.follow({folder.file("data/none")});
+    folder.write("data/melt", "333");
+    expect_nothing(sources);
 }
 
 TEST_P(SourceWatchTest, PassesOverWhatIsNoChange) {
