@@ -216,10 +216,10 @@ struct FromStart {
 
 FromStart from_start(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
     SeenScene seen = seen_scene(scene.scene, camera);
-    require_held_motions(seen, scene.scene);
     const Camera start = starting_ahead(with_tree_as_ball(seen, scene, camera), camera, settings);
     if (start.start_distance > 0.0)
         seen = seen_scene(scene.scene, start);
+    require_held_motions(seen, scene.scene, start);
     return {without_twins(std::move(seen), scene.sphere_order), start};
 }
 

@@ -106,7 +106,7 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
 // at depth a and c from the line; if all start inside, those farthest from it, at a + sqrt(r^2 - c^2). The first is
 // (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small far spheres: the centre is at a
 // distance d, and d^2 - r^2 is a product. A sphere that moves is taken for the ball about its way.
-double nearest_depth(const SeenSphere &sphere, const ParallelView &view) {
+double nearest_depth_of_ball(const SeenSphere &sphere, const ParallelView &view) {
     const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
     const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
     const double depth = glm::dot(centre, view.forward);
@@ -125,6 +125,15 @@ double nearest_depth(const SeenSphere &sphere, const ParallelView &view) {
     if (sphere.way != glm::dvec3(0.0) || std::hypot(depth, most) >= radius)
         return 0.0;
     return depth + std::sqrt((radius - most) * (radius + most));
+}
+
+// The ball about the way of one that moves across the view reaches before all that it passes.
+double nearest_depth(const SeenSphere &sphere, const ParallelView &view) {
+    const double ball = nearest_depth_of_ball(sphere, view);
+    if (sphere.way == glm::dvec3(0.0))
+        return ball;
+    const double open = glm::dot(sphere.open, view.forward);
+    return std::max(ball, open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius);
 }
 
 // Of what is wider the squares of distances would not be numbers of float32.

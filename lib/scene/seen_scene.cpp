@@ -21,9 +21,9 @@ SeenScene seen_scene(const Scene &scene, const Camera &camera) {
     return seen;
 }
 
-void require_held_motions(const SeenScene &seen, const Scene &scene) {
+void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera) {
     for (std::size_t i = 0; i < seen.spheres.size(); ++i)
-        if (moves_too_far(seen.spheres[i])) {
+        if (moves_too_far(seen.spheres[i], camera)) {
             const SpherePlace place = place_of_sphere(scene, i);
             throw Error(
                 PT_ERROR_UNSUPPORTED,
@@ -32,9 +32,11 @@ void require_held_motions(const SeenScene &seen, const Scene &scene) {
                            .member = "motion",
                            .component = place.component,
                            .value = number_text(scene.spheres[i].motion),
-                           .rule = "a sphere whose surface, as the shutter opens, is nearer to the camera than a "
-                                   "65536th of its radius (" +
-                                   number_text(scene.spheres[i].radius) +
+                           .rule = "a sphere whose surface, as the shutter opens, is nearer to " +
+                                   std::string(camera.is_orthographic()
+                                                   ? "where parallel rays start, in a view whose half diagonal is less,"
+                                                   : "the camera") +
+                                   " than a 65536th of its radius (" + number_text(scene.spheres[i].radius) +
                                    ") must move less than a 32nd of it while the shutter is open"});
         }
 }

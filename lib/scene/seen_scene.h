@@ -19,7 +19,7 @@ struct SeenScene {
 SeenScene seen_scene(const Scene &scene, const Camera &camera);
 
 // Throws PT_ERROR_UNSUPPORTED if some sphere would have to be held as a plane but moves too far for it. The scene: what
-// is seen.
-void require_held_motions(const SeenScene &seen, const Scene &scene);
+// is seen, by the camera, which is where rays start (ray_start.h).
+void require_held_motions(const SeenScene &seen, const Scene &scene, const Camera &camera);
 
 } // namespace pt

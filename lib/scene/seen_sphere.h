@@ -24,7 +24,8 @@ struct SeenSphere : MovingBall {
     double height() const { return distance - radius; }
 };
 
-// Whether its surface is so near to the camera that it has to be held as a plane, and yet it moves too far for that.
-bool moves_too_far(const SeenSphere &sphere);
+// Whether its surface is so near that it has to be held as a plane, and yet it moves too far for that. The camera: the
+// one by which it is seen, where rays start.
+bool moves_too_far(const SeenSphere &sphere, const Camera &camera);
 
 } // namespace pt

@@ -100,6 +100,20 @@ Given divided() {
     return given;
 }
 
+// Parallel rays that start amid the balls of a tree, on both sides of some, of a plane and of a globe.
+Given divided_tree() {
+    Given given = many(true);
+    given.camera.position[0] = given.camera.position[1] = 0.0;
+    given.camera.position[2] = -6.0;
+    given.camera.target[0] = 1.0;
+    given.camera.target[1] = -0.5;
+    given.camera.target[2] = -9.0;
+    given.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+    given.camera.vertical_fov = 0;
+    given.camera.vertical_extent = 6.5;
+    return given;
+}
+
 // Far from the origin of the world, off the axes.
 Given far_away() {
     Given given;
@@ -158,6 +172,7 @@ std::vector<Case> cases() {
             {"divided", divided()},
             {"a tree", many(false)},
             {"a tree that moves", many(true)},
+            {"a divided tree", divided_tree()},
             {"a hidden ball around the camera", hiding(inside(), 1)},
             {"a hidden globe", hiding(huge(), 1)},
             {"a hidden sky", hiding(huge(), 2)},

@@ -138,6 +138,33 @@ TEST_F(Orthographic, AFloorIsAsBrightFromAnyDistance) {
     }
 }
 
+// A globe that moves by more than a 32nd of its radius is held by its centre, to 2^-24 of the radius: good enough where
+// the view is as wide as a 65536th of it, wherever its camera is, and else refused.
+TEST_F(Orthographic, AGlobeThatMovesHasToBeSeenFromAfar) {
+    const pt_sphere globe{{0, -1e7, 0}, 1e7, {1e6, 0, 0}, 0, 0};
+    for (const double height : {1.0, 1e3, 1e6}) {
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        camera.position[1] = height;
+        camera.target[0] = 1e-3 * height;
+        camera.up[2] = 1;
+        camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+        camera.vertical_extent = 1e3;
+        set({&globe, 1}, {}, camera, 1);
+        accumulate(4);
+        EXPECT_EQ(mean(PT_QUANTITY_COVERAGE), 1.0) << height;
+        camera.vertical_extent = 10;
+        set({&globe, 1}, {}, camera, 1);
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = 1;
+        ASSERT_EQ(pt_accumulate(context(), &info), PT_ERROR_UNSUPPORTED) << height;
+        EXPECT_EQ(std::string(pt_last_error(context())).find("spheres[0].motion = (1e+06, 0, 0): a sphere whose"), 0U)
+            << pt_last_error(context());
+        EXPECT_NE(std::string(pt_last_error(context())).find("where parallel rays start"), std::string::npos);
+    }
+}
+
 // The exact sums of samples do not depend on the calls that took them.
 TEST_F(Orthographic, SplitsAgree) {
     const pt_sphere ball{{0, 0.5, 0}, 1, {0.3, 0, 0}, 1, 0};

@@ -118,7 +118,8 @@ typedef struct pt_sphere {
     double radius;    /**< > 0 */
     /** Way from time 0 to time 1. A sphere whose surface, as the shutter opens, is nearer to the camera than a 65536th
      * of its radius must move by less than a 32nd of it while the shutter is open (pt_accumulate:
-     * PT_ERROR_UNSUPPORTED). */
+     * PT_ERROR_UNSUPPORTED). With an orthographic projection that holds where the view's half diagonal is less than
+     * that too, and near is what is near to the first surface in view. */
     double motion[3];
     uint32_t material; /**< index into pt_scene.materials */
     uint32_t reserved; /**< 0 */
