@@ -91,6 +91,22 @@ bool DataStream::next_line(std::string_view &line) {
     return true;
 }
 
+std::optional<std::uint64_t> DataStream::size_left() const {
+    const auto unread = source_->size_left();
+    return unread ? std::optional(*unread + (last_ - first_)) : std::nullopt;
+}
+
+bool DataStream::go_to(const Place &place) {
+    if (!source_->seek(place.offset)) {
+        return false;
+    }
+    first_ = 0;
+    last_ = 0;
+    offset_ = place.offset;
+    line_ = place.line;
+    return true;
+}
+
 std::uint64_t DataStream::skip_lines(std::uint64_t count) {
     std::uint64_t skipped = 0;
     for (std::string_view ignored; skipped < count && next_line(ignored);) {

@@ -63,6 +63,16 @@ void ParticleRows::begin_frame(std::span<const std::string> columns, std::span<c
     has_words_.assign(names_.size(), 0);
 }
 
+void ParticleRows::expect(std::uint64_t count) {
+    if (bound_.empty()) { // else nobody knows how many are kept
+        const auto expected = static_cast<std::size_t>(std::min<std::uint64_t>(count, largest_count));
+        particles_.positions.reserve(3 * expected);
+        for (ParticleColumn &column : particles_.columns) {
+            column.values.reserve(expected);
+        }
+    }
+}
+
 std::uint32_t ParticleRows::slot_of_column(std::size_t column) {
     used_column_count_ = std::max(used_column_count_, column + 1);
     return slots_[column];

@@ -40,6 +40,9 @@ public:
     void begin_frame(std::span<const std::string> columns, std::span<const PositionNames> choices,
                      const std::optional<SimulationBox> &box);
 
+    // After begin_frame: so many rows may come, at most. Sizes in the heads of files are not to be trusted so far.
+    void expect(std::uint64_t count);
+
     // For each column the place of its value in a row, or unused.
     std::span<const std::uint32_t> slots() const { return slots_; }
     std::size_t used_column_count() const { return used_column_count_; } // all that come later are unused
