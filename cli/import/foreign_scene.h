@@ -47,6 +47,7 @@ struct ForeignLight {
     ForeignVector place; // or the direction towards the light, not 0
     ForeignVector color;
     ForeignVector attenuation{1.0, 0.0, 0.0};
+    double radius = 0.0; // at which it is seen; 0 if it has none
 };
 
 struct ForeignScene {

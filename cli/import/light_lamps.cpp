@@ -8,9 +8,9 @@
 namespace cli {
 namespace {
 
-constexpr double largest_lamp = 1.0 / 50.0; // of its distance
-constexpr double smallest_lamp = 1e-6;      // likewise: what is smaller lies on a surface
-constexpr double sun_distance = 100.0;      // of the size of the scene
+constexpr double default_radius = 1.0 / 50.0; // of the distance
+constexpr double least_radius = 1e-6;         // likewise: what is smaller lies on a surface
+constexpr double sun_distance = 100.0;        // of the size of the scene
 
 // From the point to the nearest surface, or to the camera.
 double clearance(const ForeignScene &scene, const ForeignVector &point) {
@@ -26,29 +26,30 @@ double clearance(const ForeignScene &scene, const ForeignVector &point) {
 
 // A Lambert ball of radius r and radiance L lights what faces it at the distance d by pi L (r / d)^2, of which a white
 // surface makes the radiance L (r / d)^2.
-std::optional<ForeignLamp> lamp_at(const ForeignScene &scene, const ForeignVector &center, double distance,
-                                   const ForeignVector &color) {
-    const double radius = std::min(largest_lamp * distance, 0.5 * clearance(scene, center));
-    if (!(radius >= smallest_lamp * distance)) {
+std::optional<ForeignLamp> lamp_at(const ForeignScene &scene, const ForeignLight &light, const ForeignVector &center,
+                                   double distance) {
+    const double wanted = light.radius > 0.0 ? light.radius : default_radius * distance;
+    const double radius = std::min(wanted, 0.5 * clearance(scene, center));
+    if (!(radius >= least_radius * distance)) {
         return std::nullopt;
     }
-    const double brightness = (distance / radius) * (distance / radius);
-    return ForeignLamp{center, radius, {brightness * color[0], brightness * color[1], brightness * color[2]}};
+    const double faded = light.attenuation[0] + distance * (light.attenuation[1] + distance * light.attenuation[2]);
+    const double brightness = (distance / radius) * (distance / radius) / faded;
+    return ForeignLamp{
+        center, radius, {brightness * light.color[0], brightness * light.color[1], brightness * light.color[2]}};
 }
 
 std::optional<ForeignLamp> lamp_of(const ForeignScene &scene, const ForeignLight &light, double extent) {
     const ForeignVector &target = scene.camera.look_at;
     if (light.is_directional) {
         const double distance = sun_distance * extent;
-        return lamp_at(scene, point_at(target, distance, unit(light.place)), distance, light.color);
+        return lamp_at(scene, light, point_at(target, distance, unit(light.place)), distance);
     }
     // A light at the point that is looked at is measured at the camera.
     const double from_target = length(difference(light.place, target));
     const double distance =
-        from_target > smallest_lamp * extent ? from_target : length(difference(light.place, scene.camera.position));
-    const double faded = light.attenuation[0] + distance * (light.attenuation[1] + distance * light.attenuation[2]);
-    return lamp_at(scene, light.place, distance,
-                   {light.color[0] / faded, light.color[1] / faded, light.color[2] / faded});
+        from_target > least_radius * extent ? from_target : length(difference(light.place, scene.camera.position));
+    return lamp_at(scene, light, light.place, distance);
 }
 
 } // namespace

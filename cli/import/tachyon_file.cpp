@@ -128,7 +128,7 @@ private:
         words_.expect("CENTER");
         light.place = words_.mirrored("CENTER");
         words_.expect("RAD");
-        words_.number("RAD");
+        light.radius = words_.number_from_0("RAD");
         if (words_.take_if("ATTENUATION")) {
             constexpr std::array<const char *, 3> names{"CONSTANT", "LINEAR", "QUADRATIC"};
             for (std::size_t i = 0; i < names.size(); ++i) {
