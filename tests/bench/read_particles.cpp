@@ -4,25 +4,31 @@
 
 #include <sys/resource.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
+#include <fstream>
 #include <string>
 
 namespace {
 
-double cpu_seconds(const rusage &usage) {
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
     const auto seconds = [](const timeval &time) {
         return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-rusage usage_of_process() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage;
+// Not that of getrusage, which counts the process that started this one.
+double peak_mebibytes() {
+    std::ifstream status("/proc/self/status");
+    for (std::string word; status >> word;)
+        if (double kibibytes = 0.0; word == "VmHWM:" && status >> kibibytes)
+            return kibibytes / 1024.0;
+    return 0.0;
 }
 
 } // namespace
@@ -36,11 +42,11 @@ int main(int count, char **arguments) {
     cli::ParticleQuery query;
     query.columns.assign(arguments + 2, arguments + count);
     try {
-        const double before = cpu_seconds(usage_of_process());
+        const double before = cpu_seconds();
         const cli::Particles particles = cli::read_particles(path, query);
-        const rusage after = usage_of_process();
+        const double seconds = cpu_seconds() - before;
         std::printf("%ju %zu %.6f %.1f\n", static_cast<std::uintmax_t>(std::filesystem::file_size(path)),
-                    particles.count(), cpu_seconds(after) - before, static_cast<double>(after.ru_maxrss) / 1024.0);
+                    particles.count(), seconds, peak_mebibytes());
     } catch (const cli::Failure &failure) {
         std::fprintf(stderr, "%s\n", failure.what());
         return EXIT_FAILURE;
