@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace cli {
 
@@ -66,8 +65,8 @@ private:
 
     std::string name_;
     std::unique_ptr<ByteSource> source_;
-    std::vector<char> buffer_;
-    std::size_t first_ = 0; // of the bytes in the buffer that are not taken
+    std::unique_ptr<char[]> buffer_; // of longest bytes
+    std::size_t first_ = 0;          // of the bytes in the buffer that are not taken
     std::size_t last_ = 0;
     std::uint64_t offset_ = 0;
     std::uint64_t line_ = 0;

@@ -49,8 +49,18 @@ std::string name_for_messages(const std::string &path) {
     return path == standard_stream ? "standard input" : path;
 }
 
+// Behind the byte order mark of UTF-8 that some editors put in front of text.
 std::unique_ptr<DataStream> open_stream(const std::string &path) {
-    return std::make_unique<DataStream>(name_for_messages(path), open_bytes(path));
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    auto stream = std::make_unique<DataStream>(name_for_messages(path), open_bytes(path));
+    const std::string_view begin = stream->peek(mark.size());
+    if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) {
+        throw Failure(ExitCode::scene, stream->name() + ": is UTF-16: save it as UTF-8");
+    }
+    if (begin == mark) {
+        stream->take(mark.size());
+    }
+    return stream;
 }
 
 std::string list_of_formats() {

@@ -83,6 +83,9 @@ std::uint32_t ParticleRows::slot_of_column(std::size_t column) {
 std::size_t ParticleRows::find_column(std::span<const std::string> columns, std::string_view name) const {
     const auto exact = std::find(columns.begin(), columns.end(), name);
     if (exact != columns.end()) {
+        if (std::find(exact + 1, columns.end(), name) != columns.end()) {
+            throw Failure(ExitCode::scene, place_(0) + ": there are two columns " + quoted_text(name));
+        }
         return static_cast<std::size_t>(exact - columns.begin());
     }
     const auto similar = [name](const std::string &each) { return equal_but_for_case(each, name); };

@@ -27,6 +27,7 @@ class ParticleRows {
 public:
     static constexpr std::size_t largest_count = std::size_t{1} << 26; // of spheres, in pt.h
     static constexpr std::uint32_t unused = UINT32_MAX;
+    static constexpr std::size_t most_columns = 65536; // of a file: their names take memory before a number is read
 
     // file: its name, for messages. Throws Failure for conditions that cannot be read.
     ParticleRows(std::string file, const ParticleQuery &query);

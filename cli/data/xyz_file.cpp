@@ -112,6 +112,9 @@ void XyzFile::name_columns(const std::string &properties) {
             refuse("Properties = " + quoted_text(properties) +
                    ": must be name:type:count for each, where the type is S, R, I or L");
         }
+        if (columns_.size() + *count > ParticleRows::most_columns) {
+            refuse("Properties: there are more than " + std::to_string(ParticleRows::most_columns) + " columns");
+        }
         for (std::uint32_t component = 0; component < *count; ++component) {
             columns_.push_back(*count == 1 ? parts[i] : component_name(parts[i], component));
         }

@@ -36,6 +36,7 @@ std::string bytes_of(const std::string &name) {
 // What is read of such bytes; nothing if they are refused.
 std::optional<Particles> particles_of(const TemporaryFolder &folder, const std::string &name,
                                       const std::string &bytes) {
+    std::filesystem::remove(folder.file(name)); // what is written over an old file waits for the disk on ext4
     folder.write(name, bytes);
     cli::ParticleQuery query;
     query.if_present = {"charge", "type"};
