@@ -11,9 +11,6 @@
 namespace cli {
 namespace {
 
-// Of all numbers of a particle in one array.
-constexpr std::uint64_t most_array_components = 65536;
-
 // More do not fit any file, and products of sizes cannot overflow.
 constexpr std::uint64_t most_particles = std::uint64_t{1} << 40;
 
@@ -69,10 +66,10 @@ void add_records_by_column(std::vector<RecordStream> &streams, ParticleArray &ar
 ParticleArray particle_array(const DataStream &stream, NpyHeader header, const std::string &name) {
     const std::size_t most_lengths = header.is_structured ? 1 : 2;
     if (header.shape.empty() || header.shape.size() > most_lengths || header.shape[0] > most_particles ||
-        component_count(header) > most_array_components) {
+        component_count(header) > ParticleRows::most_columns) {
         throw Failure(ExitCode::scene, stream.name() + ": the shape " + shape_text(header.shape) +
                                            ": must be (n,) or, of plain numbers, (n, k) with k up to " +
-                                           std::to_string(most_array_components));
+                                           std::to_string(ParticleRows::most_columns));
     }
     ParticleArray array{std::move(header), 0, {}, nullptr, {}};
     array.count = array.header.shape[0];

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <limits>
 #include <string_view>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -24,6 +25,8 @@ public:
     FileBytes(const std::string &path, std::uint64_t offset, std::uint64_t size) :
         name_(path == standard_stream ? "standard input" : path),
         file_(path == standard_stream ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC)),
+        first_(offset),
+        size_(size),
         left_(size) {
         if (!file_.is_open() || (offset > 0 && lseek(file_.get(), static_cast<off_t>(offset), SEEK_SET) < 0)) {
             fail();
@@ -52,6 +55,25 @@ public:
         return count;
     }
 
+    std::optional<std::uint64_t> size_left() const override {
+        struct stat status {};
+        const off_t place = lseek(file_.get(), 0, SEEK_CUR);
+        if (place < 0 || fstat(file_.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
+            return std::nullopt;
+        }
+        const auto unread = static_cast<std::uint64_t>(std::max<off_t>(status.st_size - place, 0));
+        return std::min(unread, left_) + (head_size_ - head_taken_);
+    }
+
+    bool seek(std::uint64_t offset) override {
+        if (offset > size_ || lseek(file_.get(), static_cast<off_t>(first_ + offset), SEEK_SET) < 0) {
+            return false;
+        }
+        head_taken_ = head_size_;
+        left_ = size_ - offset;
+        return true;
+    }
+
 private:
     [[noreturn]] void fail() const {
         throw Failure(ExitCode::file, "cannot read " + name_ + ": " + std::generic_category().message(errno));
@@ -73,6 +95,8 @@ private:
 
     std::string name_;
     FileDescriptor file_;
+    std::uint64_t first_; // byte of the file, and how many from there on belong to this
+    std::uint64_t size_;
     std::uint64_t left_;
     std::array<char, 4> head_{};
     std::size_t head_size_ = 0;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace cli {
@@ -18,6 +19,13 @@ public:
     // At least a byte and at most size (> 0) of them; returns how many, 0 at the end alone. Throws Failure:
     // ExitCode::file where the system cannot read, ExitCode::scene where what is compressed is damaged or cut short.
     virtual std::size_t read(char *bytes, std::size_t size) = 0;
+
+    // How many are left; nothing where that is not known, as of pipes and of what is compressed.
+    virtual std::optional<std::uint64_t> size_left() const { return std::nullopt; }
+
+    // Goes on from that byte, counted from the first; false, and then nothing has changed, where only what comes next
+    // can be read.
+    virtual bool seek(std::uint64_t) { return false; }
 };
 
 // Throws Failure(ExitCode::file). The path - is standard input. Compression is known by the first bytes, not the name.

@@ -17,8 +17,6 @@ namespace {
 
 constexpr std::array<PositionNames, 1> csv_positions{{{{"x", "y", "z"}}}};
 
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8
-
 std::string_view without_blanks(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) {
         text.remove_prefix(1);
@@ -189,7 +187,6 @@ std::string read_head_line(DataStream &stream) {
     if (!stream.next_line(line)) {
         throw Failure(ExitCode::scene, stream.name() + ": is empty: must begin with the names of columns");
     }
-    line.remove_prefix(line.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
     return std::string(line);
 }
 

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace cli {
 
@@ -39,6 +39,17 @@ public:
     // Returns how many there were.
     std::uint64_t skip_lines(std::uint64_t count);
 
+    // How many there are yet, if that is known.
+    std::optional<std::uint64_t> size_left() const;
+
+    // Where the next byte is; and a way back to it, which what cannot be read twice does not have: false then.
+    struct Place {
+        std::uint64_t offset;
+        std::uint64_t line;
+    };
+    Place place() const { return {offset_, line_}; }
+    bool go_to(const Place &place);
+
     std::uint64_t line() const { return line_; }     // of the last line that was read or skipped, from 1
     std::uint64_t offset() const { return offset_; } // of the next byte; where a file is compressed, of what it holds
 
@@ -54,8 +65,8 @@ private:
 
     std::string name_;
     std::unique_ptr<ByteSource> source_;
-    std::vector<char> buffer_;
-    std::size_t first_ = 0; // of the bytes in the buffer that are not taken
+    std::unique_ptr<char[]> buffer_; // of longest bytes
+    std::size_t first_ = 0;          // of the bytes in the buffer that are not taken
     std::size_t last_ = 0;
     std::uint64_t offset_ = 0;
     std::uint64_t line_ = 0;

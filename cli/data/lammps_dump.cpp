@@ -48,12 +48,12 @@ SimulationBox general_box(const std::vector<std::vector<double>> &lines) {
 } // namespace
 
 void LammpsDump::refuse(const std::string &what) const {
-    throw Failure(ExitCode::scene, stream_->line_place() + ": " + what);
+    throw Failure(ExitCode::scene, stream().line_place() + ": " + what);
 }
 
 std::string_view LammpsDump::require_line() {
     std::string_view line;
-    if (!stream_->next_line(line) || !stream_->was_line_ended()) {
+    if (!stream().next_line(line) || !stream().was_line_ended()) {
         refuse("the file ends within the head of a frame: it was cut short");
     }
     return line;
@@ -63,7 +63,7 @@ std::vector<std::vector<double>> LammpsDump::read_box_lines(std::size_t count) {
     std::vector<std::vector<double>> lines;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::string_view line = require_line();
-        lines.push_back(read_line_numbers(*stream_, line));
+        lines.push_back(read_line_numbers(stream(), line));
         if (lines.back().size() != count) {
             refuse(quoted_text(line) + ": the box has " + std::to_string(count) + " numbers in a line");
         }
@@ -94,7 +94,7 @@ void LammpsDump::read_item(std::string_view item) {
     constexpr std::string_view box = "BOX BOUNDS";
     constexpr std::string_view atoms = "ATOMS";
     if (item == "NUMBER OF ATOMS") {
-        count_ = read_line_count(*stream_, require_line(), "the number of atoms");
+        count_ = read_line_count(stream(), require_line(), "the number of atoms");
     } else if (item.starts_with(box)) {
         read_box(item.substr(box.size()));
     } else if (item.starts_with(atoms)) {
@@ -114,7 +114,7 @@ bool LammpsDump::next() {
     std::string_view line;
     while (!has_columns_) {
         const bool is_first = !count_ && !box_;
-        if (!stream_->next_line(line)) {
+        if (!stream().next_line(line)) {
             if (!is_first) {
                 refuse("the file ends within the head of a frame: it was cut short");
             }
@@ -126,7 +126,7 @@ bool LammpsDump::next() {
         if (!line.starts_with(item_mark)) {
             refuse(quoted_text(line) + ": must begin with ITEM:");
         }
-        if (!stream_->was_line_ended()) {
+        if (!stream().was_line_ended()) {
             refuse("the file ends within the head of a frame: it was cut short");
         }
         const std::string item(line.substr(item_mark.size())); // the next line takes the place of this one
@@ -139,17 +139,17 @@ bool LammpsDump::next() {
 }
 
 void LammpsDump::skip() {
-    skip_rows(*stream_, *count_);
+    skip_rows(stream(), *count_);
 }
 
 void LammpsDump::read(ParticleRows &rows) {
-    rows.set_place([this](std::uint32_t) { return stream_->line_place(); });
+    rows.set_place([this](std::uint32_t) { return stream().line_place(); });
     if (columns_.empty()) {
         refuse("ITEM: ATOMS: there are no names of columns");
     }
     const bool has_box = box_.has_value();
     rows.begin_frame(columns_, std::span(lammps_positions).first(has_box ? 4 : 2), box_);
-    read_rows(*stream_, {*count_, columns_.size(), false, true}, rows);
+    read_rows(stream(), {*count_, columns_.size(), false, true}, rows);
 }
 
 } // namespace cli

@@ -1,10 +1,8 @@
 // Dumps of LAMMPS as text (docs.lammps.org/dump.html), of the styles atom and custom.
 #pragma once
 
-#include "cli/data/data_stream.h"
 #include "cli/data/frame_file.h"
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +12,7 @@ namespace cli {
 
 class LammpsDump : public FrameFile {
 public:
-    explicit LammpsDump(std::unique_ptr<DataStream> stream) : stream_(std::move(stream)) {}
+    using FrameFile::FrameFile;
 
     bool next() override;
     void skip() override;
@@ -27,7 +25,6 @@ private:
     std::string_view require_line();
     [[noreturn]] void refuse(const std::string &what) const;
 
-    std::unique_ptr<DataStream> stream_;
     std::optional<std::uint64_t> count_;
     std::optional<SimulationBox> box_;
     std::vector<std::string> columns_;

@@ -3,6 +3,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/number.h"
 #include "cli/data/column_name.h"
+#include "cli/data/particle_rows.h"
 #include "cli/data/python_literal.h"
 #include "cli/data/text_number.h"
 
@@ -148,6 +149,9 @@ private:
         const std::uint64_t size = is_number ? size_of(found->type) : size_without_numbers(plain);
         if (size > largest_element / count || header.element_size + size * count > largest_element) {
             refuse("descr: an element of more than " + std::to_string(largest_element) + " bytes");
+        }
+        if (header.fields.size() > ParticleRows::most_columns) {
+            refuse("descr: there are more than " + std::to_string(ParticleRows::most_columns) + " numbers in a record");
         }
         for (std::uint64_t i = 0; is_number && count <= most_components && i < count; ++i) {
             header.fields.push_back({count == 1 ? name : component_name(name, i),

@@ -94,8 +94,15 @@ void read_npy(const std::string &path, std::unique_ptr<DataStream> stream, Parti
 
 void read_npz(const std::string &path, ParticleRows &rows) {
     std::vector<NamedArray> found;
+    std::size_t column_count = 0;
     for (const ZipMember &member : read_zip_directory(path)) {
         if (auto array = array_of(path, member)) {
+            column_count += array->array.columns.size();
+            if (column_count > ParticleRows::most_columns) {
+                throw Failure(ExitCode::scene, path + ": there are more than " +
+                                                   std::to_string(ParticleRows::most_columns) +
+                                                   " columns in all arrays together");
+            }
             found.push_back(std::move(*array));
         }
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -48,8 +49,18 @@ std::string name_for_messages(const std::string &path) {
     return path == standard_stream ? "standard input" : path;
 }
 
+// Behind the byte order mark of UTF-8 that some editors put in front of text.
 std::unique_ptr<DataStream> open_stream(const std::string &path) {
-    return std::make_unique<DataStream>(name_for_messages(path), open_bytes(path));
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    auto stream = std::make_unique<DataStream>(name_for_messages(path), open_bytes(path));
+    const std::string_view begin = stream->peek(mark.size());
+    if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) {
+        throw Failure(ExitCode::scene, stream->name() + ": is UTF-16: save it as UTF-8");
+    }
+    if (begin == mark) {
+        stream->take(mark.size());
+    }
+    return stream;
 }
 
 std::string list_of_formats() {
@@ -135,12 +146,25 @@ void read_last_frame(FrameFile &frames, const std::string &file, const ParticleQ
     }
 }
 
-std::int64_t count_frames(FrameFile &frames) {
-    std::int64_t count = 0;
-    for (; frames.next(); ++count) {
+struct FrameCount {
+    std::int64_t count;
+    DataStream::Place wanted; // of the frame that is wanted, if there are so many
+};
+
+// frame: that is wanted, as ParticleQuery has it, below 0.
+FrameCount count_frames(FrameFile &frames, std::int64_t frame) {
+    FrameCount found{0, {}};
+    std::deque<DataStream::Place> last;
+    for (DataStream::Place place = frames.place(); frames.next(); place = frames.place()) {
         frames.skip();
+        ++found.count;
+        last.push_back(place);
+        if (-found.count < frame) {
+            last.pop_front();
+        }
     }
-    return count;
+    found.wanted = last.empty() ? DataStream::Place{} : last.front();
+    return found;
 }
 
 // index: from 0.
@@ -166,11 +190,15 @@ void read_frames(const std::string &path, std::string_view format, std::unique_p
     } else if (!is_regular_file(path)) {
         read_last_frame(*frames, file, query, rows);
     } else {
-        const std::int64_t count = count_frames(*frames);
-        if (query.frame < -count) {
-            refuse_frame(file, query, count);
+        const FrameCount found = count_frames(*frames, query.frame);
+        if (query.frame < -found.count) {
+            refuse_frame(file, query, found.count);
         }
-        read_frame(*frame_file(format, open_stream(path)), query.frame + count, file, query, rows);
+        if (frames->go_to(found.wanted)) {
+            read_frame(*frames, 0, file, query, rows);
+        } else { // it is compressed
+            read_frame(*frame_file(format, open_stream(path)), query.frame + found.count, file, query, rows);
+        }
     }
 }
 

@@ -63,6 +63,16 @@ void ParticleRows::begin_frame(std::span<const std::string> columns, std::span<c
     has_words_.assign(names_.size(), 0);
 }
 
+void ParticleRows::expect(std::uint64_t count) {
+    if (bound_.empty()) { // else nobody knows how many are kept
+        const auto expected = static_cast<std::size_t>(std::min<std::uint64_t>(count, largest_count));
+        particles_.positions.reserve(3 * expected);
+        for (ParticleColumn &column : particles_.columns) {
+            column.values.reserve(expected);
+        }
+    }
+}
+
 std::uint32_t ParticleRows::slot_of_column(std::size_t column) {
     used_column_count_ = std::max(used_column_count_, column + 1);
     return slots_[column];
@@ -73,6 +83,9 @@ std::uint32_t ParticleRows::slot_of_column(std::size_t column) {
 std::size_t ParticleRows::find_column(std::span<const std::string> columns, std::string_view name) const {
     const auto exact = std::find(columns.begin(), columns.end(), name);
     if (exact != columns.end()) {
+        if (std::find(exact + 1, columns.end(), name) != columns.end()) {
+            throw Failure(ExitCode::scene, place_(0) + ": there are two columns " + quoted_text(name));
+        }
         return static_cast<std::size_t>(exact - columns.begin());
     }
     const auto similar = [name](const std::string &each) { return equal_but_for_case(each, name); };

@@ -27,6 +27,7 @@ class ParticleRows {
 public:
     static constexpr std::size_t largest_count = std::size_t{1} << 26; // of spheres, in pt.h
     static constexpr std::uint32_t unused = UINT32_MAX;
+    static constexpr std::size_t most_columns = 65536; // of a file: their names take memory before a number is read
 
     // file: its name, for messages. Throws Failure for conditions that cannot be read.
     ParticleRows(std::string file, const ParticleQuery &query);
@@ -39,6 +40,9 @@ public:
     // that is not there.
     void begin_frame(std::span<const std::string> columns, std::span<const PositionNames> choices,
                      const std::optional<SimulationBox> &box);
+
+    // After begin_frame: so many rows may come, at most. Sizes in the heads of files are not to be trusted so far.
+    void expect(std::uint64_t count);
 
     // For each column the place of its value in a row, or unused.
     std::span<const std::uint32_t> slots() const { return slots_; }

@@ -95,7 +95,8 @@ void read_text_with_lists(DataStream &stream, const PlyElement &vertex, Particle
                               stream.line_place() + ": " + quoted_text(line) + " has no " + property.name);
             }
             if (property.count_type) {
-                word += read_line_count(stream, words[word], property.name) + 1;
+                const std::uint64_t count = read_line_count(stream, words[word], property.name);
+                word += std::min<std::uint64_t>(count, words.size()) + 1;
                 continue;
             }
             if (const std::uint32_t slot = rows.slots()[column++]; slot != ParticleRows::unused) {

@@ -23,7 +23,7 @@ const char *parse_real(std::string_view text, double &value) {
     double number = 0.0;
     const auto [end, error] = std::from_chars(first, last, number);
     if (error == std::errc::invalid_argument || end != last) {
-        return "must be a number";
+        return text.find(',') == std::string_view::npos ? "must be a number" : "must be a number, with a decimal point";
     }
     if (error == std::errc::result_out_of_range && !is_tiny(first, last)) {
         return "must fit a 64-bit floating point number";

@@ -4,6 +4,7 @@
 #include "cli/base/number.h"
 #include "cli/data/text_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <system_error>
@@ -137,6 +138,10 @@ std::uint64_t read_line_count(const DataStream &stream, std::string_view line, c
 }
 
 void read_rows(DataStream &stream, const TextTable &table, ParticleRows &rows) {
+    if (const auto size = stream.size_left()) {
+        const std::uint64_t least_size = 2 * table.column_count; // of a row: a digit and a blank, or the line's end
+        rows.expect(std::min(table.row_count, *size / least_size + 1));
+    }
     RowReader reader(stream, table, rows);
     std::string_view line;
     for (std::uint64_t row = 0; row < table.row_count; ++row) {

@@ -89,11 +89,11 @@ bool is_true(std::string_view word) {
 } // namespace
 
 void XyzFile::refuse(const std::string &what) const {
-    throw Failure(ExitCode::scene, stream_->line_place() + ": " + what);
+    throw Failure(ExitCode::scene, stream().line_place() + ": " + what);
 }
 
 std::vector<double> XyzFile::numbers_of(const std::string &key, const std::string &value, std::size_t count) const {
-    std::vector<double> numbers = read_line_numbers(*stream_, value);
+    std::vector<double> numbers = read_line_numbers(stream(), value);
     if (numbers.size() != count) {
         refuse(key + " = " + quoted_text(value) + ": must have " + std::to_string(count) + " numbers");
     }
@@ -111,6 +111,9 @@ void XyzFile::name_columns(const std::string &properties) {
             std::string_view("SRIL").find(parts[i + 1][0]) == std::string_view::npos) {
             refuse("Properties = " + quoted_text(properties) +
                    ": must be name:type:count for each, where the type is S, R, I or L");
+        }
+        if (columns_.size() + *count > ParticleRows::most_columns) {
+            refuse("Properties: there are more than " + std::to_string(ParticleRows::most_columns) + " columns");
         }
         for (std::uint32_t component = 0; component < *count; ++component) {
             columns_.push_back(*count == 1 ? parts[i] : component_name(parts[i], component));
@@ -154,7 +157,7 @@ void XyzFile::read_comment(std::string_view comment) {
 // What plain XYZ has after the four columns is called by its number, from 1.
 void XyzFile::name_plain_columns() {
     columns_ = {"species", "x", "y", "z"};
-    const std::string_view ahead = stream_->peek(DataStream::longest);
+    const std::string_view ahead = stream().peek(DataStream::longest);
     const std::string_view line = ahead.substr(0, ahead.find_first_of("\r\n"));
     const std::size_t count = split_at_blanks(line).size();
     for (std::size_t column = columns_.size() + 1; column <= count; ++column) {
@@ -165,12 +168,12 @@ void XyzFile::name_plain_columns() {
 bool XyzFile::next() {
     std::string_view line;
     do {
-        if (!stream_->next_line(line)) {
+        if (!stream().next_line(line)) {
             return false;
         }
     } while (line.find_first_not_of(" \t") == std::string_view::npos); // at the end of a file
-    count_ = read_line_count(*stream_, line, "the number of atoms");
-    if (!stream_->next_line(line)) {
+    count_ = read_line_count(stream(), line, "the number of atoms");
+    if (!stream().next_line(line)) {
         refuse("the file ends after the number of atoms: it was cut short");
     }
     read_comment(line);
@@ -178,16 +181,16 @@ bool XyzFile::next() {
 }
 
 void XyzFile::skip() {
-    skip_rows(*stream_, count_);
+    skip_rows(stream(), count_);
 }
 
 void XyzFile::read(ParticleRows &rows) {
-    rows.set_place([this](std::uint32_t) { return stream_->line_place(); });
+    rows.set_place([this](std::uint32_t) { return stream().line_place(); });
     if (is_plain_) {
         name_plain_columns();
     }
     rows.begin_frame(columns_, xyz_positions, box_);
-    read_rows(*stream_, {count_, is_plain_ ? 4 : columns_.size(), is_plain_, false}, rows);
+    read_rows(stream(), {count_, is_plain_ ? 4 : columns_.size(), is_plain_, false}, rows);
 }
 
 } // namespace cli

@@ -2,22 +2,19 @@
 // (docs.ase-lib.org/ase/io/formatoptions.html#extxyz).
 #pragma once
 
-#include "cli/data/data_stream.h"
 #include "cli/data/frame_file.h"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace cli {
 
 class XyzFile : public FrameFile {
 public:
-    explicit XyzFile(std::unique_ptr<DataStream> stream) : stream_(std::move(stream)) {}
+    using FrameFile::FrameFile;
 
     bool next() override;
     void skip() override;
@@ -30,7 +27,6 @@ private:
     std::vector<double> numbers_of(const std::string &key, const std::string &value, std::size_t count) const;
     [[noreturn]] void refuse(const std::string &what) const;
 
-    std::unique_ptr<DataStream> stream_;
     std::uint64_t count_ = 0;
     std::optional<SimulationBox> box_;
     std::vector<std::string> columns_;

@@ -5,6 +5,8 @@
 #include "cli/base/json_value.h"
 #include "cli/base/report_file.h"
 #include "cli/base/text_file.h"
+#include "cli/import/foreign_format.h"
+#include "cli/import/scene_items.h"
 #include "cli/scene/json_sections.h"
 #include "cli/scene/scene_override.h"
 #include "cli/scene/scene_place.h"
@@ -28,7 +30,7 @@ std::size_t hash_of(std::string_view text) {
 // The text that was read, if the file still holds it: one that was edited does not, and a pipe is read once.
 std::optional<std::string> read_again(const SceneFile &scene) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(scene.path, ignored)) {
+    if (scene.is_foreign || !std::filesystem::is_regular_file(scene.path, ignored)) {
         return std::nullopt;
     }
     try {
@@ -156,11 +158,18 @@ SceneFile parse_scene(std::string_view text, const std::string &path, const std:
     OverridingHandler handler(reader, overrides);
     const std::string_view checked = require_text(text, path);
     try {
-        parse_json_sections(checked, path, handler);
+        if (const auto format = foreign_format(checked, path)) {
+            ForeignScene foreign = read_foreign_scene(*format, checked, path);
+            scene.is_foreign = true;
+            hand_on(foreign, handler);
+            scene.left_out = std::move(foreign.left_out);
+        } else {
+            parse_json_sections(checked, path, handler);
+        }
         handler.finish();
         reader.finish();
     } catch (const JsonRefusal &refusal) {
-        const auto line = find_line(checked, refusal.path, refusal.occurrence);
+        const auto line = scene.is_foreign ? std::nullopt : find_line(checked, refusal.path, refusal.occurrence);
         throw Failure(ExitCode::scene, place_text(path, line, path_text(refusal.path)) + ": " + refusal.what());
     }
     return scene;

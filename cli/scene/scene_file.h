@@ -1,5 +1,5 @@
-// The scene file: JSON -> the structs of pt.h. Names, types and units are checked here, the rules of a scene by the
-// library; explain() leads its messages back to the file.
+// The scene file: JSON, or the text of another program, -> the structs of pt.h. Names, types and units are checked
+// here, the rules of a scene by the library; explain() leads its messages back to the file.
 #pragma once
 
 #include "cli/base/exit_code.h"
@@ -46,6 +46,8 @@ struct SceneFile {
     std::optional<FigureLook> figure;     // camera and light are to follow from the particles
     pt_camera camera;
     std::vector<AnimatedValue> animation;
+    bool is_foreign = false;           // of another program, and so without lines of JSON
+    std::vector<std::string> left_out; // warnings: what such a file has and the picture will not
 
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;

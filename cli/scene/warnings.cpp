@@ -218,7 +218,7 @@ std::optional<std::string> burnt_out_picture(const RenderReport &report, std::sp
 } // namespace
 
 std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSettings &settings) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = scene.left_out;
     if (!is_lit(scene)) {
         warnings.push_back(scene.path + ": no surface emits light: the picture is black");
     } else if (const auto ball = ShutInCamera(scene).find()) {
