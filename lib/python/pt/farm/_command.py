@@ -19,10 +19,12 @@ from typing import Any
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
-from pt.farm._checkpoint import write_film
-from pt.farm._coordinator import FarmError, Options, render
+from pt.farm._errors import FarmError
 from pt.farm._job import job_of
+from pt.farm._options import Options
 from pt.farm._progress import Progress
+from pt.farm._render import render
+from pt.farm._sum import write_film
 from pt.farm._tev import Viewer
 from pt.farm._workers import now
 

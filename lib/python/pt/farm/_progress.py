@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from pt._enums import Result
+
 
 @dataclass
 class Progress:
@@ -22,6 +24,7 @@ class Progress:
     lost: int = 0  # tries whose worker died
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
+    last_result: int = Result.OK  # the library's, of the error that came last
     ended_by: str = ""  # "samples", "error", "limit"; "stopped" where progress() returned True
 
     def line(self) -> str:
