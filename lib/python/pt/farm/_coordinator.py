@@ -27,7 +27,8 @@ LATE = 3.0  # times the expected seconds
 
 
 class Coordinator:
-    def __init__(self, client: Any, job: Job, options: Options, show: Callable[[Progress, Film | None], object]) -> None:
+    def __init__(self, client: Any, job: Job, options: Options,
+                 show: Callable[[Progress, Film | None], object]) -> None:
         self._client, self._job, self._options, self._show = client, job, options, show
         packed = job.packed()
         self._name = name_of(packed)
@@ -181,7 +182,7 @@ class Coordinator:
                 raise ValueError("it has other samples than were asked for")
             return outcome, reason, film, len(data)
         except (ValueError, IncompatibleError) as error:
-            return outcome, f"its film is damaged: {error}", None, 0
+            return outcome, f"its film is not taken: {error}", None, 0
 
     def _take_in(self) -> None:
         event = self._next_event(TICK)

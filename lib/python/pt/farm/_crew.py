@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from pt._enums import Result
 from pt._library import library, version_text
 from pt.farm._errors import FarmError
 from pt.farm._identity import WORTH_ANOTHER_WORKER, LAST, Identity
@@ -31,6 +32,10 @@ class Crew:
     def __iter__(self) -> Iterator[Member]:
         return iter(self._members.values())
 
+    def _count(self) -> int:
+        self._progress.workers = sum(member.facts is not None and not member.is_banned for member in self)
+        return self._progress.workers
+
     @property
     def is_there(self) -> bool:
         """Whether a worker has been found fit."""
@@ -43,22 +48,22 @@ class Crew:
         try:
             there = addresses(self._client)
         except Exception as error:
-            raise FarmError(f"the scheduler has gone: {type(error).__name__}: {error}") from error
+            raise FarmError(f"the scheduler has gone: {type(error).__name__}: {error}",
+                            Result.ERROR_DEVICE_LOST) from error
         self._looked = now()
         for address in there - set(self._members):
             member = self._members[address] = Member(address, now())
             member.introduction = submit(self._client, address, self._done, introduce, self._packed)
         lost = [each for address in set(self._members) - there for each in self._members.pop(address).tries.values()]
         usable = [member for member in self if not member.is_banned]
-        fit = [member for member in usable if member.facts]
-        self._progress.workers = len(fit)
         if self._members and not usable:
             raise FarmError("every worker has failed or was refused: " + "; ".join(self._progress.messages[-4:]),
                             self._progress.last_result)
-        if fit:
+        if self._count():
             self._worker_time = now()
         elif now() - self._worker_time > self._patience:
-            raise FarmError(f"no worker is ready after {self._patience:g} s, of {len(self._members)} that the scheduler has")
+            raise FarmError(f"no worker is ready after {self._patience:g} s; the scheduler has {len(self._members)}",
+                            Result.ERROR_NO_DEVICE)
         return lost
 
     def of_introduction(self, future: Any) -> Member | None:
@@ -100,15 +105,17 @@ class Crew:
         differences = facts.identity.differences(self.identity, (LAST,) if self._mixed else ())
         others = [name for name in differences if name not in WORTH_ANOTHER_WORKER]
         if others and self._goes_on:
-            raise FarmError(f"the checkpoint is of another picture: its {', '.join(others)} differs")
+            raise FarmError(f"the checkpoint is of another picture: its {', '.join(others)} differs",
+                            Result.ERROR_INCOMPATIBLE)
         if differences == [LAST]:
             models, theirs = (" and ".join(sorted(each.models)) for each in (facts.identity, self.identity))
-            self._ban(member, f"it has {models}, and the others {theirs}: films of different devices do not add up to the "
-                              "bits of one (mixed allows it)")
+            self._ban(member, f"it has {models}, and the others {theirs}: films of different devices do not add up to "
+                              "the bits of one (mixed allows it)")
         elif differences:
             self._ban(member, f"its films would differ from the others in {', '.join(differences)}")
         else:
             member.facts = facts
+            self._count()
 
     def _ban(self, member: Member, reason: str) -> None:
         member.is_banned = True

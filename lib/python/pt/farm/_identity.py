@@ -1,5 +1,5 @@
-"""Whose samples a film has: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films add up where these are
-equal, so that workers can be told apart before they have done anything."""
+"""Whose samples a film has: the lines of its header from `scene` to `device` (lib/film/FORMAT.md). Films add up where
+these are equal, so that workers can be told apart before they have done anything."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def identity_of(data: bytes) -> Identity:
 
 
 def with_models(data: bytes, models: frozenset[str]) -> bytes:
-    """A film's bytes as if all of these had taken its samples, as those of a context of several models say it: such films add
-    up, and say that they are mixed. ImportError: xxhash is missing."""
+    """A film's bytes as if all of these had taken its samples, as those of a context of several models say it: such
+    films add up, and say that they are mixed. ImportError: xxhash is missing."""
     xxhash = importlib.import_module("xxhash")
     header = _header(data)
     start = header.index(b"\n" + LAST.encode() + b" ") + 1

@@ -66,8 +66,8 @@ def grid_shape(width: int, height: int) -> tuple[int, int]:
 
 
 def missing_parts(film: Film | None, first_sample: int, goals: Goals) -> list[Part]:
-    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells, so
-    that one from a checkpoint goes on like any other."""
+    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells,
+    so that one from a checkpoint goes on like any other."""
     columns = goals.shape[1]
     cells: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(goals.shape, bool)

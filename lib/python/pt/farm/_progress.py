@@ -29,5 +29,6 @@ class Progress:
 
     def line(self) -> str:
         error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
-        return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, {self.parts} parts, "
-                f"{self.dropped} dropped, {self.lost} lost, {self.failed} failed, {self.seconds:.0f} s")
+        return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, "
+                f"{self.parts} parts, {self.dropped} dropped, {self.lost} lost, {self.failed} failed, "
+                f"{self.seconds:.0f} s")

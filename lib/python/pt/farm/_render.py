@@ -40,7 +40,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
         try:
             importlib.import_module("xxhash")
         except ImportError as error:
-            raise FarmError("mixed: the Python module xxhash is needed, to say in films that devices are mixed") from error
+            raise FarmError("mixed: the Python module xxhash is needed, to say so in films") from error
     coordinator = Coordinator(client, job, options, progress)
     try:
         if target_error:

@@ -66,7 +66,8 @@ def _added(film: Film, other: Film) -> Film:
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read both."""
+    """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
+    both."""
     module = _packing.zstd()
     data = film.to_bytes()
     write_atomically(path, module.compress(data) if module else data)

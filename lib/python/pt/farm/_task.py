@@ -94,7 +94,7 @@ def introduce(packed: bytes) -> Outcome:
                 _ready.context.close()
                 _ready = None
             _set_environment(job.environment)
-            context = Context(job.device)
+            context = Context(job.device or os.environ.get("PT_DEVICE"))
             context.set_scene(job.scene)
             context.set_camera(job.camera)
             context.set_render(job.settings)
