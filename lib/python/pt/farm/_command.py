@@ -49,7 +49,10 @@ def run_program(*arguments: str) -> str:
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
     """A client of it."""
     logging.getLogger("distributed").setLevel(logging.ERROR)
-    dask: Any = importlib.import_module("distributed")  # which has no types, and takes half a second
+    try:
+        dask: Any = importlib.import_module("distributed")  # which has no types, and takes half a second
+    except ImportError as error:
+        refuse(f"needs Dask: pip install './lib/python[farm]' ({error})", INTERNAL)
     if arguments.scheduler:
         security = None
         if arguments.tls:
