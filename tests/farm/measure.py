@@ -121,7 +121,7 @@ def memory():
     what = job("1920x1080")
     with cluster() as here, Client(here) as client:
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        result = farm.render(client, what, 80, options=farm.Options(part_seconds=0.15), progress=show)
+        result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=show)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     film = len(result.film.to_bytes())
     print(f"\n{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the most "

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+from collections import deque
 
 from pt._errors import IncompatibleError
 from pt._film import Film
@@ -12,7 +13,9 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-BATCH_SHARE = 0.5  # of a film, in parts that are not yet in it: adding to the film costs by its size, not by the part's
+# Adding to a film costs by its size and not by the part's, so that parts are first added to each other. Of batches of 1/2,
+# 1/8 and 1/16 of a film, the whole took 5.9, 5.9 and 6.8 s of a processor, and 5.6, 3.7 and 3.4 films of memory.
+BATCH_SHARE = 1 / 8
 SHOW_SHARE = 0.1  # of the time, for adding less than that, so that the picture so far is recent
 
 
@@ -50,19 +53,18 @@ class Sum:
         """First parts with each other, as sums of few tiles are short."""
         if not self._parts:
             return
-        start, sums = now(), self._parts
+        start, sums = now(), deque(self._parts)
         self._parts, self._bytes = [], 0
-        while len(sums) > 1:
-            pairs = [sums[i:i + 2] for i in range(0, len(sums), 2)]
-            sums = [pair[0] if len(pair) == 1 else _added(pair[0], pair[1]) for pair in pairs]
-        self.film = sums[0] if self.film is None else _added(self.film, sums[0])
+        while len(sums) > 1:  # the shortest two, nearly
+            film = sums.popleft()
+            film += sums.popleft()
+            sums.append(film)
+        if self.film is None:
+            self.film = sums.pop()
+        else:
+            self.film += sums.pop()
         self._merged = now()
         self._cost = self._merged - start
-
-
-def _added(film: Film, other: Film) -> Film:
-    film += other
-    return film
 
 
 def write_film(film: Film, path: Path) -> None:
