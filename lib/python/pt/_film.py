@@ -197,12 +197,16 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a function of the library writes, which tells their number first."""
+    """The bytes that a function of the library writes, which tells their number first. They are written in place: a film
+    takes hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
-    data = ctypes.create_string_buffer(size.value)
-    write(data, size)
-    return data.raw[:size.value]
+    allocated = size.value
+    data = ctypes.pythonapi.PyBytes_FromStringAndSize
+    data.restype, data.argtypes = ctypes.py_object, (ctypes.c_char_p, ctypes.c_ssize_t)
+    written: bytes = data(None, allocated)
+    write(ctypes.c_char_p(written), size)
+    return written if size.value == allocated else written[:size.value]
 
 
 def _unpacked(data: bytes) -> bytes:

@@ -23,7 +23,7 @@ class Job:
     """A picture.
 
     settings      all rows; first_sample is the first of the samples that are taken
-    device        what each worker renders on, as of pt.Context; None: its best
+    device        what each worker renders on, as of pt.Context; None: what its variable PT_DEVICE says, else its best
     environment   variables that the driver is to see: those of Mesa that change bits
     """
 

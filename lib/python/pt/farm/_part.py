@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from pt._film import TILE_SIDE, Film
+from pt._film import TILE_SIDE, Film, FilmTile
 
 Indices = npt.NDArray[np.uint32]
 Goals = npt.NDArray[np.uint32]
@@ -43,23 +43,39 @@ class Part:
         return Part(self.first, middle, self.tiles[:tiles]), rest
 
 
+def is_film_of(film: Film, part: Part, shape: tuple[int, int]) -> bool:
+    """Whether a film has the samples of a part and no others."""
+    indices = np.arange(shape[0] * shape[1], dtype=np.uint32).reshape(shape)
+    found = []
+    for tile in film.tiles:
+        if tile.samples != (range(part.first, part.end),) or tile.x % TILE_SIDE or tile.y % TILE_SIDE:
+            return False
+        found.append(_tiles_of(tile, indices))
+    return bool(np.array_equal(np.sort(np.concatenate(found)), np.sort(part.tiles)))
+
+
+def _tiles_of(tile: FilmTile, indices: Indices) -> Indices:
+    rows = slice(tile.y // TILE_SIDE, -(-(tile.y + tile.height) // TILE_SIDE))
+    across = slice(tile.x // TILE_SIDE, -(-(tile.x + tile.width) // TILE_SIDE))
+    return indices[rows, across].ravel()
+
+
 def grid_shape(width: int, height: int) -> tuple[int, int]:
     """Rows and columns of tiles."""
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
 def missing_parts(film: Film | None, first_sample: int, goals: Goals) -> list[Part]:
-    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells, so
-    that one from a checkpoint goes on like any other."""
+    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells,
+    so that one from a checkpoint goes on like any other."""
     columns = goals.shape[1]
     cells: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(goals.shape, bool)
     indices = np.arange(goals.size, dtype=np.uint32).reshape(goals.shape)
     for tile in film.tiles if film else ():
-        rows = slice(tile.y // TILE_SIDE, -(-(tile.y + tile.height) // TILE_SIDE))
-        across = slice(tile.x // TILE_SIDE, -(-(tile.x + tile.width) // TILE_SIDE))
-        seen[rows, across] = True
-        cells.setdefault(tile.samples, []).append(indices[rows, across].ravel())
+        inside = _tiles_of(tile, indices)
+        seen.ravel()[inside] = True
+        cells.setdefault(tile.samples, []).append(inside)
     if not seen.all():
         cells.setdefault((), []).append(indices[~seen])
     wanted: dict[tuple[int, int], list[Indices]] = {}

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from pt._enums import Result
+
 
 @dataclass
 class Progress:
@@ -22,9 +24,11 @@ class Progress:
     lost: int = 0  # tries whose worker died
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
+    last_result: int = Result.OK  # the library's, of the error that came last
     ended_by: str = ""  # "samples", "error", "limit"; "stopped" where progress() returned True
 
     def line(self) -> str:
         error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
-        return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, {self.parts} parts, "
-                f"{self.dropped} dropped, {self.lost} lost, {self.failed} failed, {self.seconds:.0f} s")
+        return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, "
+                f"{self.parts} parts, {self.dropped} dropped, {self.lost} lost, {self.failed} failed, "
+                f"{self.seconds:.0f} s")

@@ -15,10 +15,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pt._context import Context
-from pt._enums import DeviceKind
-from pt._errors import IncompatibleError, InvalidArgumentError, InvalidSceneError
+from pt._enums import DeviceKind, Result
+from pt._errors import Error, IncompatibleError, InvalidArgumentError, InvalidSceneError
 from pt._library import library, version_text
 from pt.farm import _packing
+from pt.farm._identity import Identity, identity_of
 from pt.farm._job import Job, name_of
 from pt.farm._part import Part, grid_shape
 
@@ -31,10 +32,9 @@ class Worker:
 
     host: str
     process: int
-    device: str  # model and driver, which decide bits
+    identity: Identity  # of its films
     is_cpu: bool
     version: str  # of the library
-    codecs: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,7 @@ class Outcome:
     seconds: float = 0.0
     error: str = ""
     may_help_elsewhere: bool = False
+    result: int = Result.OK  # of an error, that of the library
 
 
 @dataclass
@@ -63,7 +64,8 @@ _environment: Mapping[str, str] | None = None  # with which this process has loa
 
 def _failed(error: Exception) -> Outcome:
     return Outcome(error=f"{socket.gethostname()}, process {os.getpid()}: {type(error).__name__}: {error}",
-                   may_help_elsewhere=not isinstance(error, PERMANENT))
+                   may_help_elsewhere=not isinstance(error, PERMANENT),
+                   result=error.result if isinstance(error, Error) else Result.ERROR_INTERNAL)
 
 
 def _set_environment(variables: Mapping[str, str]) -> None:
@@ -92,17 +94,28 @@ def introduce(packed: bytes) -> Outcome:
                 _ready.context.close()
                 _ready = None
             _set_environment(job.environment)
-            context = Context(job.device)
+            context = Context(job.device or os.environ.get("PT_DEVICE"))
             context.set_scene(job.scene)
             context.set_camera(job.camera)
             context.set_render(job.settings)
             context.prepare()
-            _ready = _Ready(name_of(packed), job, context)
-            device = context.device
-            return Outcome(worker=Worker(socket.gethostname(), os.getpid(), f"{device.name}, {device.driver}",
-                                         device.kind == DeviceKind.CPU, version_text(library()), _packing.codecs()))
+            ready = _Ready(name_of(packed), job, context)
+            first = job.settings.first_sample
+            identity = identity_of(_film_of(ready, Part(first, first + 1, np.zeros(1, np.uint32))))
+            _ready = ready
+            return Outcome(worker=Worker(socket.gethostname(), os.getpid(), identity,
+                                         context.device.kind == DeviceKind.CPU, version_text(library())))
         except Exception as error:
             return _failed(error)
+
+
+def _film_of(ready: _Ready, part: Part) -> bytes:
+    settings, context = ready.job.settings, ready.context
+    context.set_render(replace(settings, first_sample=part.first))
+    counts = np.zeros(grid_shape(settings.width, settings.height), np.uint32)
+    counts.ravel()[part.tiles] = part.end - part.first
+    context.accumulate_tiles(counts)
+    return context.film().to_bytes()
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
@@ -112,12 +125,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
             start = time.monotonic()
-            settings, context = _ready.job.settings, _ready.context
-            context.set_render(replace(settings, first_sample=part.first))
-            counts = np.zeros(grid_shape(settings.width, settings.height), np.uint32)
-            counts.ravel()[part.tiles] = part.end - part.first
-            context.accumulate_tiles(counts)
-            data = _packing.pack(context.film().to_bytes(), codecs)
+            data = _packing.pack(_film_of(_ready, part), codecs)
             return Outcome(data=data, seconds=time.monotonic() - start)
         except Exception as error:
             return _failed(error)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -9,9 +11,11 @@ from typing import Any
 
 from pt.farm._part import Part
 from pt.farm._speed import Speed
-from pt.farm._task import Worker
+from pt.farm._task import Outcome, Worker
 
-MOST_FAILURES = 3  # one after the other, until a worker gets nothing more
+FETCH_SECONDS = 60.0  # for a film, which is 35 MB where it has all of 1920x1080
+
+Done = Callable[[Any, "Outcome | None", str], None]  # future, outcome or None, why there is none
 
 
 @dataclass
@@ -20,7 +24,6 @@ class Try:
 
     number: int  # of the part; a duplicate has the same
     part: Part
-    address: str
     future: Any
     issued: float
     expected: float  # seconds, with what the worker had to do before
@@ -31,11 +34,12 @@ class Member:
     """A worker that has joined."""
 
     address: str
+    joined: float
     facts: Worker | None = None  # once it is ready
     speed: Speed = field(default_factory=Speed)
     tries: dict[Any, Try] = field(default_factory=dict)  # by key of the future
     introduction: Any = None
-    failures: int = 0
+    failures: int = 0  # one after the other
     is_late: bool = False  # it gets nothing until it has given something back
     is_banned: bool = False
 
@@ -44,19 +48,41 @@ class Member:
 
 
 def addresses(client: Any) -> set[str]:
-    """Of all workers. Newer versions of Dask tell of five unless they are asked for all."""
-    try:
-        info = client.scheduler_info(n_workers=-1)
-    except TypeError:
-        info = client.scheduler_info()
-    return set(info["workers"])
+    """Of all workers, without what else the scheduler knows of each. OSError: the scheduler has gone."""
+    if client.status not in ("running", "connecting"):
+        raise OSError("the connection to the scheduler has ended")
+    return set(client.nthreads())
 
 
-def submit(client: Any, address: str, done: Callable[[Any], None], function: Callable[..., Any], *arguments: Any) -> Any:
-    """Runs a function on one worker alone, whose result stays there until it is fetched."""
+def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
+    """Runs a function on one worker alone, whose result comes from the worker itself. done is called by threads."""
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
-    future.add_done_callback(done)
+
+    # A thread for each, as a worker may have been stopped since, so that fetching takes for ever.
+    def fetch(ended: Any) -> None:
+        threading.Thread(target=_fetch, args=(client, ended, done), daemon=True).start()
+
+    future.add_done_callback(fetch)
     return future
+
+
+async def _gathered(client: Any, future: Any) -> Outcome:
+    """Dask fetches five at a time, so that some stopped workers would hold up all others for ever."""
+    results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
+    return results[0]  # type: ignore[no-any-return]
+
+
+def _fetch(client: Any, future: Any, done: Done) -> None:
+    outcome, reason = None, "its worker died"
+    try:
+        if future.status == "finished":
+            outcome = client.sync(_gathered, client, future)
+        elif future.status == "error":  # before the function was entered: it could not be unpickled
+            error = future.exception(timeout=10)
+            reason = f"{type(error).__name__}: {error}"
+    except (Exception, asyncio.CancelledError) as error:  # the worker has gone, in one of many ways
+        reason = f"its film could not be fetched: {type(error).__name__}: {error}"
+    done(future, outcome, reason)
 
 
 def now() -> float:

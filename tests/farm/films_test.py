@@ -2,7 +2,9 @@
 
 Each case compares whole films with those of a Context of this process. Skipped where distributed is not installed."""
 
+import dataclasses
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,14 +12,16 @@ import tempfile
 import threading
 import time
 import unittest
+import zlib
 
 import pt
 
 try:
     import distributed
-    from distributed import Client, LocalCluster
+    from distributed import Client, LocalCluster, SpecCluster
+    import xxhash  # noqa: F401, which pt.farm needs for mixed devices
 except ImportError:
-    print("skipped: Dask's distributed is not installed")
+    print("skipped: Dask's distributed, or xxhash, is not installed")
     sys.exit(77)
 from pt import farm
 from pt.farm import _task
@@ -46,6 +50,22 @@ def failing(name, part, codecs):
     if distributed.get_worker().name == 0:
         return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
     return slow(name, part, codecs)
+
+
+def damaged(name, part, codecs):
+    """Every other of a worker's first six films is not what was asked for; of three in a row it would be sent away."""
+    worker = distributed.get_worker()
+    worker.films = getattr(worker, "films", 0) + 1
+    time.sleep(0.15)
+    film = _task.render_part(name, part, frozenset())
+    if worker.name != 0 or worker.films not in (1, 3, 5):
+        return film
+    data = zlib.decompress(film.data)
+    if worker.films == 1:
+        return dataclasses.replace(film, data=film.data[:len(film.data) // 2])
+    if worker.films == 3:
+        return dataclasses.replace(film, data=zlib.compress(data[:-9] + bytes([data[-9] ^ 1]) + data[-8:]))
+    return _task.render_part(name, Part(part.first, part.end + 1, part.tiles), frozenset())
 
 
 def whole(samples, target_error=0.0):
@@ -86,27 +106,66 @@ class Farm(unittest.TestCase):
         return self.cluster.workers[name].pid if hasattr(self.cluster.workers[name], "pid") else \
             self.cluster.workers[name].process.pid
 
-    def test_one_is_killed(self):
+    def stop(self, name, seconds):
+        """A worker, which goes on later: its parts come back, or the end does."""
+        process = self.process_of(name)
+        os.kill(process, signal.SIGSTOP)
+        threading.Timer(seconds, os.kill, (process, signal.SIGCONT)).start()
+
+    def test_one_of_two_is_killed(self):
         found = self.farm(progress=self.after_parts(2, lambda: os.kill(self.process_of(1), signal.SIGKILL)))
         self.assertGreaterEqual(found.progress.lost, 1)
         self.assertEqual(found.film, self.whole)
 
-    def test_one_is_stopped(self):
-        stopped = []
-
-        def stop():
-            stopped.append(self.process_of(1))
-            os.kill(stopped[0], signal.SIGSTOP)
-            threading.Timer(4.0, os.kill, (stopped[0], signal.SIGCONT)).start()  # its part comes back, or the end does
-        found = self.farm(progress=self.after_parts(2, stop))
+    def test_one_of_two_is_stopped(self):
+        found = self.farm(progress=self.after_parts(2, lambda: self.stop(1, 4.0)))
         self.assertGreater(found.progress.issued, found.progress.parts)
         self.assertEqual(found.film, self.whole)
 
-    def test_one_always_fails(self):
-        found = self.farm(task=failing)
+    def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
+        def harm():
+            os.kill(self.process_of(1), signal.SIGKILL)
+            self.stop(2, 4.0)
+        found = self.farm(workers=4, task=failing, progress=self.after_parts(4, harm))
         self.assertGreaterEqual(found.progress.failed, 1)
+        self.assertGreaterEqual(found.progress.lost, 1)
         self.assertIn("this disk is full", found.progress.messages)
         self.assertEqual(found.film, self.whole)
+
+    def test_damaged_and_wrong_films(self):
+        """None enters the sum, and each is told."""
+        found = self.farm(task=damaged)
+        told = "\n".join(found.progress.messages)
+        for reason in ("a part's bytes are damaged", "its checksum does not fit", "other samples than were asked for"):
+            self.assertRegex(told, reason)
+        self.assertEqual(found.film, self.whole)
+
+    def test_mixed_devices(self):
+        """Mesa compiles for vectors of two widths, which are two models to it."""
+        nannies = {width: {"cls": distributed.Nanny,
+                           "options": {"nthreads": 1, "env": {"LP_NATIVE_VECTOR_WIDTH": width}}}
+                   for width in ("128", "256")}
+        with SpecCluster(nannies, {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}},
+                         silence_logs=50) as cluster, Client(cluster) as client:
+            alone = farm.render(client, JOB, 2**20, options=QUICK, progress=lambda seen, film: film and seen.messages)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "kept.ptfilm")
+                options = dataclasses.replace(QUICK, checkpoint=path)
+                begun = farm.render(client, JOB, 2**20, options=dataclasses.replace(options, mixed=True),
+                                    progress=lambda seen, film: film and " and " in film.info.device)
+                samples = max(tile.samples[-1].stop for tile in begun.film.tiles)
+                with self.assertRaisesRegex(farm.FarmError, "refused: .* and the others .* and .*mixed"):
+                    farm.render(client, JOB, samples, options=options)
+                mixed = farm.render(client, JOB, samples, options=dataclasses.replace(options, mixed=True))
+        self.assertEqual(len(alone.devices), 1)
+        self.assertRegex(alone.progress.messages[0], r"is refused: it has llvmpipe .*, and the others llvmpipe .*mixed")
+        self.assertEqual([re.search(r"\d+ bits", device)[0] for device in mixed.devices], ["128 bits", "256 bits"])
+        with self.assertRaises(pt.IncompatibleError):
+            mixed.film + alone.film
+        self.assertTrue((mixed.film.readback(pt.Quantity.SAMPLE_COUNT) == samples).all())
+        one, both = whole(samples).readback(), mixed.film.readback()
+        # The same samples, though a rounding may decide which surface a path meets.
+        self.assertLess(abs(both - one).mean(), 1e-3 * one.mean())
 
     def test_target_error(self):
         one = whole(4096, ERROR)

@@ -1,0 +1,125 @@
+"""The command line of pt-farm, and exit codes."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import pathlib
+import re
+import sys
+from collections.abc import Callable
+from typing import Any, NoReturn
+
+from pt._enums import Result
+
+# Exit codes, those of pt.
+INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
+CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
+                  Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
+                  Result.ERROR_NO_DEVICE: NO_DEVICE, Result.ERROR_OUT_OF_DEVICE_MEMORY: NO_DEVICE,
+                  Result.ERROR_SHADER: NO_DEVICE, Result.ERROR_DEVICE_LOST: LOST}
+
+PICTURES = (".exr", ".png", ".jpg", ".jpeg")
+
+# What `pt render` alone can do: its meaning would be lost.
+REFUSED = ("--time", "--crop", "--layers", "--alpha", "--preview-every", "--piece-rows", "--watch", "--shader-dir",
+           "--validation", "--submit-ms", "--format", "--describe", "--stats")
+
+
+def refuse(message: str, code: int = USAGE) -> NoReturn:
+    print(f"pt-farm: {message}", file=sys.stderr)
+    sys.exit(code)
+
+
+def at_least(least: float, kind: type) -> Callable[[str], Any]:
+    """A number of a command line."""
+    def read(text: str) -> Any:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not least <= value < float("inf"):
+            whole = "whole " if kind is int else ""
+            raise argparse.ArgumentTypeError(f"must be a {whole}number of {least:g} or more, is {text!r}")
+        return value
+    return read
+
+
+def parser() -> argparse.ArgumentParser:
+    root = argparse.ArgumentParser(prog="pt-farm", description="Renders scene files on a Dask cluster.",
+                                   allow_abbrev=False)
+    command = root.add_subparsers(dest="command", required=True).add_parser(
+        "render", allow_abbrev=False, help="render a scene",
+        epilog="All other options are those of `pt render`: --size, --spp, --error, --sampling, --seed, --set, ...")
+    command.add_argument("scene", metavar="SCENE")
+    command.add_argument("-o", "--output", action="append", default=[], metavar="IMAGE")
+    command.add_argument("--film", metavar="FILM")
+    command.add_argument("--standard-error", metavar="EXR")
+    command.add_argument("--png-bits", choices=("8", "16"), default="8")
+    where = command.add_mutually_exclusive_group()
+    where.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, as tls://host:8786")
+    where.add_argument("--local-workers", type=at_least(1, int), metavar="N",
+                       help="processes on this machine (default: 2)")
+    command.add_argument("--tls", nargs=3, metavar=("CA", "CERT", "KEY"), help="files, for a tls:// scheduler")
+    command.add_argument("--device", help="of each worker, as of pt render")
+    command.add_argument("--checkpoint", metavar="FILM")
+    command.add_argument("--resume", action="store_true")
+    command.add_argument("--part-seconds", type=at_least(0.1, float), default=5.0)
+    command.add_argument("--patience", type=at_least(0.1, float), default=10.0)
+    command.add_argument("--wait", type=at_least(1, float), default=300.0, metavar="SECONDS",
+                         help="for a worker that is ready (default: 300)")
+    command.add_argument("--mixed", action="store_true",
+                         help="take other devices and drivers than the first worker's")
+    command.add_argument("--frames", metavar="A-B")
+    command.add_argument("--skip-existing", action="store_true")
+    command.add_argument("--tev", nargs="?", const="", metavar="HOST:PORT")
+    command.add_argument("-q", "--quiet", action="store_true")
+    return root
+
+
+def numbered(pattern: str, frame: int | None) -> str:
+    """# signs become the frame's number, as with pt render --frames."""
+    if frame is None:
+        return pattern
+    place = re.search(r"#+(?=[^#]*$)", pattern)
+    if place is None:
+        refuse(f"{pattern}: with --frames the name must have # signs, for the number of the frame")
+    return pattern[:place.start()] + str(frame).zfill(len(place.group())) + pattern[place.end():]
+
+
+def check(arguments: argparse.Namespace, others: list[str]) -> None:
+    for word in others:
+        if word.partition("=")[0] in REFUSED:
+            refuse(f"{word}: a farm has no such option; see pt render")
+    if not (arguments.output or arguments.film):
+        refuse("-o or --film is missing: there is nothing to write")
+    if arguments.resume and not arguments.checkpoint:
+        refuse("--resume: needs --checkpoint, the file to go on from")
+    if arguments.tls and not arguments.scheduler:
+        refuse("--tls: needs --scheduler, as tls://host:8786")
+    if arguments.frames and arguments.checkpoint:
+        refuse("--checkpoint: --frames have none; --skip-existing goes on after the frames that are done")
+    if arguments.checkpoint and not arguments.resume and pathlib.Path(arguments.checkpoint).exists():
+        refuse(f"--checkpoint {arguments.checkpoint}: is there already; go on from it by --resume")
+    check_files(arguments)
+
+
+def check_files(arguments: argparse.Namespace) -> None:
+    """Now rather than after hours."""
+    wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
+    wanted += [(arguments.standard_error, (".exr",))] if arguments.standard_error else []
+    wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
+    for name, endings in wanted:
+        place = pathlib.Path(name)
+        if endings and place.suffix.lower() not in endings:
+            refuse(f"{name}: must end in {' or '.join(endings)}")
+        if not os.access(place.parent, os.W_OK | os.X_OK):
+            refuse(f"{name}: its folder {place.parent} is not there or cannot be written to", FILES)
+    names = [os.path.realpath(name) for name, _ in wanted]
+    if len(set(names)) < len(names) or os.path.realpath(arguments.scene) in names:
+        refuse("an output is named twice, or is the scene")
+
+
+def is_done(arguments: argparse.Namespace, frame: int | None) -> bool:
+    names = [*arguments.output, *filter(None, (arguments.film, arguments.standard_error))]
+    return all(pathlib.Path(numbered(name, frame)).exists() for name in names)

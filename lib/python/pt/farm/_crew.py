@@ -1,0 +1,122 @@
+"""Who works on a job: workers join, are told of it, and leave or are refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from pt._enums import Result
+from pt._library import library, version_text
+from pt.farm._errors import FarmError
+from pt.farm._identity import WORTH_ANOTHER_WORKER, LAST, Identity
+from pt.farm._progress import Progress
+from pt.farm._task import Outcome, Worker, introduce
+from pt.farm._workers import Done, Member, Try, addresses, now, submit
+
+MOST_FAILURES = 3  # of a worker, one after the other, until it gets nothing more
+LOOK_SECONDS = 0.25  # between questions to the scheduler who is there: a few kilobytes for a hundred workers
+
+
+class Crew:
+    """identity: of the films that there are already. mixed: other devices may join, too."""
+
+    def __init__(self, client: Any, packed: bytes, done: Done, progress: Progress, identity: Identity | None, *,
+                 mixed: bool, patience: float) -> None:
+        self._client, self._packed, self._done, self._progress = client, packed, done, progress
+        self.identity, self._goes_on = identity, identity is not None
+        self._mixed, self._patience = mixed, patience
+        self._members: dict[str, Member] = {}
+        self._looked = -LOOK_SECONDS
+        self._worker_time = now()
+
+    def __iter__(self) -> Iterator[Member]:
+        return iter(self._members.values())
+
+    def _count(self) -> int:
+        self._progress.workers = sum(member.facts is not None and not member.is_banned for member in self)
+        return self._progress.workers
+
+    @property
+    def is_there(self) -> bool:
+        """Whether a worker has been found fit."""
+        return any(member.facts for member in self)
+
+    def look(self) -> list[Try]:
+        """Who has come and gone; what those who have gone had to do. FarmError: nobody can work."""
+        if now() - self._looked < LOOK_SECONDS:
+            return []
+        try:
+            there = addresses(self._client)
+        except Exception as error:
+            raise FarmError(f"the scheduler has gone: {type(error).__name__}: {error}",
+                            Result.ERROR_DEVICE_LOST) from error
+        self._looked = now()
+        for address in there - set(self._members):
+            member = self._members[address] = Member(address, now())
+            member.introduction = submit(self._client, address, self._done, introduce, self._packed)
+        lost = [each for address in set(self._members) - there for each in self._members.pop(address).tries.values()]
+        usable = [member for member in self if not member.is_banned]
+        if self._members and not usable:
+            raise FarmError("every worker has failed or was refused: " + "; ".join(self._progress.messages[-4:]),
+                            self._progress.last_result)
+        if self._count():
+            self._worker_time = now()
+        elif now() - self._worker_time > self._patience:
+            raise FarmError(f"no worker is ready after {self._patience:g} s; the scheduler has {len(self._members)}",
+                            Result.ERROR_NO_DEVICE)
+        return lost
+
+    def of_introduction(self, future: Any) -> Member | None:
+        return next((member for member in self if member.introduction is not None
+                     and member.introduction.key == future.key), None)
+
+    def of_part(self, future: Any) -> Member | None:
+        return next((member for member in self if future.key in member.tries), None)
+
+    def meet(self, member: Member, outcome: Outcome | None, reason: str) -> None:
+        """After its introduction."""
+        member.introduction = None
+        if outcome is None:
+            self._ban(member, reason)  # if it has died, it will be gone at the next look
+        elif outcome.error:
+            self.blame(member, outcome)
+            member.is_banned = True
+        else:
+            assert outcome.worker is not None
+            self._compare(member, outcome.worker)
+
+    def blame(self, member: Member, outcome: Outcome) -> None:
+        """For an error. FarmError: no other worker could do better."""
+        self._progress.failed += 1
+        self._progress.messages.append(outcome.error)
+        self._progress.last_result = outcome.result
+        if not outcome.may_help_elsewhere:
+            raise FarmError(outcome.error, outcome.result)
+        member.failures += 1
+        member.is_banned = member.failures >= MOST_FAILURES
+
+    def _compare(self, member: Member, facts: Worker) -> None:
+        mine = version_text(library())
+        if facts.version != mine:
+            self._ban(member, f"it has version {facts.version} of pt, and the coordinator {mine}")
+            return
+        if self.identity is None:
+            self.identity = facts.identity
+        differences = facts.identity.differences(self.identity, (LAST,) if self._mixed else ())
+        others = [name for name in differences if name not in WORTH_ANOTHER_WORKER]
+        if others and self._goes_on:
+            raise FarmError(f"the checkpoint is of another picture: its {', '.join(others)} differs",
+                            Result.ERROR_INCOMPATIBLE)
+        if differences == [LAST]:
+            models, theirs = (" and ".join(sorted(each.models)) for each in (facts.identity, self.identity))
+            self._ban(member, f"it has {models}, and the others {theirs}: films of different devices do not add up to "
+                              "the bits of one (mixed allows it)")
+        elif differences:
+            self._ban(member, f"its films would differ from the others in {', '.join(differences)}")
+        else:
+            member.facts = facts
+            self._count()
+
+    def _ban(self, member: Member, reason: str) -> None:
+        member.is_banned = True
+        self._progress.messages.append(f"worker {member.address} is refused: {reason}")

@@ -1,0 +1,80 @@
+"""A picture on the workers of a cluster: what its tiles are to have, until it is done."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from pt._enums import Result as Outcome
+from pt._enums import Sampling
+from pt._film import Film
+from pt._library import library
+from pt.farm._coordinator import Coordinator
+from pt.farm._errors import FarmError
+from pt.farm._job import Job
+from pt.farm._options import Options, Result
+from pt.farm._part import grid_shape
+from pt.farm._progress import Progress
+
+FIRST_LOOK = 16  # samples a pixel, from which on there is an error to see
+
+
+def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
+           options: Options = Options(), progress: Callable[[Progress, Film | None], object] = lambda *_: None
+           ) -> Result:
+    """Renders a picture on the workers of a Dask cluster.
+
+    client         a distributed.Client
+    samples        of a pixel; with a target error the most
+    target_error   0: none. Else relative, as of Context.accumulate, with whose samples in each pixel it ends
+    progress       called some times a second with the counts and the film so far, which it must not change; returning
+                   True ends the rendering
+
+    FarmError: no worker can do it. Whatever dies meanwhile, but this process, changes no bit; and this process goes on
+    from its checkpoint.
+    """
+    if options.mixed:
+        try:
+            importlib.import_module("xxhash")
+        except ImportError as error:
+            raise FarmError("mixed: the Python module xxhash is needed, to say so in films") from error
+    coordinator = Coordinator(client, job, options, progress)
+    try:
+        if target_error:
+            return _to_error(coordinator, job, samples, target_error, sampling)
+        return _to_samples(coordinator, job, samples)
+    finally:
+        coordinator.close()
+
+
+def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
+    """By and by, so that the picture so far is one of all pixels."""
+    shape = grid_shape(job.settings.width, job.settings.height)
+    goal = FIRST_LOOK
+    while goal < samples and coordinator.run(np.full(shape, goal, np.uint32)):
+        goal *= 4
+    ended = coordinator.run(np.full(shape, samples, np.uint32))
+    coordinator.look()
+    return coordinator.finish("samples" if ended else "stopped")
+
+
+def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
+    goals = np.full(grid_shape(job.settings.width, job.settings.height), min(FIRST_LOOK, samples), np.uint32)
+    while coordinator.run(goals):
+        stats = coordinator.look()
+        if sampling == Sampling.UNIFORM:
+            count = int(goals.max())
+            if stats.relative_rmse_high <= target_error:
+                return coordinator.finish("error")
+            if count >= samples:
+                return coordinator.finish("limit")
+            goals = np.full(goals.shape, min(library().pt_next_check(count), samples), np.uint32)
+            continue
+        result, goals = coordinator.film.plan(target_error, samples)
+        if result != Outcome.PENDING:
+            return coordinator.finish("error" if result == Outcome.TARGET_REACHED else "limit")
+    coordinator.look()
+    return coordinator.finish("stopped")

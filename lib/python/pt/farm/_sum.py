@@ -1,0 +1,85 @@
+"""The picture so far, as the exact sum of the parts that came back, and its file."""
+
+from __future__ import annotations
+
+import pathlib
+from collections import deque
+
+from pt._errors import IncompatibleError
+from pt._film import Film
+from pt._files import Path, write_atomically
+from pt.farm import _packing
+from pt.farm._identity import Identity, identity_of, with_models
+from pt.farm._workers import now
+
+PIXEL_BYTES = 112
+# Adding to a film costs by its size and not by the part's, so that parts are first added to each other. Of batches of 1/2,
+# 1/8 and 1/16 of a film, the whole took 5.9, 5.9 and 6.8 s of a processor, and 5.6, 3.7 and 3.4 films of memory.
+BATCH_SHARE = 1 / 8
+SHOW_SHARE = 0.1  # of the time, for adding less than that, so that the picture so far is recent
+
+
+class Sum:
+    """mixed: films of other devices are added too, and it says of which."""
+
+    def __init__(self, kept: Film | None, width: int, height: int, *, mixed: bool = False) -> None:
+        self.film = kept
+        self.identity: Identity | None = None if kept is None else identity_of(kept.to_bytes())
+        self._mixed = mixed
+        self._models = self.identity.models if self.identity else frozenset()
+        self._parts: list[Film] = []
+        self._bytes = 0
+        self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
+        self._merged, self._cost = now(), 0.0
+
+    def add(self, part: Film, size: int, models: frozenset[str]) -> None:
+        """size: of its bytes. models: of the device that took its samples."""
+        if self._mixed and not models <= self._models:
+            self.merge()
+            self._models |= models
+            if self.film is not None:
+                self.film = Film(with_models(self.film.to_bytes(), self._models))
+        if self._mixed and models != self._models:
+            part = Film(with_models(part.to_bytes(), self._models))
+        self._parts.append(part)
+        self._bytes += size
+
+    def is_due(self) -> bool:
+        if not self._parts:
+            return False
+        return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
+
+    def merge(self) -> None:
+        """First parts with each other, as sums of few tiles are short."""
+        if not self._parts:
+            return
+        start, sums = now(), deque(self._parts)
+        self._parts, self._bytes = [], 0
+        while len(sums) > 1:  # the shortest two, nearly
+            film = sums.popleft()
+            film += sums.popleft()
+            sums.append(film)
+        if self.film is None:
+            self.film = sums.pop()
+        else:
+            self.film += sums.pop()
+        self._merged = now()
+        self._cost = self._merged - start
+
+
+def write_film(film: Film, path: Path) -> None:
+    """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
+    both."""
+    module = _packing.zstd()
+    data = film.to_bytes()
+    write_atomically(path, module.compress(data) if module else data)
+
+
+def read_film(path: Path) -> Film | None:
+    """None: there is none yet."""
+    if not pathlib.Path(path).exists():
+        return None
+    try:
+        return Film.load(path)
+    except IncompatibleError as error:
+        raise IncompatibleError(f"{path}: {error}") from error
