@@ -65,14 +65,16 @@ private:
     double path(const pt_render &render, glm::dvec2 place) {
         const double time =
             camera_.shutter_open + share() * (camera_.shutter_close - camera_.shutter_open); // of its whole way
-        const double pixel = camera_.vertical_extent / render.height;
-        glm::dvec3 origin =
-            position_ + pixel * ((place.x - 0.5 * render.width) * right_ - (place.y - 0.5 * render.height) * up_);
-        glm::dvec3 direction = forward_;
+        const bool is_parallel = camera_.projection == PT_PROJECTION_ORTHOGRAPHIC;
+        const double image_height = is_parallel ? camera_.vertical_extent : 2.0 * std::tan(0.5 * camera_.vertical_fov);
+        const glm::dvec3 across = image_height / render.height *
+                                  ((place.x - 0.5 * render.width) * right_ - (place.y - 0.5 * render.height) * up_);
+        glm::dvec3 origin = is_parallel ? position_ + across : position_;
+        glm::dvec3 direction = is_parallel ? forward_ : glm::normalize(forward_ + across);
         glm::dvec3 radiance(0.0);
         glm::dvec3 weight(1.0);
         for (std::uint32_t vertex = 0; vertex < render.max_path_length; ++vertex) {
-            const Hit hit = first_hit(origin, direction, time);
+            const Hit hit = first_hit(origin, direction, time, vertex == 0);
             if (std::isinf(hit.distance))
                 break;
             radiance += weight * colour(scene_.materials[hit.material].emission);
@@ -93,10 +95,16 @@ private:
         return glm::normalize(normal + glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), z));
     }
 
-    Hit first_hit(const glm::dvec3 &origin, const glm::dvec3 &direction, double time) const {
+    bool is_hidden(std::uint32_t material) const {
+        return scene_.material_flags && scene_.material_flags[material] == PT_MATERIAL_HIDDEN_FROM_CAMERA;
+    }
+
+    Hit first_hit(const glm::dvec3 &origin, const glm::dvec3 &direction, double time, bool is_of_camera) const {
         Hit nearest;
         for (std::uint32_t i = 0; i < scene_.sphere_count; ++i) {
             const pt_sphere &sphere = scene_.spheres[i];
+            if (is_of_camera && is_hidden(sphere.material))
+                continue;
             const glm::dvec3 to_centre = vector(sphere.center) + time * vector(sphere.motion) - origin;
             const double along = glm::dot(to_centre, direction);
             const glm::dvec3 across = to_centre - along * direction;
@@ -113,6 +121,8 @@ private:
         }
         for (std::uint32_t i = 0; i < scene_.plane_count; ++i) {
             const pt_plane &plane = scene_.planes[i];
+            if (is_of_camera && is_hidden(plane.material))
+                continue;
             const glm::dvec3 normal = vector(plane.normal);
             const double slope = glm::dot(normal, direction);
             const double distance = -(glm::dot(normal, origin) + plane.offset) / slope;

@@ -1,0 +1,101 @@
+// Images of random scenes beside those of a path tracer of their own in double, block of pixels by block. Used by tests
+// of whole images.
+#pragma once
+
+#include "tests/support/context_fixture.h"
+#include "tests/support/double_path_tracer.h"
+#include "tests/support/render_image.h"
+#include "tests/support/scene_of.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace light_in_double {
+
+inline constexpr glm::uvec2 picture(24, 16);
+inline constexpr glm::uvec2 block(8, 8);
+inline constexpr std::uint32_t image_count = 12;
+inline constexpr std::uint32_t samples_of_image = 32;
+// That one of 120 blocks is off by more, in standard errors that 12 images tell, has a chance of 1/200; seeds are
+// fixed.
+inline constexpr double most_errors = 6.5;
+
+struct Given {
+    std::vector<pt_material> materials{{{0.8F, 0.6F, 0.4F}, {0, 0, 0}, {0, 0, 0}, 0},
+                                       {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0},
+                                       {{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {3, 4, 5}, 0}};
+    std::vector<std::uint32_t> flags = {0, 0, 0};
+    std::vector<pt_sphere> spheres;
+    std::vector<pt_plane> planes{{{0, 1, 0}, 1.5, 1, 0}};
+    pt_camera camera{};
+
+    pt_scene scene() const {
+        pt_scene scene = scene_of(materials, spheres, planes);
+        scene.material_flags = flags.data();
+        return scene;
+    }
+};
+
+using Blocks = std::vector<DoublePathTracer::Estimate>;
+
+inline pt_render picture_of(std::uint32_t sampler) {
+    pt_render render{};
+    render.struct_size = sizeof render;
+    render.width = picture.x;
+    render.height = picture.y;
+    render.max_path_length = 3;
+    render.sampler = sampler;
+    return render;
+}
+
+inline Blocks exact_blocks(const Given &given, std::uint32_t samples) {
+    const pt_scene scene = given.scene();
+    DoublePathTracer tracer(scene, given.camera, 7);
+    Blocks blocks;
+    for (std::uint32_t y = 0; y < picture.y; y += block.y)
+        for (std::uint32_t x = 0; x < picture.x; x += block.x)
+            blocks.push_back(tracer.of_rectangle(picture_of(PT_SAMPLER_RANDOM), {x, y}, block, samples));
+    return blocks;
+}
+
+inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
+    double sum = 0.0;
+    for (std::uint32_t i = 0; i < block.x * block.y; ++i)
+        for (std::uint32_t colour = 0; colour < 3; ++colour)
+            sum += image[3 * ((first.y + i / block.x) * picture.x + first.x + i % block.x) + colour];
+    return sum / (3.0 * block.x * block.y);
+}
+
+class LightInDouble : public ContextFixture {
+protected:
+    // How far off the block is that is farthest off, in standard errors. The images have other seeds and, as the points
+    // of one sampler do not depend on the seed, other samples.
+    double largest_error(const Given &given, const Blocks &exact, std::uint32_t sampler) {
+        std::vector<std::vector<float>> images;
+        pt_render render = picture_of(sampler);
+        for (render.seed = 1; render.seed <= image_count; ++render.seed) {
+            images.push_back(render_image(context(), given.scene(), given.camera, render, samples_of_image));
+            render.first_sample += samples_of_image;
+        }
+        double largest = 0.0;
+        for (std::uint32_t i = 0; i < exact.size(); ++i) {
+            const glm::uvec2 first = block * glm::uvec2(i % (picture.x / block.x), i / (picture.x / block.x));
+            double sum = 0.0;
+            double squares = 0.0;
+            for (const std::vector<float> &image : images) {
+                const double mean = mean_of_block(image, first);
+                sum += mean;
+                squares += mean * mean;
+            }
+            const double mean = sum / image_count;
+            const double variance = (squares / image_count - mean * mean) / (image_count - 1);
+            largest = std::max(largest, std::abs(mean - exact[i].mean) /
+                                            std::sqrt(variance + exact[i].variance + 1e-12)); // of a black block
+        }
+        return largest;
+    }
+};
+
+} // namespace light_in_double
