@@ -5,6 +5,7 @@
 #include "cli/figure/view_frame.h"
 
 #include <limits>
+#include <numbers>
 
 namespace cli {
 
@@ -73,9 +74,9 @@ private:
 
 // The full vertical angle of the perspective: narrow, as portraits are taken, since wide ones make balls at the sides
 // of the picture look like eggs.
-inline constexpr double figure_vertical_fov = 0.35; // radians, 20 degrees
+inline constexpr double figure_vertical_fov = 20.0 * std::numbers::pi / 180.0;
 
-// The share of the picture that stays free at the sides.
+// The share of the picture that stays free at the sides: by taste, as is the angle.
 inline constexpr double figure_margin = 0.03;
 
 // points: what has to be seen as well, like the corners of a box. extents: of all of them. There must be one at least.

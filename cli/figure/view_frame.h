@@ -39,9 +39,9 @@ std::optional<glm::dvec3> parse_up(std::string_view text);
 
 // How large the data are along up, as a share of how large they are across it: 0 for a flat layer, 1 for a cube.
 //
-// The three-quarter view is 30 degrees from the front towards the right, so that neither an edge of a box nor its
-// diagonal is in the line of sight, and from 22 degrees above. Flat data are seen from higher, up to 50 degrees for a
-// disc, as they would hide themselves; what has no thickness at all is seen from the top.
+// By taste the three-quarter view is 30 degrees from the front towards the right, so that neither an edge of a box nor
+// its diagonal is in the line of sight, and from 22 degrees above. Flat data are seen from higher, up to 50 degrees for
+// a disc, as they would hide themselves; what has no thickness at all is seen from the top.
 ViewFrame view_frame(const ViewDirection &view, const glm::dvec3 &up, double relative_height);
 
 // The directions in the data's coordinates that front and right are seen from. Right is x, or y where up is nearest to

@@ -137,7 +137,7 @@ TEST(CameraFitOfOneBall, PerspectiveIsExact) {
     const Cloud ball{{3.0, -2.0, 5.0}, {0.5}, {}};
     for (const double aspect : {0.5, 1.0, 2.0}) {
         const FittedCamera camera = fitted(ball, along_z, Projection::perspective, aspect);
-        const double half_angle = std::atan(used * std::tan(0.175) * std::min(aspect, 1.0));
+        const double half_angle = std::atan(used * std::tan(0.5 * cli::figure_vertical_fov) * std::min(aspect, 1.0));
         const double distance = 0.5 / std::sin(half_angle);
         EXPECT_NEAR(camera.position[0], 3.0, rounding);
         EXPECT_NEAR(camera.position[1], -2.0, rounding);

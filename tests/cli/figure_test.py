@@ -162,7 +162,7 @@ class Refusals(FigureTest):
                                "--radius O=1,H=2: a.xyz: the type <C> is none of those with a radius, H and O"),
                               (["--radius", "O=1,O=2"], "--radius: must be a number from"),
                               (["--radius", "O=-1"], "--radius: must be a number from"),
-                              (["--colormap", "magna"], '--colormap: unknown colour map "magna", did you mean "magma"?'),
+                              (["--colormap", "magna"], 'unknown colour map "magna", did you mean "magma"?'),
                               (["--colormap", "magma"], "--colormap: needs --color and a column of numbers"),
                               (["--color", "type", "--color-range", "0,1"],
                                "--color-range: needs --color and columns of numbers, which type is not"),

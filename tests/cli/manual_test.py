@@ -13,8 +13,8 @@ from command_line import PT, SCENES, CommandLineTest, main, read_png
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
 
-SECTIONS = {"camera": "{%s}", "figure": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}', "spheres": "[{%s}]",
-            "particles": "[{%s}]", "planes": "[{%s}]"}
+SECTIONS = {"camera": "{%s}", "figure": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
+            "spheres": "[{%s}]", "particles": "[{%s}]", "planes": "[{%s}]"}
 # What a section has to have beside the key that is looked at.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},

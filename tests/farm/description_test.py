@@ -57,7 +57,8 @@ class Description(unittest.TestCase):
                     file.write(text)
             self.program("--film", "a.ptfilm")
             description = json.loads(self.program("--describe", "-"))
-            wanted = subprocess.run(["zstd", "-dcq", "a.ptfilm"], cwd=self.folder, check=True, capture_output=True).stdout
+            unpack = ["zstd", "-dcq", os.path.join(self.folder, "a.ptfilm")]
+            wanted = subprocess.run(unpack, check=True, capture_output=True).stdout
         job = pickle.loads(pickle.dumps(job_of(description, None)))  # as it goes to workers
         os.environ.update(job.environment)
         with pt.Context() as context:

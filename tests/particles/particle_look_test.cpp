@@ -149,22 +149,38 @@ TEST(TypicalRadius, IsHalfOfTheSpacing) {
     EXPECT_EQ(cli::typical_radius(std::vector<double>{1, 2, 3, 1, 2, 3}), 1.0); // no two are apart
 }
 
-// Against all pairs.
+// The median of the distances to the n-th neighbour, of all pairs.
+double median_distance(const std::vector<double> &positions, std::size_t n) {
+    const std::size_t count = positions.size() / 3;
+    std::vector<double> nth;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::vector<double> distances;
+        for (std::size_t j = 0; j < count; ++j)
+            distances.push_back(std::hypot(positions[3 * i] - positions[3 * j],
+                                           positions[3 * i + 1] - positions[3 * j + 1],
+                                           positions[3 * i + 2] - positions[3 * j + 2]));
+        std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(n), distances.end());
+        nth.push_back(distances[n]); // the first is 0, of itself
+    }
+    std::nth_element(nth.begin(), nth.begin() + static_cast<std::ptrdiff_t>(count / 2), nth.end());
+    return nth[count / 2];
+}
+
 TEST(TypicalRadius, IsTheMedianOfAll) {
     std::mt19937 random(20261123);
     std::uniform_real_distribution<double> share(0.0, 1.0);
-    std::vector<double> positions;
-    for (int i = 0; i < 501; ++i)
-        positions.insert(positions.end(), {3.0 * share(random), share(random), 0.2 * share(random)});
-    std::vector<double> nearest(501, INFINITY);
-    for (std::size_t i = 0; i < 501; ++i)
-        for (std::size_t j = 0; j < 501; ++j)
-            if (i != j)
-                nearest[i] = std::min(nearest[i], std::hypot(positions[3 * i] - positions[3 * j],
-                                                             positions[3 * i + 1] - positions[3 * j + 1],
-                                                             positions[3 * i + 2] - positions[3 * j + 2]));
-    std::sort(nearest.begin(), nearest.end());
-    EXPECT_NEAR(cli::typical_radius(positions), 0.5 * nearest[250], 1e-15);
+    std::vector<double> lattice;
+    std::vector<double> cloud;
+    std::vector<double> surface;
+    for (int i = 0; i < 1000; ++i) {
+        lattice.insert(lattice.end(), {i % 10 + 0.2 * share(random), i / 10 % 10 + 0.2 * share(random),
+                                       i / 100 + 0.2 * share(random)});
+        cloud.insert(cloud.end(), {3.0 * share(random), share(random), 0.2 * share(random)});
+        surface.insert(surface.end(), {share(random), 2.5, 2.0 * share(random)});
+    }
+    EXPECT_NEAR(cli::typical_radius(lattice), 0.5 * median_distance(lattice, 1), 1e-15);
+    EXPECT_NEAR(cli::typical_radius(cloud), 0.5 * median_distance(cloud, 4), 1e-15);
+    EXPECT_NEAR(cli::typical_radius(surface), 0.5 * median_distance(surface, 4), 1e-15);
 }
 
 TEST(ParticleColour, OfElementsIsJmols) {
