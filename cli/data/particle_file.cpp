@@ -181,22 +181,43 @@ void read_frame(FrameFile &frames, std::int64_t index, const std::string &file, 
     refuse_frame(file, query, count);
 }
 
+// Whether the file has one frame alone, which then has been read.
+bool read_only_frame(FrameFile &frames, ParticleRows &rows) {
+    try {
+        if (!frames.next()) {
+            return false;
+        }
+        frames.read(rows);
+        return !frames.next();
+    } catch (const Failure &) { // of a frame that may be followed by the one that is wanted
+        return false;
+    }
+}
+
 void read_frames(const std::string &path, std::string_view format, std::unique_ptr<DataStream> stream,
                  const ParticleQuery &query, ParticleRows &rows) {
     const std::string file = stream->name();
-    const auto frames = frame_file(format, std::move(stream));
+    const bool is_packed = !stream->size_left();
+    auto frames = frame_file(format, std::move(stream));
     if (query.frame >= 0) {
         read_frame(*frames, query.frame, file, query, rows);
     } else if (!is_regular_file(path)) {
         read_last_frame(*frames, file, query, rows);
     } else {
+        // What is packed is unpacked twice if frames are to be counted, and most often there is one.
+        if (is_packed && query.frame == -1) {
+            if (read_only_frame(*frames, rows)) {
+                return;
+            }
+            frames = frame_file(format, open_stream(path));
+        }
         const FrameCount found = count_frames(*frames, query.frame);
         if (query.frame < -found.count) {
             refuse_frame(file, query, found.count);
         }
         if (frames->go_to(found.wanted)) {
             read_frame(*frames, 0, file, query, rows);
-        } else { // it is compressed
+        } else {
             read_frame(*frame_file(format, open_stream(path)), query.frame + found.count, file, query, rows);
         }
     }

@@ -102,7 +102,8 @@ TEST(Nff, MessagesNamePlaceValueAndRule) {
     EXPECT_EQ(nff_message("s 0", "q 3"), "a.nff:15: \"q\": must be one of v, b, l, f and s");
     EXPECT_EQ(nff_message("-1.5", "0"), "a.nff:15: the radius of a sphere, \"s\", must not be 0");
     EXPECT_EQ(nff_message("-1.5", "nan"), "a.nff:15: the radius of a sphere, \"s\", = \"nan\": must be finite");
-    EXPECT_EQ(nff_message("-1.5", "1,5"), "a.nff:15: the radius of a sphere, \"s\", = \"1,5\": must be a number");
+    EXPECT_EQ(nff_message("-1.5", "1,5"),
+              "a.nff:15: the radius of a sphere, \"s\", = \"1,5\": must be a number, with a decimal point");
     EXPECT_EQ(nff_message(" -1.5 ", " "),
               "a.nff:15: the file ends where the radius of a sphere, \"s\", must be: it was cut short");
     EXPECT_EQ(nff_message("angle 90", "angle 180"), "a.nff:6: angle: must be above 0 and below 180");

@@ -183,7 +183,13 @@ TEST(OddFile, FramesAreCountedFromBothEnds) {
             EXPECT_EQ(refusal_of("a.xyz", bytes, frame),
                       "a.xyz: frame " + std::to_string(frame) + ": the file has 5000 frames, from 0 or -5000 to 4999");
     }
+    // What is wrong in another frame than the wanted one does not matter.
+    const std::string second_is_good = "1\n\nH 0 zero 0\n" + many_frames(1);
+    EXPECT_EQ(particles_in("a.xyz", second_is_good).count(), 1U);
+    EXPECT_EQ(particles_in("a.xyz", packed::gzip(second_is_good)).count(), 1U);
+    EXPECT_EQ(refusal_of("a.xyz", packed::gzip(second_is_good), 0), "a.xyz:3: y = \"zero\": must be a number");
     // Lines are counted from the begin of the file all the same.
+    EXPECT_EQ(refusal_of("a.xyz", packed::zstd("1\n\nH 0 zero 0\n")), "a.xyz:3: y = \"zero\": must be a number");
     EXPECT_EQ(refusal_of("a.xyz", many_frames(7) + "1\n\nH 0 zero 0\n"), "a.xyz:24: y = \"zero\": must be a number");
 }
 

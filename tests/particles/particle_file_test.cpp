@@ -118,6 +118,56 @@ TEST(ParticleFile, TiltedBoxIsThatWithinItsBounds) {
         EXPECT_NEAR(box->edges[i][i], straight->edges[i][i], 1e-14);
 }
 
+// What a box has, and where shares of it are, for boxes that do not begin at 0.
+TEST(ParticleFile, BoxesOfTextAreThoseThatItSays) {
+    const TemporaryFolder folder;
+    const auto particles = [&folder](const std::string &name, const std::string &text) {
+        folder.write(name, text);
+        return read_particles(folder.file(name), {});
+    };
+    const std::string head = "ITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ";
+    const std::string atoms = "ITEM: ATOMS id xs ys zs\n1 0.5 0.25 0.125\n";
+    const Particles straight = particles("a.dump", head + "pp ff ps\n1 3\n-2 2\n10 18\n" + atoms);
+    EXPECT_EQ(straight.positions, (std::vector<double>{2, -1, 11}));
+    EXPECT_EQ(straight.box->origin, (std::array<double, 3>{1, -2, 10}));
+    EXPECT_EQ(straight.box->periodic, (std::array<bool, 3>{true, false, false}));
+    // The edges (2, 0, 0), (1, 4, 0) and (1, -2, 8) from (1, -2, 10) are within 1 to 5, -4 to 2 and 10 to 18.
+    const Particles tilted = particles("a.dump", head + "xy xz yz pp pp pp\n1 5 1\n-4 2 1\n10 18 -2\n" + atoms);
+    EXPECT_EQ(tilted.box->origin, (std::array<double, 3>{1, -2, 10}));
+    EXPECT_EQ(tilted.box->edges[0], (std::array<double, 3>{2, 0, 0}));
+    EXPECT_EQ(tilted.positions, (std::vector<double>{2.375, -1.25, 11}));
+    const Particles general = particles("a.dump", head + "abc origin pp pp pp\n2 0 1 1\n0 4 0 -2\n1 0 8 10\n" + atoms);
+    EXPECT_EQ(general.box->origin, (std::array<double, 3>{1, -2, 10}));
+    EXPECT_EQ(general.box->edges[2], (std::array<double, 3>{1, 0, 8}));
+    EXPECT_EQ(general.positions, (std::vector<double>{2.125, -1, 11.5}));
+    const Particles xyz =
+        particles("a.xyz", "1\nLattice=\"1 2 3 4 5 6 7 8 9\" Origin='-1 0 1' pbc={F T F} Properties=pos:R:3\n0 0 0\n");
+    EXPECT_EQ(xyz.box->edges[1], (std::array<double, 3>{4, 5, 6}));
+    EXPECT_EQ(xyz.box->origin, (std::array<double, 3>{-1, 0, 1}));
+    EXPECT_EQ(xyz.box->periodic, (std::array<bool, 3>{false, true, false}));
+    const Particles plain = particles("a.xyz", "1\nLattice=\"1 2 3 4 5 6 7 8 9\"\nH 0 0 0\n");
+    EXPECT_EQ(plain.box->periodic, (std::array<bool, 3>{true, true, true}));
+}
+
+// On both sides of every bound, and on it.
+TEST(ParticleFile, ConditionsEndWhereTheySay) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", "x,y,z\n1,0,0\n2,0,0\n3,0,0\n");
+    const auto kept = [&folder](const std::string &condition) {
+        std::string xs;
+        const Particles particles = read_particles(folder.file("a.csv"), query_of({}, {condition}));
+        for (std::size_t i = 0; i < particles.count(); ++i)
+            xs += std::to_string(static_cast<int>(particles.positions[3 * i]));
+        return xs;
+    };
+    EXPECT_EQ(kept("x < 2"), "1");
+    EXPECT_EQ(kept("x <= 2"), "12");
+    EXPECT_EQ(kept("x > 2"), "3");
+    EXPECT_EQ(kept("x >= 2"), "23");
+    EXPECT_EQ(kept("x == 2"), "2");
+    EXPECT_EQ(kept("x != 2"), "13");
+}
+
 TEST(ParticleFile, ConditionsHoldTogether) {
     const Particles all = read_particles(stored("cloud.csv"), query_of({"element", "charge"}));
     const Particles some =
