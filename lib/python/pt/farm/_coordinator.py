@@ -56,9 +56,16 @@ class Coordinator:
 
     def run(self, goals: Goals) -> bool:
         """Until the film has these samples by tile; False if progress() asked to stop."""
-        missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
-        self._waiting.extend((None, part) for part in missing)
         self._progress.samples_wanted = float(goals.mean())
+        while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
+            missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
+            if not missing and self._crew.is_there:
+                return True
+            self._waiting.extend((None, part) for part in missing)
+            self._work()
+        return False
+
+    def _work(self) -> None:
         while (self._waiting or self._open or not self._crew.is_there) and not self._stopped:
             for lost in self._crew.look():
                 self._lose(lost, "its worker died")
@@ -66,7 +73,6 @@ class Coordinator:
             self._hand_out()
             self._take_in()
         self._sum.merge()
-        return not self._stopped
 
     @property
     def film(self) -> Film:
