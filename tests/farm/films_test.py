@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 import unittest
 import zlib
@@ -24,8 +23,10 @@ except ImportError:
     print("skipped: Dask's distributed, or xxhash, is not installed")
     sys.exit(77)
 from pt import farm
-from pt.farm import _task
+from pt.farm import _coordinator, _task
+from pt.farm._crew import MOST_FAILURES
 from pt.farm._part import Part, missing_parts
+from pt.farm._sum import write_film
 
 LAMP = pt.Material(emission=(4, 3, 2))
 BALL = pt.Material(diffuse=(0.4, 0.1, 0.1), specular=0.4, glossiness=100)
@@ -106,11 +107,23 @@ class Farm(unittest.TestCase):
         return self.cluster.workers[name].pid if hasattr(self.cluster.workers[name], "pid") else \
             self.cluster.workers[name].process.pid
 
-    def stop(self, name, seconds):
-        """A worker, which goes on later: its parts come back, or the end does."""
-        process = self.process_of(name)
-        os.kill(process, signal.SIGSTOP)
-        threading.Timer(seconds, os.kill, (process, signal.SIGCONT)).start()
+    def stopping(self, workers, name, action=lambda: None):
+        """A progress function that stops a worker when all have been given parts, and lets it go on once others have
+        been given its parts."""
+        parts, stopped = [], []
+
+        def progress(seen, film):
+            banned = seen.failed >= MOST_FAILURES
+            if seen.workers + banned == workers and not parts:
+                parts.append(seen.parts)  # after the next part all have some
+            if parts and seen.parts > parts[0] and not stopped:
+                stopped.append(self.process_of(name))
+                os.kill(stopped[0], signal.SIGSTOP)
+                action()
+            if seen.repeated and len(stopped) == 1:
+                os.kill(stopped[0], signal.SIGCONT)
+                stopped.append(None)
+        return progress
 
     def test_one_of_two_is_killed(self):
         found = self.farm(progress=self.after_parts(2, lambda: os.kill(self.process_of(1), signal.SIGKILL)))
@@ -118,17 +131,15 @@ class Farm(unittest.TestCase):
         self.assertEqual(found.film, self.whole)
 
     def test_one_of_two_is_stopped(self):
-        found = self.farm(progress=self.after_parts(2, lambda: self.stop(1, 4.0)))
-        self.assertGreater(found.progress.issued, found.progress.parts)
+        found = self.farm(progress=self.stopping(2, 1))
+        self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertEqual(found.film, self.whole)
 
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
-        def harm():
-            os.kill(self.process_of(1), signal.SIGKILL)
-            self.stop(2, 4.0)
-        found = self.farm(workers=4, task=failing, progress=self.after_parts(4, harm))
+        kill = self.stopping(4, 2, lambda: os.kill(self.process_of(1), signal.SIGKILL))
+        found = self.farm(workers=4, task=failing, progress=kill)
+        self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertGreaterEqual(found.progress.failed, 1)
-        self.assertGreaterEqual(found.progress.lost, 1)
         self.assertIn("this disk is full", found.progress.messages)
         self.assertEqual(found.film, self.whole)
 
@@ -190,6 +201,40 @@ class Farm(unittest.TestCase):
             self.assertEqual(found.film, self.whole)
             self.assertEqual(pt.Film.load(path), self.whole)
 
+    def test_the_scheduler_dies(self):
+        """What came back is kept, and another cluster goes on from it."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "kept.ptfilm")
+            options = dataclasses.replace(QUICK, checkpoint=path)
+            program = subprocess.Popen([sys.executable, __file__, "scheduler"], stdout=subprocess.PIPE, text=True)
+            address = program.stdout.readline().strip()
+            with Client(address) as client, self.assertRaisesRegex(farm.FarmError, "the scheduler has gone"):
+                farm.render(client, JOB, 2**20, options=options,
+                            progress=lambda seen, film: seen.parts and program.kill())
+            program.communicate()
+            samples = max(tile.samples[-1].stop for tile in pt.Film.load(path).tiles)
+            self.assertEqual(self.farm(samples, options=options, task=render_part).film, whole(samples))
+
+    def test_a_full_disk(self):
+        """Is told once; the rendering goes on, and checkpoints do when there is room again."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "kept.ptfilm")
+
+            def full(film, place):
+                if len(calls) < 3:
+                    calls.append(place)
+                    raise OSError(28, "No space left on device")
+                write_film(film, place)
+            calls, _coordinator.write_film = [], full
+            try:
+                found = self.farm(options=dataclasses.replace(QUICK, checkpoint=path, checkpoint_every=0.0))
+            finally:
+                _coordinator.write_film = write_film
+            self.assertEqual(len(calls), 3)
+            told, = found.progress.messages
+            self.assertRegex(told, "the checkpoint could not be written.*No space left")
+            self.assertEqual(pt.Film.load(path), self.whole)
+
     def test_broken_scenes_are_told_once(self):
         broken = farm.Job(pt.Scene([pt.Sphere((0, 1, 0), -1, BALL)]), CAMERA, SETTINGS)
         with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
@@ -247,5 +292,10 @@ def coordinator(path):
 if __name__ == "__main__":
     if sys.argv[1:2] == ["coordinator"]:
         coordinator(sys.argv[2])
+    elif sys.argv[1:2] == ["scheduler"]:
+        with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
+                          silence_logs=50) as local:
+            print(local.scheduler_address, flush=True)
+            time.sleep(600)
     else:
         unittest.main()

@@ -121,15 +121,15 @@ def memory():
     what = job("1920x1080")
     with cluster() as here, Client(here) as client:
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=show)
+        result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=thousand)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     film = len(result.film.to_bytes())
-    print(f"\n{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the most "
+    print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the most "
           f"{after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so {(after - before) * 1024 / film:.2f} films")
 
 
-def show(progress, _):
-    print(f"\r{progress.line()}", end="", file=sys.stderr)
+def thousand(progress, _):
+    return progress.parts >= 1000
 
 
 def overhead():

@@ -1,56 +1,97 @@
-"""A farm of many workers in simulated time, with the coordinator's own rules for sizes of parts (Speed, Part) and with
-measured costs of its steps: how busy it is, what it receives, and how long it waits for the last ones.
+"""A farm of many workers in simulated time, by the coordinator's own rules for sizes of parts (Speed, Part) and with costs
+that were recorded by measure.py: how busy the coordinator is, what it receives, and how long it waits for the last parts.
 
-    PYTHONPATH=lib/python python3 tests/farm/simulate.py [WORKERS [SECONDS_OF_PARTS]]
+    PYTHONPATH=lib/python python3 tests/farm/simulate.py tests/farm/costs.json [WORKERS...]
 
-Not simulated: the network between workers and scheduler, and Dask's own work, which is taken as a constant for each part."""
+A GPU is taken as a hundred of the recorded processor cores, in parts of as many tiles as it needs. Not simulated: the
+network's switches, and Dask's scheduler but for a constant for each part, which its makers give (0.2 to 1 ms a task)."""
 
 import heapq
+import json
+import pathlib
 import random
 import sys
 
 import numpy as np
 from pt.farm._part import Part
-from pt.farm._speed import Speed
+from pt.farm._speed import Speed, least_seconds
 
-WIDTH, HEIGHT, SAMPLES = 1920, 1080, 16384
+WIDTH, HEIGHT = 1920, 1080
 TILES = (WIDTH // 8) * (HEIGHT // 8)
-BYTES_OF_TILE = 112 * 64 * 0.35  # packed
-SUBMIT, MERGE_OF_BYTE, LINK = 0.001, 1 / 150e6, 1.25e9  # seconds a part; a byte, unpacked and added; bytes a second
-SPEED, SPREAD = 40_000, 0.35  # samples of tiles a second: 2.6 M samples; of its logarithm
+DASK, LINK = 0.001, 1.25e9  # seconds a part; bytes a second
+SPREAD = 0.35  # of the logarithm of a worker's speed
+GPU = 100  # times as fast as a core
+RESULTS = ("ideal", "taken", "busy", "rate", "parts", "tail")
 
 
-def simulate(workers, part_seconds, least_tiles, seed=1):
+class Costs:
+    """Of a part, by its tiles, between those that were recorded."""
+
+    def __init__(self, rows):
+        self.parts = [row for row in rows if "tiles" in row]
+        self.adding = [row for row in rows if "add_tiles" in row]
+        self.speed = max(row["speed"] for row in self.parts)
+
+    def _at(self, tiles, name):
+        return float(np.interp(tiles, [row["tiles"] for row in self.parts], [row[name] for row in self.parts]))
+
+    def packed(self, tiles):
+        return tiles * self._at(tiles, "bytes") / tiles if tiles else 0.0
+
+    def besides(self, tiles):
+        """Of the worker, but for rendering."""
+        return self._at(tiles, "least_seconds")
+
+    def merge(self, tiles):
+        """Of the coordinator: unpacking, opening, adding."""
+        adding = np.interp(tiles, [row["add_tiles"] for row in self.adding],
+                           [row["add_seconds_of_tile"] for row in self.adding])
+        return DASK + tiles * float(adding)
+
+
+def simulate(costs, workers, samples, part_seconds, least_tiles, times, seed=1):
     chance = random.Random(seed)
-    true = [SPEED * chance.lognormvariate(0, SPREAD) for _ in range(workers)]
+    true = [costs.speed * times * chance.lognormvariate(0, SPREAD) for _ in range(workers)]
     known = [Speed() for _ in true]
-    left = [Part(0, SAMPLES, np.arange(TILES, dtype=np.uint32))]
+    left = [Part(0, samples, np.arange(TILES, dtype=np.uint32))]
+    remaining, speeds = left[0].work, sum(speed.value for speed in known)
     events = [(0.0, worker, None, None) for worker in range(workers)]
     busy = free = received = parts = 0.0
-    idle = [0.0] * workers
+    ends = [0.0] * workers
     while events:
         time, worker, part, begun = heapq.heappop(events)
         if part is not None:
-            cost = SUBMIT + len(part.tiles) * BYTES_OF_TILE * (MERGE_OF_BYTE + 1 / LINK)
+            tiles = len(part.tiles)
+            cost = costs.merge(tiles) + costs.packed(tiles) / LINK
             free = max(free, time) + cost  # one thing after the other
-            busy, received, parts = busy + cost, received + len(part.tiles) * BYTES_OF_TILE, parts + 1
+            busy, received, parts = busy + cost, received + costs.packed(tiles), parts + 1
+            speeds -= known[worker].value
             known[worker].measure(part.work, time - begun)
-            idle[worker] = time
-            time = free
+            speeds += known[worker].value
+            ends[worker] = time
+            time = max(time, free - part_seconds)  # it has a second part meanwhile
         if left:
-            share = known[worker].share(part_seconds, sum(p.work for p in left), sum(s.value for s in known))
+            least = least_seconds(workers, busy / max(parts, 1))
+            share = known[worker].share(part_seconds, least, remaining, speeds)
             given, rest = left.pop().split(share, least_tiles)
             left += rest
-            heapq.heappush(events, (time + given.work / true[worker], worker, given, time))
-    ideal = TILES * SAMPLES / sum(true)
-    return ideal, free, busy / free, received / free, parts, max(idle) - min(idle)
+            remaining -= given.work
+            seconds = given.work / true[worker] + costs.besides(len(given.tiles))
+            heapq.heappush(events, (time + seconds, worker, given, time))
+    return TILES * samples / sum(true), free, busy / free, received / free, parts, max(ends) - sorted(ends)[workers // 2]
+
+
+def main():
+    costs = Costs(json.loads(pathlib.Path(sys.argv[1]).read_text()))
+    for workers in map(int, sys.argv[2:] or ("10", "100", "1000")):
+        for kind, times, least in (("cores", 1, 64), ("GPUs", GPU, 4096)):
+            for minutes, part_seconds in ((2, 5.0), (2, 30.0), (20, 30.0)):
+                samples = int(minutes * 60 * workers * times * costs.speed / TILES)
+                found = dict(zip(RESULTS, simulate(costs, workers, samples, part_seconds, least, times)))
+                print(f"{workers} {kind}, {samples} spp, parts of {part_seconds:g} s: ideal {found['ideal']:.0f} s, taken "
+                      f"{found['taken']:.0f} s, coordinator {found['busy']:.0%} busy, {found['rate'] / 1e6:.1f} MB/s, "
+                      f"{found['parts']:.0f} parts, tail {found['tail']:.1f} s", flush=True)
 
 
 if __name__ == "__main__":
-    counts = [int(sys.argv[1])] if sys.argv[1:] else [10, 100, 1000]
-    for workers in counts:
-        for seconds in ([float(sys.argv[2])] if sys.argv[2:] else [5.0, 30.0]):
-            for least in (64, 4096):
-                ideal, taken, load, rate, parts, tail = simulate(workers, seconds, least)
-                print(f"{workers} workers, parts of {seconds:g} s and {least} tiles or more: ideal {ideal:.0f} s, taken "
-                      f"{taken:.0f} s, coordinator {load:.0%} busy, {rate / 1e6:.0f} MB/s, {parts:.0f} parts, tail {tail:.1f} s")
+    main()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import queue
 from collections import deque
 from collections.abc import Callable
@@ -17,12 +18,16 @@ from pt.farm._job import Job, name_of
 from pt.farm._options import Options, Result
 from pt.farm._part import Goals, Part, grid_shape, is_film_of, missing_parts
 from pt.farm._progress import Progress
+from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import Member, Try, now, submit
 
-TICK = 0.25  # seconds between looks at who is late
-SLOTS = 2  # parts that a worker has at a time, so that it need not wait for the next
-LEAST_TILES = {True: 64, False: 4096}  # that keep a CPU, and a GPU, busy
+TICK = 0.25  # seconds between looks at who is late: little beside patience, and progress seems alive
+SLOTS = 2  # parts that a worker has at a time: it renders one while the other travels or waits for the coordinator
+
+# Of a CPU a sample of 16 tiles takes as long a tile as one of 1024 (measure.py costs); 64 let 16 cores have 4 each.
+# 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
+LEAST_TILES = {True: 64, False: 4096}
 LATE = 3.0  # times the expected seconds
 
 
@@ -51,9 +56,16 @@ class Coordinator:
 
     def run(self, goals: Goals) -> bool:
         """Until the film has these samples by tile; False if progress() asked to stop."""
-        missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
-        self._waiting.extend((None, part) for part in missing)
         self._progress.samples_wanted = float(goals.mean())
+        while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
+            missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
+            if not missing and self._crew.is_there:
+                return True
+            self._waiting.extend((None, part) for part in missing)
+            self._work()
+        return False
+
+    def _work(self) -> None:
         while (self._waiting or self._open or not self._crew.is_there) and not self._stopped:
             for lost in self._crew.look():
                 self._lose(lost, "its worker died")
@@ -61,7 +73,6 @@ class Coordinator:
             self._hand_out()
             self._take_in()
         self._sum.merge()
-        return not self._stopped
 
     @property
     def film(self) -> Film:
@@ -84,12 +95,13 @@ class Coordinator:
 
     def close(self) -> None:
         """What came back is kept, whatever has ended it; nobody needs to go on."""
-        for member in self._crew:
-            for each in member.tries.values():
-                each.future.cancel()
         if not self._progress.ended_by:
             self._sum.merge()
             self._keep()
+        with contextlib.suppress(Exception):  # the scheduler may have gone
+            for member in self._crew:
+                for each in member.tries.values():
+                    each.future.cancel()
 
     def _keep(self) -> None:
         self._checkpoint_time = now()
@@ -112,6 +124,7 @@ class Coordinator:
                     member.is_late = True
                     if each.number in self._open and self._under_way(each.number) < 2:
                         self._waiting.appendleft((each.number, each.part))
+                        self._progress.repeated += 1
 
     def _under_way(self, number: int) -> int:
         """Tries of a part, and those that will be."""
@@ -137,13 +150,15 @@ class Coordinator:
         free = [member for member in self._crew if member.can_take(SLOTS)]
         remaining = sum(part.work for _, part in self._waiting)
         speeds = sum(member.speed.value for member in self._crew if member.facts) or 1.0
+        adding = self._sum.seconds / max(self._progress.parts, 1)
+        least = least_seconds(self._progress.workers, adding)
         for slot in range(SLOTS):
             for member in free:
                 if not self._waiting or len(member.tries) > slot:
                     continue
                 number, part = self._waiting.popleft()
                 if number is None:
-                    share = member.speed.share(self._options.part_seconds, remaining, speeds)
+                    share = member.speed.share(self._options.part_seconds, least, remaining, speeds)
                     assert member.facts is not None
                     part, rest = part.split(share, LEAST_TILES[member.facts.is_cpu])
                     self._waiting.extendleft((None, each) for each in rest)

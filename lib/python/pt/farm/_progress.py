@@ -19,6 +19,7 @@ class Progress:
     workers: int = 0
     parts: int = 0  # merged
     issued: int = 0
+    repeated: int = 0  # tries that began since others were late
     dropped: int = 0  # duplicates that came second
     failed: int = 0  # tries, which were repeated elsewhere
     lost: int = 0  # tries whose worker died
@@ -30,5 +31,5 @@ class Progress:
     def line(self) -> str:
         error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
         return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, "
-                f"{self.parts} parts, {self.dropped} dropped, {self.lost} lost, {self.failed} failed, "
-                f"{self.seconds:.0f} s")
+                f"{self.parts} parts, {self.repeated} repeated, {self.dropped} dropped, {self.lost} lost, "
+                f"{self.failed} failed, {self.seconds:.0f} s")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles a second: a slow core
-LEAST_SECONDS = 0.1  # of a part: below that, sending it takes longer
+LEAST_SECONDS = 0.1  # of a part: a worker spends 0.03 s on the smallest of 1920x1080
+BUSY_SHARE = 0.5  # of its time, that a coordinator may spend on adding
 
 
 class Speed:
@@ -22,8 +23,13 @@ class Speed:
     def seconds(self, work: int) -> float:
         return work / self.value
 
-    def share(self, part_seconds: float, remaining: int, all_speeds: float) -> int:
+    def share(self, part_seconds: float, least_seconds: float, remaining: int, all_speeds: float) -> int:
         """How much work to give: what takes part_seconds, and towards the end half of what would let all end together
-        (guided self-scheduling: Polychronopoulos and Kuck 1987)."""
+        (guided self-scheduling: Polychronopoulos and Kuck 1987); but what takes least_seconds."""
         together = 0.5 * remaining / all_speeds
-        return max(int(self.value * min(part_seconds, max(together, LEAST_SECONDS))), 1)
+        return max(int(self.value * max(min(part_seconds, together), least_seconds)), 1)
+
+
+def least_seconds(workers: int, adding_seconds: float) -> float:
+    """Of a part, that takes its coordinator adding_seconds: so many workers do not swamp it."""
+    return max(workers * adding_seconds / BUSY_SHARE, LEAST_SECONDS)
