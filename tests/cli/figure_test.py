@@ -77,7 +77,8 @@ class Pictures(FigureTest):
                 (("--style", "ambient-occlusion", "--radius", "0.3", "--where", "speed > 0", "--view", "top"),
                  {"style": "ambient-occlusion", "view": "top"}, {"radius": 0.3, "where": ["speed > 0"]})):
             with self.subTest(options=options):
-                self.write("s.json", json.dumps({"figure": figure, "particles": [{"file": "a.xyz", **particles}]}))
+                self.write("s.json", json.dumps({"figure": figure, "particles": [{"file": "a.xyz", **particles}],
+                                                 "materials": {"unused": {"diffuse": 0.5, "emission": 3}}}))
                 self.figure("-o", "a.exr", "--write-scene", "w.json", *options, *SMALL)
                 self.expect(0, "render", "s.json", "-o", "b.exr", "-q", *SMALL)
                 self.expect(0, "render", "w.json", "-o", "c.exr", "-q")

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -47,6 +48,30 @@ constexpr const char *small = R"({
   "render": { "max_path_length": 3, "spp": 16, "seed": 18446744073709551615, "sampler": "halton-cp",
               "estimator": "uniform" }
 })";
+
+// All spheres are in an array as soon as one has a colour, so that they keep their order.
+TEST(SceneFile, SpheresMayHaveColours) {
+    const auto sphere = [](const std::string &rest) {
+        return R"({"center": [1, 2, 3], "radius": 1, "material": "a")" + rest + "}";
+    };
+    const std::string rest = R"("materials": {"a": {}}})";
+    const SceneFile plain = parse_scene("{\"spheres\": [" + sphere("") + "]," + rest, "s.json");
+    EXPECT_EQ(plain.scene().sphere_count, 1U);
+    EXPECT_TRUE(plain.sphere_arrays().empty());
+
+    const std::string text = "{\"spheres\": [" + sphere("") + ",\n" + sphere(R"(, "color": [0.5, 0, 1])") + ",\n" +
+                             sphere("") + ",\n" + sphere(R"(, "color": 0.25)") + "]," + rest;
+    const SceneFile scene = parse_scene(text, "s.json");
+    EXPECT_EQ(scene.scene().sphere_count, 0U);
+    ASSERT_EQ(scene.sphere_arrays().size(), 1U);
+    EXPECT_EQ(scene.sphere_arrays()[0].count, 4U);
+    EXPECT_EQ(scene.sphere_colours,
+              (std::vector<std::array<float, 3>>{{1, 1, 1}, {0.5F, 0, 1}, {1, 1, 1}, {0.25F, 0.25F, 0.25F}}));
+    cli::BrokenRule rule{"sphere_arrays", 0, "color", 3, "", "2", "must lie in [0, 1]"};
+    EXPECT_EQ(scene.explain(rule), "s.json: spheres[3].color = 2: must lie in [0, 1]");
+    rule.index = 1;
+    EXPECT_EQ(scene.explain(rule), "s.json: particles[0].color[3] = 2: must lie in [0, 1]");
+}
 
 TEST(SceneFile, ReadsEverything) {
     const SceneFile scene = parse_scene(small, "s.json");

@@ -107,7 +107,8 @@ class Schema(CommandLineTest):
                             {"types": {"O": 0}}, {"types": {"O": "1"}}, {"types": {"O": 1}, "column": "vx"})),
                 ("color", (0.5, 1.5, [1, 0, 0], [1, 0], "type", "vx", {"types": {"O": [1, 0, 0]}}, {"types": {"O": 2}},
                            {"types": []}, {"column": "vx", "map": "magma", "range": [0, 1]},
-                           {"column": "vx", "map": "m"}, {"columns": ["x", "y", "z"]}, {"columns": ["x", "y"]}, {"range": [0, 1]})),
+                           {"column": "vx", "map": "m"}, {"columns": ["x", "y", "z"]}, {"columns": ["x", "y"]},
+                           {"range": [0, 1]})),
                 ("wrap", (True, False, 1, "true")), ("where", (["x < 1"], "x < 1")), ("frame", (0, -1, 0.5)),
                 ("format", ("xyz", "pdb"))):
             for value in values:
