@@ -168,6 +168,23 @@ TEST(ParticleFile, ConditionsEndWhereTheySay) {
     EXPECT_EQ(kept("x != 2"), "13");
 }
 
+TEST(ParticleFile, ArraysOfOtherLengthsAreNoColumns) {
+    EXPECT_EQ(read_particles(stored("lengths.npz"), {}).positions, read_particles(stored("stored.npz"), {}).positions);
+    for (const char *name : {"steps", "few", "name"})
+        EXPECT_THROW(read_particles(stored("lengths.npz"), query_of({name})), Failure) << name;
+}
+
+TEST(ParticleFile, NumbersOfZipFilesHaveAChecksum) {
+    std::ostringstream bytes;
+    bytes << std::ifstream(stored("stored.npz"), std::ios::binary).rdbuf();
+    std::string text = bytes.str();
+    const std::size_t head = text.find("\x93NUMPY");
+    EXPECT_EQ(message_of("a.npz", text), "no failure");
+    text[head + 128 + 9 * 8] ^= 1; // the last bit of one of the first numbers
+    EXPECT_NE(message_of("a.npz", text).find("damaged: its size or its checksum is not that of the directory"),
+              std::string::npos);
+}
+
 TEST(ParticleFile, ConditionsHoldTogether) {
     const Particles all = read_particles(stored("cloud.csv"), query_of({"element", "charge"}));
     const Particles some =
