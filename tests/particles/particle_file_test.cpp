@@ -185,6 +185,14 @@ TEST(ParticleFile, NumbersOfZipFilesHaveAChecksum) {
               std::string::npos);
 }
 
+TEST(ParticleFile, QuotesOfCsvMayHoldAnything) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", "\"x\",y , z,name\n1, 2 ,\"3\",\"a \"\"b\"\", c\"\n4,5,6,d\n");
+    const Particles particles = read_particles(folder.file("a.csv"), query_of({"name"}));
+    EXPECT_EQ(particles.positions, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(particles.type_names, (std::vector<std::string>{"a \"b\", c", "d"}));
+}
+
 TEST(ParticleFile, ConditionsHoldTogether) {
     const Particles all = read_particles(stored("cloud.csv"), query_of({"element", "charge"}));
     const Particles some =
@@ -217,6 +225,9 @@ TEST(ParticleFile, MessagesNamePlaceValueAndRule) {
         message_of("a", changed(" x y", " vx y")),
         "a:9: there is no position: the columns must have x, y, z, or xu, yu, zu, or xs, ys, zs, or xsu, ysu, zsu");
     EXPECT_EQ(message_of("a.csv", "x,y,z\n1,2\n"), "a.csv:2: has 2 fields, must have 3 like the first line");
+    for (const char *number : {"nan", "inf", "-inf"})
+        EXPECT_EQ(message_of("a.csv", std::string("x,y,z\n1,").append(number).append(",3\n")),
+                  std::string("a.csv:2: y = \"").append(number).append("\": must be finite"));
     EXPECT_EQ(message_of("a.csv", "x,y,z\n1,2,\"3\n"),
               "a.csv:2: a quoted field must end in the line that it begins in");
     EXPECT_EQ(message_of("a.what", "x,y,z\n"), "a.what: neither its first bytes nor its name say which of lammps, xyz, "
