@@ -205,6 +205,7 @@ TEST(ParticleFile, ConditionsHoldTogether) {
     EXPECT_LT(expected.size(), all.positions.size() / 2);
     EXPECT_EQ(some.positions, expected);
     EXPECT_EQ(some.type_names, std::vector<std::string>{"H"}); // of what is kept
+    EXPECT_EQ(some.columns[0].values, std::vector<float>(some.count(), 0.0F));
 }
 
 TEST(ParticleFile, MessagesNamePlaceValueAndRule) {
