@@ -168,6 +168,31 @@ TEST(ParticleFile, ConditionsEndWhereTheySay) {
     EXPECT_EQ(kept("x != 2"), "13");
 }
 
+TEST(ParticleFile, ArraysOfOtherLengthsAreNoColumns) {
+    EXPECT_EQ(read_particles(stored("lengths.npz"), {}).positions, read_particles(stored("stored.npz"), {}).positions);
+    for (const char *name : {"steps", "few", "name"})
+        EXPECT_THROW(read_particles(stored("lengths.npz"), query_of({name})), Failure) << name;
+}
+
+TEST(ParticleFile, NumbersOfZipFilesHaveAChecksum) {
+    std::ostringstream bytes;
+    bytes << std::ifstream(stored("stored.npz"), std::ios::binary).rdbuf();
+    std::string text = bytes.str();
+    const std::size_t head = text.find("\x93NUMPY");
+    EXPECT_EQ(message_of("a.npz", text), "no failure");
+    text[head + 128 + 9 * 8] ^= 1; // the last bit of one of the first numbers
+    EXPECT_NE(message_of("a.npz", text).find("damaged: its size or its checksum is not that of the directory"),
+              std::string::npos);
+}
+
+TEST(ParticleFile, QuotesOfCsvMayHoldAnything) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", "\"x\",y , z,name\n1, 2 ,\"3\",\"a \"\"b\"\", c\"\n4,5,6,d\n");
+    const Particles particles = read_particles(folder.file("a.csv"), query_of({"name"}));
+    EXPECT_EQ(particles.positions, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(particles.type_names, (std::vector<std::string>{"a \"b\", c", "d"}));
+}
+
 TEST(ParticleFile, ConditionsHoldTogether) {
     const Particles all = read_particles(stored("cloud.csv"), query_of({"element", "charge"}));
     const Particles some =
@@ -180,6 +205,7 @@ TEST(ParticleFile, ConditionsHoldTogether) {
     EXPECT_LT(expected.size(), all.positions.size() / 2);
     EXPECT_EQ(some.positions, expected);
     EXPECT_EQ(some.type_names, std::vector<std::string>{"H"}); // of what is kept
+    EXPECT_EQ(some.columns[0].values, std::vector<float>(some.count(), 0.0F));
 }
 
 TEST(ParticleFile, MessagesNamePlaceValueAndRule) {
@@ -200,6 +226,9 @@ TEST(ParticleFile, MessagesNamePlaceValueAndRule) {
         message_of("a", changed(" x y", " vx y")),
         "a:9: there is no position: the columns must have x, y, z, or xu, yu, zu, or xs, ys, zs, or xsu, ysu, zsu");
     EXPECT_EQ(message_of("a.csv", "x,y,z\n1,2\n"), "a.csv:2: has 2 fields, must have 3 like the first line");
+    for (const char *number : {"nan", "inf", "-inf"})
+        EXPECT_EQ(message_of("a.csv", std::string("x,y,z\n1,").append(number).append(",3\n")),
+                  std::string("a.csv:2: y = \"").append(number).append("\": must be finite"));
     EXPECT_EQ(message_of("a.csv", "x,y,z\n1,2,\"3\n"),
               "a.csv:2: a quoted field must end in the line that it begins in");
     EXPECT_EQ(message_of("a.what", "x,y,z\n"), "a.what: neither its first bytes nor its name say which of lammps, xyz, "
