@@ -46,11 +46,15 @@ def slow(name, part, codecs):
     return _task.render_part(name, part, codecs)  # of the worker's process, where nothing takes its place
 
 
-def failing(name, part, codecs):
-    """Fails on one worker, always."""
-    if distributed.get_worker().name == 0:
-        return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
-    return slow(name, part, codecs)
+def waiting(path):
+    """For a file; but a worker that is named so fails, always and at once."""
+    def task(name, part, codecs):
+        if distributed.get_worker().name == "failing":
+            return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
+        while not os.path.exists(path):
+            time.sleep(0.01)
+        return _task.render_part(name, part, codecs)
+    return task
 
 
 def damaged(name, part, codecs):
@@ -72,6 +76,11 @@ def damaged(name, part, codecs):
 def local_cluster(workers):
     return LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
                         silence_logs=50)
+
+
+def own_cluster(workers):
+    return SpecCluster(workers, {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}},
+                       silence_logs=50)
 
 
 def whole(samples, target_error=0.0):
@@ -99,56 +108,47 @@ class Farm(unittest.TestCase):
         finally:
             _task.render_part = render_part
 
-    def after_parts(self, count, action):
-        """A progress function that acts once."""
-        acted = []
-
-        def progress(seen, film):
-            if seen.parts >= count and not acted:
-                acted.append(True)
-                action()
-        return progress
-
     def process_of(self, name):
         return self.cluster.workers[name].pid if hasattr(self.cluster.workers[name], "pid") else \
             self.cluster.workers[name].process.pid
 
-    def stopping(self, workers, name, action=lambda: None):
-        """A progress function that stops a worker when all have been given parts, and lets it go on once others have
-        been given its parts."""
-        parts, stopped = [], []
+    def harm(self, workers, stopped=None, killed=None):
+        """A progress function and tasks: when all workers have been given parts, at which they wait, some are harmed; then
+        the others go on, and a stopped one too once they have been given its parts."""
+        go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
+        calls, held = [], []
 
         def progress(seen, film):
-            banned = seen.failed >= MOST_FAILURES
-            if seen.workers + banned == workers and not parts:
-                parts.append(seen.parts)  # after the next part all have some
-            if parts and seen.parts > parts[0] and not stopped:
-                stopped.append(self.process_of(name))
-                os.kill(stopped[0], signal.SIGSTOP)
-                action()
-            if seen.repeated and len(stopped) == 1:
-                os.kill(stopped[0], signal.SIGCONT)
-                stopped.append(None)
-        return progress
+            if len(calls) < 2 and seen.workers + (seen.failed >= MOST_FAILURES) == workers:
+                calls.append(seen)
+                if len(calls) == 2:  # one after they were found fit: now they have parts
+                    if stopped is not None:
+                        held.append(self.process_of(stopped))
+                        os.kill(held[0], signal.SIGSTOP)
+                    if killed is not None:
+                        os.kill(self.process_of(killed), signal.SIGKILL)
+                    open(go, "w").close()
+            if seen.repeated and held:
+                os.kill(held.pop(), signal.SIGCONT)
+        return {"progress": progress, "task": waiting(go)}
 
     def test_one_of_two_is_killed(self):
         with local_cluster(2) as cluster:
-            kill = self.after_parts(2, lambda: os.kill(self.process_of(1), signal.SIGKILL))
-            found = self.farm(cluster=cluster, progress=kill)
+            found = self.farm(cluster=cluster, **self.harm(2, killed=1))
         self.assertGreaterEqual(found.progress.lost, 1)
         self.assertEqual(found.film, self.whole)
 
     def test_one_of_two_is_stopped(self):
-        found = self.farm(progress=self.stopping(2, 1))
+        found = self.farm(**self.harm(2, stopped=1))
         self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertEqual(found.film, self.whole)
 
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
-        kill = self.stopping(4, 2, lambda: os.kill(self.process_of(1), signal.SIGKILL))
-        with local_cluster(4) as cluster:
-            found = self.farm(cluster=cluster, task=failing, progress=kill)
-        self.assertGreaterEqual(found.progress.repeated, 1)
+        nanny = {"cls": distributed.Nanny, "options": {"nthreads": 1}}
+        with own_cluster({name: nanny for name in ("failing", "killed", "stopped", "healthy")}) as cluster:
+            found = self.farm(cluster=cluster, **self.harm(4, "stopped", "killed"))
         self.assertGreaterEqual(found.progress.failed, 1)
+        self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertIn("this disk is full", found.progress.messages)
         self.assertEqual(found.film, self.whole)
 
@@ -165,8 +165,7 @@ class Farm(unittest.TestCase):
         nannies = {width: {"cls": distributed.Nanny,
                            "options": {"nthreads": 1, "env": {"LP_NATIVE_VECTOR_WIDTH": width}}}
                    for width in ("128", "256")}
-        with SpecCluster(nannies, {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}},
-                         silence_logs=50) as cluster, Client(cluster) as client:
+        with own_cluster(nannies) as cluster, Client(cluster) as client:
             alone = farm.render(client, JOB, 2**20, options=QUICK, progress=lambda seen, film: film and seen.messages)
             with tempfile.TemporaryDirectory() as folder:
                 path = os.path.join(folder, "kept.ptfilm")
