@@ -63,7 +63,7 @@ def damaged(name, part, codecs):
     worker.films = getattr(worker, "films", 0) + 1
     time.sleep(0.08)
     film = _task.render_part(name, part, frozenset())
-    if worker.name != 0 or worker.films not in (1, 3, 5):
+    if worker.films not in (1, 3, 5):
         return film
     data = zlib.decompress(film.data)
     if worker.films == 1:
@@ -113,8 +113,8 @@ class Farm(unittest.TestCase):
             self.cluster.workers[name].process.pid
 
     def harm(self, workers, stopped=None, killed=None):
-        """A progress function and tasks: when all workers have been given parts, at which they wait, some are harmed; then
-        the others go on, and a stopped one too once they have been given its parts."""
+        """A progress function and tasks: when all workers have been given parts, at which they wait, some are harmed;
+        then the others go on, and a stopped one too once they have been given its parts."""
         go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
         calls, held = [], []
 
