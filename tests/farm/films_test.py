@@ -35,31 +35,35 @@ SCENE = pt.Scene([pt.Sphere((0, 1, 0), 1, BALL), pt.Sphere((2, 4, 2), 1, LAMP)],
 CAMERA = pt.Camera(position=(0, 1.5, 5), target=(0, 1, 0))
 SETTINGS = pt.RenderSettings(136, 100)  # tiles that are cut at both edges
 JOB = farm.Job(SCENE, CAMERA, SETTINGS)
-SAMPLES, ERROR = 400, 0.006
+SAMPLES, ERROR = 256, 0.006
 QUICK = farm.Options(part_seconds=0.1, patience=0.5)
 
 render_part = _task.render_part
 
 
 def slow(name, part, codecs):
-    time.sleep(0.15)
+    time.sleep(0.08)
     return _task.render_part(name, part, codecs)  # of the worker's process, where nothing takes its place
 
 
-def failing(name, part, codecs):
-    """Fails on one worker, always."""
-    if distributed.get_worker().name == 0:
-        return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
-    return slow(name, part, codecs)
+def waiting(path):
+    """For a file; but a worker that is named so fails, always and at once."""
+    def task(name, part, codecs):
+        if distributed.get_worker().name == "failing":
+            return _task.Outcome(error="this disk is full", may_help_elsewhere=True)
+        while not os.path.exists(path):
+            time.sleep(0.01)
+        return _task.render_part(name, part, codecs)
+    return task
 
 
 def damaged(name, part, codecs):
     """Every other of a worker's first six films is not what was asked for; of three in a row it would be sent away."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
-    time.sleep(0.15)
+    time.sleep(0.08)
     film = _task.render_part(name, part, frozenset())
-    if worker.name != 0 or worker.films not in (1, 3, 5):
+    if worker.films not in (1, 3, 5):
         return film
     data = zlib.decompress(film.data)
     if worker.films == 1:
@@ -67,6 +71,16 @@ def damaged(name, part, codecs):
     if worker.films == 3:
         return dataclasses.replace(film, data=zlib.compress(data[:-9] + bytes([data[-9] ^ 1]) + data[-8:]))
     return _task.render_part(name, Part(part.first, part.end + 1, part.tiles), frozenset())
+
+
+def local_cluster(workers):
+    return LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
+                        silence_logs=50)
+
+
+def own_cluster(workers):
+    return SpecCluster(workers, {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}},
+                       silence_logs=50)
 
 
 def whole(samples, target_error=0.0):
@@ -82,64 +96,59 @@ class Farm(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.whole = whole(SAMPLES)
+        cls.shared = cls.enterClassContext(local_cluster(2))  # by the tests that leave its workers as they were
 
-    def farm(self, samples=SAMPLES, workers=2, task=slow, **arguments):
+    def farm(self, samples=SAMPLES, cluster=None, task=slow, job=JOB, **arguments):
         arguments.setdefault("options", QUICK)
         _task.render_part = task
+        self.cluster = cluster or self.shared
         try:
-            with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
-                              silence_logs=50) as self.cluster, Client(self.cluster) as client:
-                return farm.render(client, JOB, samples, **arguments)
+            with Client(self.cluster) as client:
+                return farm.render(client, job, samples, **arguments)
         finally:
             _task.render_part = render_part
-
-    def after_parts(self, count, action):
-        """A progress function that acts once."""
-        acted = []
-
-        def progress(seen, film):
-            if seen.parts >= count and not acted:
-                acted.append(True)
-                action()
-        return progress
 
     def process_of(self, name):
         return self.cluster.workers[name].pid if hasattr(self.cluster.workers[name], "pid") else \
             self.cluster.workers[name].process.pid
 
-    def stopping(self, workers, name, action=lambda: None):
-        """A progress function that stops a worker when all have been given parts, and lets it go on once others have
-        been given its parts."""
-        parts, stopped = [], []
+    def harm(self, workers, stopped=None, killed=None):
+        """A progress function and tasks: when all workers have been given parts, at which they wait, some are harmed;
+        then the others go on, and a stopped one too once they have been given its parts."""
+        go = os.path.join(self.enterContext(tempfile.TemporaryDirectory()), "go")
+        calls, held = [], []
 
         def progress(seen, film):
-            banned = seen.failed >= MOST_FAILURES
-            if seen.workers + banned == workers and not parts:
-                parts.append(seen.parts)  # after the next part all have some
-            if parts and seen.parts > parts[0] and not stopped:
-                stopped.append(self.process_of(name))
-                os.kill(stopped[0], signal.SIGSTOP)
-                action()
-            if seen.repeated and len(stopped) == 1:
-                os.kill(stopped[0], signal.SIGCONT)
-                stopped.append(None)
-        return progress
+            if len(calls) < 2 and seen.workers + (seen.failed >= MOST_FAILURES) == workers:
+                calls.append(seen)
+                if len(calls) == 2:  # one after they were found fit: now they have parts
+                    if stopped is not None:
+                        held.append(self.process_of(stopped))
+                        os.kill(held[0], signal.SIGSTOP)
+                    if killed is not None:
+                        os.kill(self.process_of(killed), signal.SIGKILL)
+                    open(go, "w").close()
+            if seen.repeated and held:
+                os.kill(held.pop(), signal.SIGCONT)
+        return {"progress": progress, "task": waiting(go)}
 
     def test_one_of_two_is_killed(self):
-        found = self.farm(progress=self.after_parts(2, lambda: os.kill(self.process_of(1), signal.SIGKILL)))
+        with local_cluster(2) as cluster:
+            found = self.farm(cluster=cluster, **self.harm(2, killed=1))
         self.assertGreaterEqual(found.progress.lost, 1)
         self.assertEqual(found.film, self.whole)
 
     def test_one_of_two_is_stopped(self):
-        found = self.farm(progress=self.stopping(2, 1))
+        found = self.farm(**self.harm(2, stopped=1))
         self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertEqual(found.film, self.whole)
 
     def test_of_four_one_fails_one_is_killed_and_one_stopped(self):
-        kill = self.stopping(4, 2, lambda: os.kill(self.process_of(1), signal.SIGKILL))
-        found = self.farm(workers=4, task=failing, progress=kill)
-        self.assertGreaterEqual(found.progress.repeated, 1)
+        nanny = {"cls": distributed.Nanny, "options": {"nthreads": 1}}
+        with own_cluster({name: nanny for name in ("failing", "killed", "stopped", "healthy")}) as cluster:
+            found = self.farm(cluster=cluster, **self.harm(4, "stopped", "killed"))
         self.assertGreaterEqual(found.progress.failed, 1)
+        self.assertGreaterEqual(found.progress.repeated, 1)
         self.assertIn("this disk is full", found.progress.messages)
         self.assertEqual(found.film, self.whole)
 
@@ -156,8 +165,7 @@ class Farm(unittest.TestCase):
         nannies = {width: {"cls": distributed.Nanny,
                            "options": {"nthreads": 1, "env": {"LP_NATIVE_VECTOR_WIDTH": width}}}
                    for width in ("128", "256")}
-        with SpecCluster(nannies, {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}},
-                         silence_logs=50) as cluster, Client(cluster) as client:
+        with own_cluster(nannies) as cluster, Client(cluster) as client:
             alone = farm.render(client, JOB, 2**20, options=QUICK, progress=lambda seen, film: film and seen.messages)
             with tempfile.TemporaryDirectory() as folder:
                 path = os.path.join(folder, "kept.ptfilm")
@@ -227,7 +235,8 @@ class Farm(unittest.TestCase):
                 write_film(film, place)
             calls, _coordinator.write_film = [], full
             try:
-                found = self.farm(options=dataclasses.replace(QUICK, checkpoint=path, checkpoint_every=0.0))
+                options = dataclasses.replace(QUICK, checkpoint=path, checkpoint_every=0.0)
+                found = self.farm(task=render_part, options=options)
             finally:
                 _coordinator.write_film = write_film
             self.assertEqual(len(calls), 3)
@@ -237,10 +246,8 @@ class Farm(unittest.TestCase):
 
     def test_broken_scenes_are_told_once(self):
         broken = farm.Job(pt.Scene([pt.Sphere((0, 1, 0), -1, BALL)]), CAMERA, SETTINGS)
-        with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
-                          silence_logs=50) as cluster, Client(cluster) as client:
-            with self.assertRaisesRegex(farm.FarmError, r"spheres\[0\].radius = -1: must be > 0"):
-                farm.render(client, broken, 1, options=QUICK)
+        with self.assertRaisesRegex(farm.FarmError, r"spheres\[0\].radius = -1: must be > 0"):
+            self.farm(1, job=broken)
 
 
 class Parts(unittest.TestCase):
@@ -283,8 +290,7 @@ class Parts(unittest.TestCase):
 def coordinator(path):
     """Until it is killed: a checkpoint at every batch."""
     _task.render_part = slow
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, host="127.0.0.1", silence_logs=50,
-                      ) as cluster, Client(cluster) as client:
+    with local_cluster(2) as cluster, Client(cluster) as client:
         farm.render(client, JOB, SAMPLES, options=farm.Options(part_seconds=0.1, checkpoint=path, checkpoint_every=0.0))
         time.sleep(600)
 
@@ -293,8 +299,7 @@ if __name__ == "__main__":
     if sys.argv[1:2] == ["coordinator"]:
         coordinator(sys.argv[2])
     elif sys.argv[1:2] == ["scheduler"]:
-        with LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1",
-                          silence_logs=50) as local:
+        with local_cluster(1) as local:
             print(local.scheduler_address, flush=True)
             time.sleep(600)
     else:

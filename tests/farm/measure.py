@@ -5,7 +5,7 @@
 costs      seconds and bytes of a part, on a worker and on the coordinator, by tiles (--json FILE for simulate.py)
 memory     of the coordinator, over a thousand parts of 1920x1080
 overhead   processor seconds of two workers, coordinator and scheduler, against those of one process for the same samples
-error      seconds to 1%, of two workers and of one process
+error      seconds to a target error, of two workers and of one process
 scheduler  bytes that a scheduler in a process of its own takes and sends"""
 
 import argparse
@@ -124,8 +124,8 @@ def memory():
         result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=thousand)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     film = len(result.film.to_bytes())
-    print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the most "
-          f"{after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so {(after - before) * 1024 / film:.2f} films")
+    print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the "
+          f"most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so {(after - before) * 1024 / film:.2f} films")
 
 
 def thousand(progress, _):
@@ -150,9 +150,9 @@ def overhead():
             wall = time.monotonic() - begun
             each = [processor_seconds(process) - first for process, first in zip(everyone, start)]
             assert result.film == one.film()
-            print(f"one process {single:.1f} s of processors in {single_wall:.1f} s; farm {sum(each):.1f} s (coordinator and "
-                  f"scheduler {each[0]:.1f}) in {wall:.1f} s: {sum(each) / single - 1:+.1%}, wall {wall / single_wall - 1:+.1%}; "
-                  f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB", flush=True)
+            print(f"one process {single:.1f} s of processors in {single_wall:.1f} s; farm {sum(each):.1f} s (coordinator "
+                  f"and scheduler {each[0]:.1f}) in {wall:.1f} s: {sum(each) / single - 1:+.1%}, wall "
+                  f"{wall / single_wall - 1:+.1%}; {result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB", flush=True)
 
 
 def error():
@@ -163,12 +163,12 @@ def error():
         for _ in range(ARGUMENTS.repeats):
             one.set_render(what.settings)
             begun = time.monotonic()
-            one.accumulate(65536, target_error=0.01)
+            one.accumulate(65536, target_error=ARGUMENTS.target)
             single, begun = time.monotonic() - begun, time.monotonic()
-            result = farm.render(client, what, 65536, target_error=0.01)
+            result = farm.render(client, what, 65536, target_error=ARGUMENTS.target)
             wall = time.monotonic() - begun
             assert result.film == one.film()
-            print(f"to 1%: one process {single:.1f} s, farm {wall:.1f} s, {result.progress.parts} parts, "
+            print(f"to {ARGUMENTS.target:.1%}: one process {single:.1f} s, farm {wall:.1f} s, {result.progress.parts} parts, "
                   f"{one.stats().mean_sample_count:.0f} spp", flush=True)
 
 
@@ -178,8 +178,9 @@ def scheduler():
     program = subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port",
                                 "18786", "--no-dashboard"], stderr=subprocess.DEVNULL)
     environment = {**os.environ, "LP_NUM_THREADS": "1"}
-    workers = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_worker", "tcp://127.0.0.1:18786", "--nthreads", "1",
-                                 "--no-nanny", "--no-dashboard"], env=environment, stderr=subprocess.DEVNULL) for _ in (0, 1)]
+    command = [sys.executable, "-m", "distributed.cli.dask_worker", "tcp://127.0.0.1:18786", "--nthreads", "1",
+               "--no-nanny", "--no-dashboard"]
+    workers = [subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL) for _ in (0, 1)]
     try:
         with Client("tcp://127.0.0.1:18786") as client:
             client.wait_for_workers(2)
@@ -187,9 +188,9 @@ def scheduler():
             result = farm.render(client, what, ARGUMENTS.samples, options=farm.Options(part_seconds=0.5))
             taken, sent = (after - first for after, first in zip(bytes_of_port(18786), before))
         progress = result.progress
-        print(f"{progress.parts} parts of {progress.part_bytes / 1e6:.1f} MB in {progress.seconds:.0f} s: the scheduler took "
-              f"{taken / 1e3:.0f} kB and sent {sent / 1e3:.0f} kB, {(taken + sent) / progress.parts / 1e3:.1f} kB a part; the job "
-              f"is {len(what.packed()) / 1e3:.1f} kB")
+        print(f"{progress.parts} parts of {progress.part_bytes / 1e6:.1f} MB in {progress.seconds:.0f} s: the scheduler "
+              f"took {taken / 1e3:.0f} kB and sent {sent / 1e3:.0f} kB, {(taken + sent) / progress.parts / 1e3:.1f} kB a "
+              f"part; the job is {len(what.packed()) / 1e3:.1f} kB")
     finally:
         for each in (*workers, program):
             each.terminate()
@@ -206,6 +207,7 @@ if __name__ == "__main__":
     parser.add_argument("--pt", default="pt")
     parser.add_argument("--json")
     parser.add_argument("--samples", type=int, default=512)
+    parser.add_argument("--target", type=float, default=0.01)
     parser.add_argument("--repeats", type=int, default=3)
     ARGUMENTS = parser.parse_args()
     rows = globals()[ARGUMENTS.what]()

@@ -20,7 +20,7 @@ from pt.farm._part import Goals, Part, grid_shape, is_film_of, missing_parts
 from pt.farm._progress import Progress
 from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
-from pt.farm._workers import Member, Try, now, submit
+from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
 TICK = 0.25  # seconds between looks at who is late: little beside patience, and progress seems alive
 SLOTS = 2  # parts that a worker has at a time: it renders one while the other travels or waits for the coordinator
@@ -38,7 +38,8 @@ class Coordinator:
         packed = job.packed()
         self._name = name_of(packed)
         self._shape = grid_shape(job.settings.width, job.settings.height)
-        self._events: queue.Queue[tuple[Any, ...]] = queue.Queue()
+        self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
+        self._closed = False
         self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number, once it has been given out
         self._open: set[int] = set()  # numbers of parts that were given out and are not merged
         self._tries: dict[int, int] = {}  # that came to nothing, by number
@@ -95,6 +96,7 @@ class Coordinator:
 
     def close(self) -> None:
         """What came back is kept, whatever has ended it; nobody needs to go on."""
+        self._closed = True
         if not self._progress.ended_by:
             self._sum.merge()
             self._keep()
@@ -174,7 +176,7 @@ class Coordinator:
 
     def _give(self, member: Member, number: int, part: Part) -> None:
         def done(future: Any, outcome: _task.Outcome | None, reason: str) -> None:
-            self._events.put((future, *self._opened(part, outcome, reason)))
+            self._tell_of(future, *self._opened(part, outcome, reason))
         future = submit(self._client, member.address, done, _task.render_part, self._name, part, _packing.codecs())
         before = sum(each.part.work for each in member.tries.values())
         member.tries[future.key] = Try(number, part, future, now(), member.speed.seconds(before + part.work))
@@ -184,7 +186,14 @@ class Coordinator:
 
     def _met(self, future: Any, outcome: _task.Outcome | None, reason: str) -> None:
         """Called by threads."""
-        self._events.put((future, outcome, reason, None, 0))
+        self._tell_of(future, outcome, reason, None, 0)
+
+    def _tell_of(self, *event: Any) -> None:
+        """Waits for its turn, so that films do not pile up here."""
+        while not self._closed:
+            with contextlib.suppress(queue.Full):
+                self._events.put(event, timeout=TICK)
+                return
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, reason: str) -> tuple[Any, ...]:
         """Called by threads, so that films are unpacked beside each other."""

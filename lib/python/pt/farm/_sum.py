@@ -16,7 +16,7 @@ PIXEL_BYTES = 112
 # Adding to a film costs by its size and not by the part's, so that parts are first added to each other. With batches of
 # 1/2, 1/8 and 1/16 of a film, the whole took 5.9, 5.9 and 6.8 s of a processor, and 5.6, 3.7 and 3.4 films of memory.
 BATCH_SHARE = 1 / 8
-SHOW_SHARE = 0.1  # of the time, for adding less than that, so that the picture so far is recent
+SHOW_SHARE = 0.02  # of the time, for adding less than that, so that the picture so far is recent
 
 
 class Sum:

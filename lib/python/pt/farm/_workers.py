@@ -14,6 +14,9 @@ from pt.farm._speed import Speed
 from pt.farm._task import Outcome, Worker
 
 FETCH_SECONDS = 60.0  # for a film, which is 35 MB where it has all of 1920x1080
+MOST_FETCHED = 16  # results that are on their way or wait: more would only fill the memory
+
+_fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
 Done = Callable[[Any, "Outcome | None", str], None]  # future, outcome or None, why there is none
 
@@ -58,7 +61,7 @@ def submit(client: Any, address: str, done: Done, function: Callable[..., Any], 
     """Runs a function on one worker alone, whose result comes from the worker itself. done is called by threads."""
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
-    # A thread for each, as a worker may have been stopped since, so that fetching takes for ever.
+    # A thread for each that has ended, as a worker may have been stopped since, so that fetching takes for ever.
     def fetch(ended: Any) -> None:
         threading.Thread(target=_fetch, args=(client, ended, done), daemon=True).start()
 
@@ -73,6 +76,11 @@ async def _gathered(client: Any, future: Any) -> Outcome:
 
 
 def _fetch(client: Any, future: Any, done: Done) -> None:
+    with _fetching:
+        done(future, *_fetched(client, future))
+
+
+def _fetched(client: Any, future: Any) -> tuple[Outcome | None, str]:
     outcome, reason = None, "its worker died"
     try:
         if future.status == "finished":
@@ -82,7 +90,7 @@ def _fetch(client: Any, future: Any, done: Done) -> None:
             reason = f"{type(error).__name__}: {error}"
     except (Exception, asyncio.CancelledError) as error:  # the worker has gone, in one of many ways
         reason = f"its film could not be fetched: {type(error).__name__}: {error}"
-    done(future, outcome, reason)
+    return outcome, reason
 
 
 def now() -> float:
