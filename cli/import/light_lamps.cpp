@@ -3,6 +3,7 @@
 #include "cli/import/foreign_vector.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace cli {
@@ -12,9 +13,9 @@ constexpr double default_radius = 1.0 / 50.0; // of the distance
 constexpr double least_radius = 1e-6;         // likewise: what is smaller lies on a surface
 constexpr double sun_distance = 100.0;        // of the size of the scene
 
-// From the point to the nearest surface, or to the camera.
+// From the point to the nearest surface.
 double clearance(const ForeignScene &scene, const ForeignVector &point) {
-    double nearest = length(difference(point, scene.camera.position));
+    double nearest = std::numeric_limits<double>::infinity();
     for (const ForeignSphere &sphere : scene.spheres) {
         nearest = std::min(nearest, std::abs(length(difference(point, sphere.center)) - sphere.radius));
     }
@@ -28,15 +29,21 @@ double clearance(const ForeignScene &scene, const ForeignVector &point) {
 // surface makes the radiance L (r / d)^2.
 std::optional<ForeignLamp> lamp_at(const ForeignScene &scene, const ForeignLight &light, const ForeignVector &center,
                                    double distance) {
-    const double wanted = light.radius > 0.0 ? light.radius : default_radius * distance;
-    const double radius = std::min(wanted, 0.5 * clearance(scene, center));
+    const bool is_seen = light.radius > 0.0;
+    double room = clearance(scene, center);
+    if (is_seen) {
+        room = std::min(room, length(difference(center, scene.camera.position)));
+    }
+    const double radius = std::min(is_seen ? light.radius : default_radius * distance, 0.5 * room);
     if (!(radius >= least_radius * distance)) {
         return std::nullopt;
     }
     const double faded = light.attenuation[0] + distance * (light.attenuation[1] + distance * light.attenuation[2]);
     const double brightness = (distance / radius) * (distance / radius) / faded;
-    return ForeignLamp{
-        center, radius, {brightness * light.color[0], brightness * light.color[1], brightness * light.color[2]}};
+    return ForeignLamp{center,
+                       radius,
+                       {brightness * light.color[0], brightness * light.color[1], brightness * light.color[2]},
+                       !is_seen};
 }
 
 std::optional<ForeignLamp> lamp_of(const ForeignScene &scene, const ForeignLight &light, double extent) {

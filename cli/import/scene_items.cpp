@@ -68,7 +68,7 @@ private:
                 {{"diffuse", material.diffuse}, {"specular", material.specular}, {"glossiness", material.glossiness}});
         }
         for (std::size_t i = 0; i < lamps_.size(); ++i) {
-            write_member(lamp_name(i), {{"emission", lamps_[i].emission}});
+            write_member(lamp_name(i), {{"emission", lamps_[i].emission}, {"hidden_from_camera", lamps_[i].is_hidden}});
         }
         if (has_sky_) {
             write_member("sky", {{"emission", scene_.background}});

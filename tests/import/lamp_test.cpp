@@ -65,8 +65,16 @@ TEST(LightLamp, TouchesNothing) {
     scene.planes = {{{0, 2, 0}, -7.9375, 0}};
     EXPECT_NEAR(only_lamp(scene).radius, 0.03125 / 2, 1e-12);
     EXPECT_NEAR(irradiance(only_lamp(scene)), std::numbers::pi, 1e-8);
-    scene.camera.position = {3, 4, 0.01};
-    EXPECT_NEAR(only_lamp(scene).radius, 0.005, 1e-12);
+}
+
+TEST(LightLamp, IsHiddenUnlessTheFileHasItsSize) {
+    ForeignScene scene = lit_scene({"", false, {0, 0, 8}, {1, 1, 1}}); // where the camera is
+    EXPECT_TRUE(only_lamp(scene).is_hidden);
+    EXPECT_EQ(only_lamp(scene).radius, 8.0 / 50);
+    scene.lights[0].radius = 0.125;
+    scene.camera.position[2] = 8.0625;
+    EXPECT_FALSE(only_lamp(scene).is_hidden);
+    EXPECT_EQ(only_lamp(scene).radius, 0.0625 / 2);
 }
 
 TEST(LightLamp, OnASurfaceIsLeftOut) {

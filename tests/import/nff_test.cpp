@@ -55,6 +55,8 @@ TEST(Nff, SpheresAndMaterialsAreThoseOfTheFile) {
     EXPECT_EQ(first.glossiness, 20.0F);
     EXPECT_EQ(material_of(scene, 1).diffuse[0], 1.0F);
     EXPECT_EQ(material_of(scene, 1).specular[0], 0.0F);
+    EXPECT_TRUE(scene.is_hidden(scene.spheres[2].material)); // lamps of lights
+    EXPECT_FALSE(scene.is_hidden(scene.spheres[4].material));
     EXPECT_EQ(scene.left_out, std::vector<std::string>());
 }
 

@@ -114,6 +114,7 @@ TEST(Tachyon, LightsAreLamps) {
     const pt_sphere &lamp = scene.spheres[3];
     EXPECT_EQ(lamp.center[2], 6.0);
     EXPECT_EQ(lamp.radius, 0.5);
+    EXPECT_FALSE(scene.is_hidden(lamp.material));
     EXPECT_NEAR(material_of(scene, 3).emission[0], 0.5 * 170 / 0.25, 1e-3);
     EXPECT_NEAR(material_of(scene, 3).emission[2], 2 * 170 / 0.25, 1e-3);
     const cli::SceneFile faded =
