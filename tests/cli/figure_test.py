@@ -132,10 +132,10 @@ class Files(FigureTest):
     def test_the_scene_names_the_particles(self):
         os.mkdir(self.path("out"))
         self.figure("--write-scene", "out/a.json", "--radius", "H=0.25,O=0.5,<C>=1", "--where", "y < 1", "--frame", "0",
-                    "--color", "speed", "--colormap", "magma", *SMALL)
+                    "--wrap", "--color", "speed", "--colormap", "magma", *SMALL)
         scene = json.loads(self.read("out/a.json"))
         self.assertEqual(scene["particles"], [
-            {"file": "../a.xyz", "frame": 0, "where": ["y < 1"],
+            {"file": "../a.xyz", "frame": 0, "wrap": True, "where": ["y < 1"],
              "radius": {"types": {"<C>": 1, "H": 0.25, "O": 0.5}},
              "color": {"column": "speed", "map": "magma", "range": [-1.5, 0.25]}, "material": "particles"}])
         self.assertEqual(scene["materials"]["surround"], {"emission": LIGHT})
