@@ -116,8 +116,8 @@ private:
         scene_.lights.push_back(light);
     }
 
-    // Where the file gives no intensities they are for the program to choose; the ray tracers that came with the format
-    // have 1 / sqrt(n) for each of n lights.
+    // Where the file gives no intensities they are for the program to choose: more lights give more light, but not as
+    // many times.
     void share_intensity() {
         for (const std::size_t index : lights_without_color_) {
             scene_.lights[index].color.fill(1.0 / std::sqrt(static_cast<double>(scene_.lights.size())));

@@ -1,4 +1,5 @@
-// Scenes of Tachyon (jedi.ks.uiuc.edu/~johns/tachyon), of which spheres and planes are read: VMD and OVITO write such.
+// Scenes of Tachyon (jedi.ks.uiuc.edu/~johns/raytracer), of which spheres and planes are read: VMD and OVITO write
+// such.
 #pragma once
 
 #include "cli/import/foreign_scene.h"

@@ -1,4 +1,5 @@
 // Scenes in NFF: every entity, by exact values.
+#include "cli/scene/warnings.h"
 #include "tests/import/imported.h"
 
 #include <gtest/gtest.h>
@@ -123,8 +124,10 @@ TEST(Nff, MessagesNamePlaceValueAndRule) {
 
 TEST(Nff, WhatIsLeftOutIsSaidOnce) {
     const std::string glass = changed(changed(nff, "20 0 1", "20 0.5 1.5"), "0 0 0 1", "0 0 1 1.5");
-    EXPECT_EQ(parse_nff(glass).left_out,
-              std::vector<std::string>{"a.nff:12: T: light through surfaces is left out, they are opaque"});
+    const cli::SceneFile scene = parse_nff(glass);
+    const std::vector<std::string> expected{"a.nff:12: T: light through surfaces is left out, they are opaque"};
+    EXPECT_EQ(scene.left_out, expected);
+    EXPECT_EQ(cli::input_warnings(scene, cli::merge_settings({}, scene)), expected);
 }
 
 } // namespace
