@@ -126,7 +126,8 @@ def memory():
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     film = len(result.film.to_bytes())
     print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, "
-          f"at the most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so {(after - before) * 1024 / film:.2f} films")
+          f"at the most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so "
+          f"{(after - before) * 1024 / film:.2f} films")
 
 
 def thousand(progress, _):

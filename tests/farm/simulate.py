@@ -90,7 +90,8 @@ def main():
                 samples = int(minutes * 60 * workers * times * costs.speed / TILES)
                 found = dict(zip(RESULTS, simulate(costs, workers, samples, part_seconds, least, times)))
                 print(f"{workers} {kind}, {samples} spp, parts of {part_seconds:g} s: ideal {found['ideal']:.0f} s, "
-                      f"taken {found['taken']:.0f} s, coordinator {found['busy']:.0%} busy, {found['rate'] / 1e6:.1f} MB/s, "
+                      f"taken {found['taken']:.0f} s, coordinator {found['busy']:.0%} busy, "
+                      f"{found['rate'] / 1e6:.1f} MB/s, "
                       f"{found['parts']:.0f} parts, tail {found['tail']:.1f} s", flush=True)
 
 
