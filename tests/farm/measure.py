@@ -4,7 +4,7 @@
 
 costs      seconds and bytes of a part, on a worker and on the coordinator, by tiles (--json FILE for simulate.py)
 memory     of the coordinator, over a thousand parts of 1920x1080
-overhead   processor seconds of two workers, coordinator and scheduler, against those of one process for the same samples
+overhead   processor seconds of two workers, coordinator and scheduler, and of one process for the same samples
 error      seconds to a target error, of two workers and of one process
 scheduler  bytes that a scheduler in a process of its own takes and sends"""
 
@@ -88,7 +88,8 @@ def costs():
         rows.append({"tiles": tiles, "samples": samples, "speed": tiles * samples / seconds, "least_seconds": least,
                      "bytes": len(outcome.data), "raw_bytes": len(data), "open_seconds": opened})
         print(f"{tiles} tiles x {samples}: {seconds:.3f} s, {rows[-1]['speed']:.0f} samples of tiles a second; of one "
-              f"sample {least:.3f} s; {len(outcome.data) / tiles:.0f} bytes a tile packed, {len(data) / tiles:.0f} raw; "
+              f"sample {least:.3f} s; {len(outcome.data) / tiles:.0f} bytes a tile packed, "
+              f"{len(data) / tiles:.0f} raw; "
               f"unpack and open {opened * 1e3:.2f} ms")
     # Adding: a picture's worth of parts, in the batches of the coordinator.
     for tiles in (64, 4096):
@@ -124,8 +125,9 @@ def memory():
         result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=thousand)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     film = len(result.film.to_bytes())
-    print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, at the "
-          f"most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so {(after - before) * 1024 / film:.2f} films")
+    print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, "
+          f"at the most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so "
+          f"{(after - before) * 1024 / film:.2f} films")
 
 
 def thousand(progress, _):
@@ -150,9 +152,10 @@ def overhead():
             wall = time.monotonic() - begun
             each = [processor_seconds(process) - first for process, first in zip(everyone, start)]
             assert result.film == one.film()
-            print(f"one process {single:.1f} s of processors in {single_wall:.1f} s; farm {sum(each):.1f} s (coordinator "
-                  f"and scheduler {each[0]:.1f}) in {wall:.1f} s: {sum(each) / single - 1:+.1%}, wall "
-                  f"{wall / single_wall - 1:+.1%}; {result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB", flush=True)
+            print(f"one process {single:.1f} s of processors in {single_wall:.1f} s; farm {sum(each):.1f} s "
+                  f"(coordinator and scheduler {each[0]:.1f}) in {wall:.1f} s: {sum(each) / single - 1:+.1%}, wall "
+                  f"{wall / single_wall - 1:+.1%}; {result.progress.parts} parts, "
+                  f"{result.progress.part_bytes / 1e6:.0f} MB", flush=True)
 
 
 def error():
@@ -168,7 +171,8 @@ def error():
             result = farm.render(client, what, 65536, target_error=ARGUMENTS.target)
             wall = time.monotonic() - begun
             assert result.film == one.film()
-            print(f"to {ARGUMENTS.target:.1%}: one process {single:.1f} s, farm {wall:.1f} s, {result.progress.parts} parts, "
+            print(f"to {ARGUMENTS.target:.1%}: one process {single:.1f} s, farm {wall:.1f} s, "
+                  f"{result.progress.parts} parts, "
                   f"{one.stats().mean_sample_count:.0f} spp", flush=True)
 
 
@@ -188,9 +192,9 @@ def scheduler():
             result = farm.render(client, what, ARGUMENTS.samples, options=farm.Options(part_seconds=0.5))
             taken, sent = (after - first for after, first in zip(bytes_of_port(18786), before))
         progress = result.progress
-        print(f"{progress.parts} parts of {progress.part_bytes / 1e6:.1f} MB in {progress.seconds:.0f} s: the scheduler "
-              f"took {taken / 1e3:.0f} kB and sent {sent / 1e3:.0f} kB, {(taken + sent) / progress.parts / 1e3:.1f} kB a "
-              f"part; the job is {len(what.packed()) / 1e3:.1f} kB")
+        print(f"{progress.parts} parts of {progress.part_bytes / 1e6:.1f} MB in {progress.seconds:.0f} s: the "
+              f"scheduler took {taken / 1e3:.0f} kB and sent {sent / 1e3:.0f} kB, "
+              f"{(taken + sent) / progress.parts / 1e3:.1f} kB a part; the job is {len(what.packed()) / 1e3:.1f} kB")
     finally:
         for each in (*workers, program):
             each.terminate()

@@ -1,10 +1,10 @@
-"""A farm of many workers in simulated time, by the coordinator's own rules for sizes of parts (Speed, Part) and with costs
-that were recorded by measure.py: how busy the coordinator is, what it receives, and how long it waits for the last parts.
+"""A farm of many workers in simulated time, by the coordinator's own rules for sizes of parts (Speed, Part) and with
+costs that were recorded by measure.py: how busy the coordinator is, what it receives, how long it waits for the last.
 
     PYTHONPATH=lib/python python3 tests/farm/simulate.py tests/farm/costs.json [WORKERS...]
 
 A GPU is taken as a hundred of the recorded processor cores, in parts of as many tiles as it needs. Not simulated: the
-network's switches, and Dask's scheduler but for a constant for each part, which its makers give (0.2 to 1 ms a task)."""
+network's switches, and Dask's scheduler but for a constant for each part (its makers say 0.2 to 1 ms a task)."""
 
 import heapq
 import json
@@ -36,7 +36,7 @@ class Costs:
         return float(np.interp(tiles, [row["tiles"] for row in self.parts], [row[name] for row in self.parts]))
 
     def packed(self, tiles):
-        return tiles * self._at(tiles, "bytes") / tiles if tiles else 0.0
+        return self._at(tiles, "bytes")
 
     def besides(self, tiles):
         """Of the worker, but for rendering."""
@@ -78,7 +78,8 @@ def simulate(costs, workers, samples, part_seconds, least_tiles, times, seed=1):
             remaining -= given.work
             seconds = given.work / true[worker] + costs.besides(len(given.tiles))
             heapq.heappush(events, (time + seconds, worker, given, time))
-    return TILES * samples / sum(true), free, busy / free, received / free, parts, max(ends) - sorted(ends)[workers // 2]
+    tail = max(ends) - sorted(ends)[workers // 2]
+    return TILES * samples / sum(true), free, busy / free, received / free, parts, tail
 
 
 def main():
@@ -88,8 +89,9 @@ def main():
             for minutes, part_seconds in ((2, 5.0), (2, 30.0), (20, 30.0)):
                 samples = int(minutes * 60 * workers * times * costs.speed / TILES)
                 found = dict(zip(RESULTS, simulate(costs, workers, samples, part_seconds, least, times)))
-                print(f"{workers} {kind}, {samples} spp, parts of {part_seconds:g} s: ideal {found['ideal']:.0f} s, taken "
-                      f"{found['taken']:.0f} s, coordinator {found['busy']:.0%} busy, {found['rate'] / 1e6:.1f} MB/s, "
+                print(f"{workers} {kind}, {samples} spp, parts of {part_seconds:g} s: ideal {found['ideal']:.0f} s, "
+                      f"taken {found['taken']:.0f} s, coordinator {found['busy']:.0%} busy, "
+                      f"{found['rate'] / 1e6:.1f} MB/s, "
                       f"{found['parts']:.0f} parts, tail {found['tail']:.1f} s", flush=True)
 
 

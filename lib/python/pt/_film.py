@@ -197,7 +197,7 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a function of the library writes, which tells their number first. They are written in place: a film
+    """The bytes that a function of the library writes, which tells their number first. Written in place, as a film
     takes hundreds of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
