@@ -12,12 +12,12 @@
 #include "cli/figure/box_lines.h"
 #include "cli/figure/figure_particles.h"
 #include "cli/figure/figure_picture.h"
-#include "cli/figure/figure_scene.h"
 #include "cli/image/display_image.h"
 #include "cli/image/exposure.h"
 #include "cli/image/image_target.h"
 #include "cli/render/outcome.h"
 #include "cli/render/render_report.h"
+#include "cli/scene/figure_scene.h"
 #include "cli/scene/scene_setup.h"
 
 #include <algorithm>

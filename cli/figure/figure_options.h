@@ -4,8 +4,8 @@
 #include "cli/data/particle_colour.h"
 #include "cli/data/particle_radius.h"
 #include "cli/figure/composition.h"
-#include "cli/figure/figure_look.h"
 #include "cli/image/display_options.h"
+#include "cli/layout/figure_look.h"
 
 #include <array>
 #include <cstdint>

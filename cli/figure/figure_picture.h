@@ -4,7 +4,7 @@
 #include "cli/base/context.h"
 #include "cli/base/progress.h"
 #include "cli/figure/overlay.h"
-#include "cli/figure/stage.h"
+#include "cli/layout/stage.h"
 #include "cli/render/piecewise_render.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"

@@ -2,9 +2,9 @@
 // behind them, and outlines.
 #pragma once
 
-#include "cli/figure/balls.h"
 #include "cli/figure/first_hits.h"
 #include "cli/figure/screen.h"
+#include "cli/layout/balls.h"
 
 #include <cstdint>
 #include <span>

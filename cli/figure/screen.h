@@ -1,7 +1,7 @@
 // Where points of the world are in the picture.
 #pragma once
 
-#include "cli/figure/camera_fit.h"
+#include "cli/layout/camera_fit.h"
 
 #include <cstdint>
 

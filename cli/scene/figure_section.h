@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cli/base/json_value.h"
-#include "cli/figure/figure_look.h"
+#include "cli/layout/figure_look.h"
 
 namespace cli {
 

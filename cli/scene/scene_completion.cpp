@@ -1,7 +1,7 @@
 #include "cli/scene/scene_completion.h"
 
-#include "cli/figure/figure_layout.h"
-#include "cli/figure/figure_scene.h"
+#include "cli/layout/figure_layout.h"
+#include "cli/scene/figure_scene.h"
 #include "cli/scene/render_settings.h"
 
 #include <stdexcept>

@@ -5,9 +5,9 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/json_path.h"
 #include "cli/base/library_error.h"
-#include "cli/figure/figure_look.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
+#include "cli/layout/figure_look.h"
 #include "cli/scene/animation.h"
 #include "cli/scene/particle_section.h"
 

@@ -3,9 +3,9 @@
 #include "cli/base/method_names.h"
 #include "cli/data/number_colours.h"
 #include "cli/data/particle_file.h"
-#include "cli/figure/figure_look.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
+#include "cli/layout/figure_look.h"
 #include "cli/scene/camera_section.h"
 
 #include <cstdint>

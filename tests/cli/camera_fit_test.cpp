@@ -1,5 +1,5 @@
-// Tests of cli/figure/camera_fit: all of every ball is in the picture, and no nearer camera would have it so.
-#include "cli/figure/camera_fit.h"
+// Tests of cli/layout/camera_fit: all of every ball is in the picture, and no nearer camera would have it so.
+#include "cli/layout/camera_fit.h"
 
 #include <gtest/gtest.h>
 

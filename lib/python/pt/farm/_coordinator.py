@@ -29,6 +29,7 @@ SLOTS = 2  # parts that a worker has at a time: it renders one while the other t
 # 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
 LEAST_TILES = {True: 64, False: 4096}
 LATE = 3.0  # times the expected seconds
+LOOK_SHARE = 0.05  # of the time, for the error that is shown: looking takes as long as planning a round
 
 
 class Coordinator:
@@ -51,6 +52,7 @@ class Coordinator:
                           patience=options.wait_for_workers)
         self._start = self._checkpoint_time = now()
         self._checkpoint_error = ""
+        self._look_end = self._look_cost = 0.0
         self._stopped = False
 
     # ---- the picture ----
@@ -83,10 +85,17 @@ class Coordinator:
 
     def look(self) -> Stats:
         """At the film's error."""
+        start = now()
         stats = self.film.stats()
+        self._look_end, self._look_cost = now(), now() - start
         self._progress.samples = stats.mean_sample_count
         self._progress.error, self._progress.error_high = stats.relative_rmse, stats.relative_rmse_high
         return stats
+
+    def glance(self) -> None:
+        """Looks for those who watch, if that takes less than LOOK_SHARE of the time."""
+        if now() - self._look_end > self._look_cost / LOOK_SHARE:
+            self.look()
 
     def finish(self, ended_by: str) -> Result:
         self._progress.ended_by = ended_by

@@ -64,8 +64,8 @@ def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
 def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
     goals = np.full(grid_shape(job.settings.width, job.settings.height), min(FIRST_LOOK, samples), np.uint32)
     while coordinator.run(goals):
-        stats = coordinator.look()
         if sampling == Sampling.UNIFORM:
+            stats = coordinator.look()
             count = int(goals.max())
             if stats.relative_rmse_high <= target_error:
                 return coordinator.finish("error")
@@ -74,7 +74,10 @@ def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: fl
             goals = np.full(goals.shape, min(library().pt_next_check(count), samples), np.uint32)
             continue
         result, goals = coordinator.film.plan(target_error, samples)
-        if result != Outcome.PENDING:
+        if result == Outcome.PENDING:
+            coordinator.glance()
+        else:
+            coordinator.look()
             return coordinator.finish("error" if result == Outcome.TARGET_REACHED else "limit")
     coordinator.look()
     return coordinator.finish("stopped")

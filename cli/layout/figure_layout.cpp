@@ -1,4 +1,4 @@
-#include "cli/figure/figure_layout.h"
+#include "cli/layout/figure_layout.h"
 
 #include "cli/figure/box_lines.h"
 

@@ -1,9 +1,9 @@
 // How particles are shown: the view and the light of `pt figure` and of scenes with a "figure".
 #pragma once
 
-#include "cli/figure/camera_fit.h"
-#include "cli/figure/stage.h"
-#include "cli/figure/view_frame.h"
+#include "cli/layout/camera_fit.h"
+#include "cli/layout/stage.h"
+#include "cli/layout/view_frame.h"
 
 namespace cli {
 

@@ -1,4 +1,4 @@
-#include "cli/figure/camera_fit.h"
+#include "cli/layout/camera_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cli/figure/view_frame.h"
+#include "cli/layout/view_frame.h"
 
 #include "cli/base/number.h"
 

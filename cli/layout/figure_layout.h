@@ -3,8 +3,8 @@
 
 #include "cli/base/number.h"
 #include "cli/data/particles.h"
-#include "cli/figure/balls.h"
-#include "cli/figure/figure_look.h"
+#include "cli/layout/balls.h"
+#include "cli/layout/figure_look.h"
 
 #include <optional>
 

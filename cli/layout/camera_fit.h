@@ -1,8 +1,8 @@
 // Fits the camera to balls: the tightest frame, for a direction of view, that shows all of each.
 #pragma once
 
-#include "cli/figure/balls.h"
-#include "cli/figure/view_frame.h"
+#include "cli/layout/balls.h"
+#include "cli/layout/view_frame.h"
 
 #include <limits>
 #include <numbers>

@@ -1,7 +1,7 @@
 // A figure as a scene: what `pt figure` renders, and `pt render` too.
 #pragma once
 
-#include "cli/figure/figure_layout.h"
+#include "cli/layout/figure_layout.h"
 #include "cli/scene/scene_file.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-#include "cli/figure/particle_json.h"
+#include "cli/scene/particle_json.h"
 
 #include "cli/data/particle_types.h"
 
@@ -10,25 +10,25 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json radius_json(const ParticleRadius &radius) {
-    ordered_json json;
+    ordered_json keys;
     switch (radius.source) {
     case RadiusSource::column:
-        json["column"] = radius.column;
+        keys["column"] = radius.column;
         break;
     case RadiusSource::covalent:
     case RadiusSource::van_der_waals:
-        json["elements"] = radius.source == RadiusSource::covalent ? "covalent" : "van-der-waals";
+        keys["elements"] = radius.source == RadiusSource::covalent ? "covalent" : "van-der-waals";
         break;
     case RadiusSource::types:
-        json["types"] = radius.types;
+        keys["types"] = radius.types;
         break;
     default:
         return radius.scale;
     }
     if (radius.scale != 1.0) {
-        json["scale"] = radius.scale;
+        keys["scale"] = radius.scale;
     }
-    return json;
+    return keys;
 }
 
 ordered_json colour_json(const ParticleColour &colour) {
@@ -38,11 +38,11 @@ ordered_json colour_json(const ParticleColour &colour) {
     case ColourSource::components:
         return {{"columns", colour.columns}, {"range", *colour.range}};
     case ColourSource::map: {
-        ordered_json json{{"column", colour.columns[0]}, {"map", colour.map}};
+        ordered_json keys{{"column", colour.columns[0]}, {"map", colour.map}};
         if ((*colour.range)[0] < (*colour.range)[1]) { // else all are alike, which is no range that a file could give
-            json["range"] = *colour.range;
+            keys["range"] = *colour.range;
         }
-        return json;
+        return keys;
     }
     default:
         return colour.constant;
@@ -52,19 +52,19 @@ ordered_json colour_json(const ParticleColour &colour) {
 } // namespace
 
 ordered_json particle_json(const ParticleEntry &entry) {
-    ordered_json json{{"file", entry.file}};
+    ordered_json keys{{"file", entry.file}};
     if (entry.query.frame != -1) {
-        json["frame"] = entry.query.frame;
+        keys["frame"] = entry.query.frame;
     }
     if (entry.wraps) {
-        json["wrap"] = true;
+        keys["wrap"] = true;
     }
     if (!entry.query.where.empty()) {
-        json["where"] = entry.query.where;
+        keys["where"] = entry.query.where;
     }
-    json["radius"] = radius_json(entry.shown_radius);
-    json["color"] = colour_json(entry.shown_colour);
-    return json;
+    keys["radius"] = radius_json(entry.shown_radius);
+    keys["color"] = colour_json(entry.shown_colour);
+    return keys;
 }
 
 } // namespace cli

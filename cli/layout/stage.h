@@ -2,7 +2,7 @@
 // so that angstroms and light years look alike.
 #pragma once
 
-#include "cli/figure/camera_fit.h"
+#include "cli/layout/camera_fit.h"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
-#include "cli/figure/figure_scene.h"
+#include "cli/scene/figure_scene.h"
 
 #include "cli/base/json_text.h"
-#include "cli/figure/particle_json.h"
+#include "cli/scene/particle_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,16 +19,16 @@ ordered_json vector_json(const glm::dvec3 &vector) {
 }
 
 ordered_json camera_json(const FittedCamera &camera) {
-    ordered_json json{{"position", vector_json(camera.position)},
-                      {"look_at", vector_json(camera.position + camera.target_distance * camera.frame.forward)},
-                      {"up", vector_json(camera.frame.up)}};
+    ordered_json section{{"position", vector_json(camera.position)},
+                         {"look_at", vector_json(camera.position + camera.target_distance * camera.frame.forward)},
+                         {"up", vector_json(camera.frame.up)}};
     if (camera.projection == Projection::orthographic) {
-        json["projection"] = "orthographic";
-        json["vertical_extent"] = camera.view_height;
+        section["projection"] = "orthographic";
+        section["vertical_extent"] = camera.view_height;
     } else {
-        json["vertical_fov"] = camera.vertical_fov * (180.0 / std::numbers::pi);
+        section["vertical_fov"] = camera.vertical_fov * (180.0 / std::numbers::pi);
     }
-    return json;
+    return section;
 }
 
 void add_lamp(ordered_json &scene, const std::string &name, const StageLamp &lamp) {

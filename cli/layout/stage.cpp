@@ -1,4 +1,4 @@
-#include "cli/figure/stage.h"
+#include "cli/layout/stage.h"
 
 #include <algorithm>
 #include <cmath>
