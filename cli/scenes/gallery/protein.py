@@ -9,5 +9,5 @@ import sys
 from ase.io import read
 
 atoms = read(sys.argv[1])
-atoms = atoms[atoms.arrays["residuenames"] != "HOH"]
+atoms = atoms[[name.strip() != "HOH" for name in atoms.arrays["residuenames"]]]
 atoms.write("1a0q.xyz", columns=["symbols", "positions"])
