@@ -113,9 +113,9 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree
         if (sphere.is_flat)
             surfaces.planes.push_back(curved_plane(sphere));
     surfaces.planes.insert(surfaces.planes.end(), distinct.planes.begin(), distinct.planes.end());
-    const auto seen =
-        std::ranges::stable_partition(surfaces.planes, [](const CurvedPlane &plane) { return plane.hidden; });
-    hidden.planes = static_cast<std::uint32_t>(surfaces.planes.size() - seen.size());
+    const auto seen = std::stable_partition(surfaces.planes.begin(), surfaces.planes.end(),
+                                            [](const CurvedPlane &plane) { return plane.hidden; });
+    hidden.planes = static_cast<std::uint32_t>(seen - surfaces.planes.begin());
     return surfaces;
 }
 
