@@ -19,7 +19,7 @@ constexpr std::uint32_t reference_samples = 1000;
 
 std::uint32_t scene_count() {
     const char *const asked = std::getenv("PT_TEST_SCENES");
-    return asked ? static_cast<std::uint32_t>(std::atoi(asked)) : 8;
+    return asked ? static_cast<std::uint32_t>(std::atoi(asked)) : 6;
 }
 
 // Balls that cut each other, a floor, sometimes a wall, walls of which one sees the back, a sky and a hidden ball about
