@@ -1,6 +1,5 @@
 #include "cli/tev/tev_viewer.h"
 
-#include <algorithm>
 #include <new>
 
 namespace cli {
@@ -10,8 +9,8 @@ using std::chrono::seconds;
 
 constexpr seconds look_interval{1};
 constexpr seconds connect_limit{5};
-// Once the rendering has ended: without a byte being taken, and in all.
-constexpr seconds idle_limit{5};
+// Once the rendering has ended: since a byte was taken, if only before its end, and in all.
+constexpr seconds idle_limit{2};
 constexpr seconds finish_limit{10};
 
 } // namespace
@@ -115,7 +114,7 @@ bool TevViewer::is_impatient(Clock::time_point since) const {
         return false;
     }
     const Clock::time_point now = Clock::now();
-    return now - std::max(since, finishing_since_) > idle_limit || now - finishing_since_ > finish_limit;
+    return now - since > idle_limit || now - finishing_since_ > finish_limit;
 }
 
 } // namespace cli

@@ -32,7 +32,7 @@ def parse_arguments():
     parser.add_argument("--spp", default="24", metavar="N")
     parser.add_argument("--every", type=float, default=2.0, help="seconds between checkpoints; default 2")
     parser.add_argument("--rounds", type=int, default=3)
-    parser.add_argument("--device", default="best")
+    parser.add_argument("--device", help="as of pt render")
     return parser.parse_args()
 
 
@@ -64,7 +64,9 @@ def absent_address():
 def run(arguments, folder, extra):
     """CPU and wall seconds."""
     command = [arguments.pt, "render", arguments.scene, "-o", os.path.join(folder, "a.exr"), "--size", arguments.size,
-               "--spp", arguments.spp, "--device", arguments.device, "--quiet", *extra]
+               "--spp", arguments.spp, "--quiet", *extra]
+    if arguments.device:
+        command += ["--device", arguments.device]
     before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
     subprocess.run(command, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
