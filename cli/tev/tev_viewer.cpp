@@ -1,6 +1,7 @@
 #include "cli/tev/tev_viewer.h"
 
 #include <new>
+#include <utility>
 
 namespace cli {
 namespace {
