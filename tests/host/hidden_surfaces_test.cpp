@@ -100,6 +100,9 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
     const pt::Features out_of = features_of(scene_of({sphere(-5, 1, Dark), sphere(0, 2, HiddenDark)}));
     EXPECT_FALSE(out_of.inside); // of paths
     EXPECT_FALSE(out_of.known_sides);
+    const pt::Features at_a_wall = features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 5.5, Dark}}));
+    EXPECT_TRUE(at_a_wall.inside);
+    EXPECT_FALSE(features_of(scene_of({sphere(-5, 1, HiddenDark)}, {{{0, 0, 1}, 6.5, Dark}})).inside);
     const pt::Features through =
         features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}}));
     EXPECT_TRUE(through.planes_block);
