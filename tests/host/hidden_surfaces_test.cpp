@@ -107,6 +107,11 @@ TEST(HiddenSurfaces, WithPathsOnBothSidesAreMetFromBoth) {
         features_of(scene_of({sphere(-5, 1, Dark), sphere(-5, 2, Dark)}, {{{0, 0, 1}, 2, HiddenDark}}));
     EXPECT_TRUE(through.planes_block);
     EXPECT_FALSE(through.known_sides);
+    const auto in_a_room = [](Kind wall) {
+        return features_of(scene_of({sphere(0, 50, Dark)}, {{{0, 0, 1}, 2, wall}}));
+    };
+    EXPECT_TRUE(in_a_room(Dark).known_sides);
+    EXPECT_FALSE(in_a_room(HiddenDark).known_sides);
 }
 
 TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
