@@ -12,12 +12,6 @@ double with_margin(double length) {
     return length * (1.0 + side_margin);
 }
 
-double shortest(const glm::dvec3 &from, const glm::dvec3 &way) {
-    const double length = glm::dot(way, way);
-    const double nearest = length > 0.0 ? std::clamp(-glm::dot(from, way) / length, 0.0, 1.0) : 0.0;
-    return glm::length(from + nearest * way);
-}
-
 } // namespace
 
 // Both move evenly, so that one passes the other on a straight line, on which it is farthest away at an end.
@@ -25,7 +19,7 @@ bool lies_apart(const MovingBall &ball, const MovingBall &surface) {
     const glm::dvec3 from = ball.open - surface.open;
     const glm::dvec3 way = ball.way - surface.way;
     const double farthest = std::max(glm::length(from), glm::length(from + way));
-    const bool is_beside = shortest(from, way) > with_margin(ball.radius + surface.radius);
+    const bool is_beside = least_distance(from, way) > with_margin(ball.radius + surface.radius);
     const bool is_within = with_margin(farthest + ball.radius) < surface.radius;
     return is_beside || is_within;
 }

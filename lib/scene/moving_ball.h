@@ -24,12 +24,17 @@ inline constexpr double side_margin = 0x1p-16;
 // 16th of the radius, and shows whatever is done about twins.
 inline constexpr double two_spheres = 0.25;
 
+// Of a point that starts at open, from the origin, where it is nearest to it on its way.
+inline double least_distance(const glm::dvec3 &open, const glm::dvec3 &way) {
+    const double length = glm::dot(way, way);
+    const double nearest = length > 0.0 ? std::clamp(-glm::dot(open, way) / length, 0.0, 1.0) : 0.0;
+    return glm::length(open + nearest * way);
+}
+
 // Whether the origin is in the ball at any time, or so near to it that float32 cannot tell; slack: how much farther
 // still.
 inline bool may_hold_origin(const MovingBall &ball, double slack = 0.0) {
-    const double length = glm::dot(ball.way, ball.way);
-    const double nearest = length > 0.0 ? std::clamp(-glm::dot(ball.open, ball.way) / length, 0.0, 1.0) : 0.0;
-    return !(glm::length(ball.open + nearest * ball.way) > ball.radius * (1.0 + side_margin) + slack);
+    return !(least_distance(ball.open, ball.way) > ball.radius * (1.0 + side_margin) + slack);
 }
 
 // Whether no point of either is far from the other, for their size.
