@@ -70,9 +70,9 @@ struct pt_vulkan {
  *            device see them after a barrier with that source. With signal_semaphore the call returns once the work is
  *            submitted, and commands that wait for the semaphore see them without a barrier, in the stages that wait.
  * Lifetime   with signal_semaphore, the buffer and both semaphores must live until it has been signalled and waited
- * for. The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it that change
- * what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next pt_readback_to_buffer
- * wait for it. */
+ *            for. The context keeps what it needs itself, and may be used and destroyed meanwhile: later calls on it
+ *            that change what is read are ordered behind it by the queue, and pt_set_render, pt_destroy and the next
+ *            pt_readback_to_buffer wait for it. */
 typedef struct pt_buffer_image {
     uint32_t struct_size;      /**< sizeof(pt_buffer_image) */
     uint32_t quantity;         /**< PT_QUANTITY_* of samples; what camera rays meet first is for pt_readback */
