@@ -2,6 +2,7 @@
 // nothing outside it, and every sum has its order, so that a film always gives the same bits.
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "gpu_layout.h"
 
@@ -21,17 +22,37 @@ layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { v
 
 const uint TILES_IN_ROW = REGION_SIZE / TILE_SIZE;
 const uint TILES_IN_REGION = TILES_IN_ROW * TILES_IN_ROW;
-const uint PIXELS_IN_REGION = REGION_SIZE * REGION_SIZE;
-const uint PIXELS_OF_INVOCATION = PIXELS_IN_REGION / ESTIMATE_WORKGROUP_SIZE;
 
-// By pixels of the region. Invocations look at pixels one below the other, so that those beside each other read memory
-// together; what the pixels add up to is summed by invocations that each have a row of a tile, and then by tiles.
-shared float means[PIXELS_IN_REGION];            // of one channel; at last what is unseen in all
-shared float squares[PIXELS_IN_REGION];          // of all channels
-shared float relative_squares[PIXELS_IN_REGION]; // likewise
-shared vec4 rows[ESTIMATE_WORKGROUP_SIZE];
+// What pixels have beside their sums.
+struct Findings {
+    uvec2 rejected; // samples, low and high word
+    uint unknown;   // pixels without a sample in either part
+    uint lost;      // pixels that do not have the samples expected
+};
+
+// A sum of squares, and the sum of the squares of the pixels' shares in it.
+struct Squares {
+    float sum;
+    float shares;
+};
+
+// What a column of a tile, and then a tile, says of its pixels' errors.
+struct Errors {
+    Squares square;
+    Squares relative_square;
+    float unseen;
+    vec2 own; // what the samples of its tile alone say: relative squares, and those of unseen light
+    Findings findings;
+};
+
+// Each invocation has a column of a tile, so that those of one row of pixels read memory together.
+shared float means[REGION_SIZE][REGION_SIZE]; // of one channel, by row and column
+shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared ValueSet tile_sets[TILES_IN_REGION];
-shared uint tile_counts[TILES_IN_REGION][4]; // rejected samples, low and high; pixels that are unknown, and lost
+shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, and then of tiles
+
+// Pixels whose sums are asked of memory before the first of them is waited for.
+const uint PIXELS_ASKED_FOR = 4u;
 
 // A number of up to 160 bits that counts 2^-60ths.
 float as_float(uint words[NUMBER_WORDS])
@@ -52,29 +73,16 @@ struct Shown {
     float lesser; // of the means of the parts
 };
 
-// The counts of accepted samples, and what the difference of the sums, each times the other's count, is to be multiplied
-// with to be the standard error (film_mean.glsl).
-struct Counts {
-    uint a;
-    uint b;
-    float scale;
-};
-
-Counts counts_of(PartCount older, PartCount newer)
+// The standard error is the difference of the sums, each times the other's count, times a scale (film_mean.glsl).
+Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
 {
-    float a = float(older.accepted);
-    float b = float(newer.accepted);
-    return Counts(older.accepted, newer.accepted, inversesqrt(a) * inversesqrt(b) / (a + b));
-}
-
-Shown shown_in(uint channel, uint pixel_in_strip, Counts counts)
-{
-    uvec4 sum_a = part_sum(estimate.older_part, channel, pixel_in_strip, estimate.strip_pixel_count);
-    uvec4 sum_b = part_sum(1u - estimate.older_part, channel, pixel_in_strip, estimate.strip_pixel_count);
     bool first_is_less;
-    uint words[NUMBER_WORDS] = weighted_difference(sum_a, counts.a, sum_b, counts.b, first_is_less);
-    return Shown(as_float(add_with_carry(sum_a, sum_b)) / float(counts.a + counts.b), as_float(words) * counts.scale,
-                 first_is_less ? as_float(sum_a) / float(counts.a) : as_float(sum_b) / float(counts.b));
+    uint words[NUMBER_WORDS] = weighted_difference(sum_a, counts.x, sum_b, counts.y, first_is_less);
+    float a = float(counts.x);
+    float b = float(counts.y);
+    float scale = inversesqrt(a) * inversesqrt(b) / (a + b);
+    return Shown(as_float(add_with_carry(sum_a, sum_b)) / float(counts.x + counts.y), as_float(words) * scale,
+                 first_is_less ? as_float(sum_a) / a : as_float(sum_b) / b);
 }
 
 // A tile's place in the film.
@@ -84,51 +92,76 @@ uint film_tile(uvec2 place_in_strip)
     return estimate.first_tile + place_in_strip.y / TILE_SIZE * columns + place_in_strip.x / TILE_SIZE;
 }
 
-// That a pixel must have.
-uvec2 expected_counts(uvec2 place_in_strip)
+Findings united(Findings a, Findings b)
 {
-    return UNEVEN == 1u ? tile_samples.counts[film_tile(place_in_strip)] : estimate.sample_counts;
+    uint carry;
+    a.rejected.x = uaddCarry(a.rejected.x, b.rejected.x, carry);
+    a.rejected.y += b.rejected.y + carry;
+    a.unknown += b.unknown;
+    a.lost += b.lost;
+    return a;
 }
 
-void count_in_tile(uint tile, PartCount older, PartCount newer, uvec2 expected)
+Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
 {
-    uint rejected[2] = uint[2](older.done - older.accepted, newer.done - newer.accepted);
-    for (uint part = 0u; part < 2u; ++part)
-        if (rejected[part] != 0u) {
-            uint before = atomicAdd(tile_counts[tile][0], rejected[part]);
-            if (before + rejected[part] < before)
-                atomicAdd(tile_counts[tile][1], 1u);
-        }
-    if (older.accepted == 0u || newer.accepted == 0u)
-        atomicAdd(tile_counts[tile][2], 1u);
-    if (uvec2(older.done, newer.done) != expected)
-        atomicAdd(tile_counts[tile][3], 1u);
+    uint carry;
+    uvec2 rejected;
+    rejected.x = uaddCarry(older.done - older.accepted, newer.done - newer.accepted, carry);
+    rejected.y = carry;
+    return Findings(rejected, older.accepted == 0u || newer.accepted == 0u ? 1u : 0u,
+                    uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// Of the pixels of the region that touch one, and itself: k of nine, where the region ends beside it. The lower of two in
-// the middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2
-// of those that are missing lie below all, and the others above. A pixel alone has no neighbours.
-Neighbourhood neighbourhood(ivec2 place, ivec2 size)
+// Where a region ends, a value that is missing beside a pixel lies below or above all.
+const float BELOW_ALL = -1.0;
+const float ABOVE_ALL = 3e38;
+
+// The values left of a pixel, in it and right of it, in ascending order; those missing come first.
+vec3 row_about(ivec2 place, ivec2 size)
 {
-    const float below_all = -1.0;
-    const float above_all = 3e38;
-    ivec2 first = max(place - 1, ivec2(0));
-    ivec2 last = min(place + 1, size - 1);
-    int count = (last.x - first.x + 1) * (last.y - first.y + 1);
-    int lows = 4 - (count - 1) / 2;
-    float values[9];
-    float largest = 0.0;
-    [[unroll]] for (int i = 0; i < 9; ++i) {
-        ivec2 other = place + ivec2(i % 3 - 1, i / 3 - 1);
-        bool is_there = all(greaterThanEqual(other, first)) && all(lessThanEqual(other, last));
-        float value = means[is_there ? other.y * int(REGION_SIZE) + other.x : 0];
-        largest = max(largest, is_there ? value : 0.0);
-        values[i] = is_there ? value : lows > 0 ? below_all : above_all;
-        lows -= is_there ? 0 : 1;
-    }
-    float median = median_of_rows(sorted(values[0], values[1], values[2]), sorted(values[3], values[4], values[5]),
-                                  sorted(values[6], values[7], values[8]));
-    return Neighbourhood(count > 1 ? median : 0.0, largest);
+    float left = place.x > 0 ? means[place.y][max(place.x, 1) - 1] : BELOW_ALL;
+    float right = place.x + 1 < size.x ? means[place.y][min(place.x, int(REGION_SIZE) - 2) + 1] : BELOW_ALL;
+    return sorted(left, means[place.y][place.x], right);
+}
+
+// The same values where the one that is missing comes last.
+vec3 with_missing_above(vec3 row)
+{
+    return vec3(row.yz, ABOVE_ALL);
+}
+
+// The values that touch a pixel, and its own: k of nine, where the region ends beside it. The lower of two in the middle
+// is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2 of those
+// that are missing lie below all, and the others above: of the three missing beside an edge two lie below, and of the
+// five about a corner three.
+Neighbourhood neighbourhood(vec3 above, vec3 row, vec3 below, ivec2 place, ivec2 size)
+{
+    bool is_first = place.y == 0;
+    bool is_last = place.y == size.y - 1;
+    bool is_beside_edge = place.x == 0 || place.x == size.x - 1;
+    float largest = max(row.z, max(is_first ? 0.0 : above.z, is_last ? 0.0 : below.z));
+    vec3 missing = vec3(BELOW_ALL, BELOW_ALL, is_beside_edge ? BELOW_ALL : ABOVE_ALL);
+    above = is_first ? missing : is_beside_edge && is_last ? with_missing_above(above) : above;
+    row = is_beside_edge && (is_first || is_last) ? with_missing_above(row) : row;
+    below = is_last ? missing : is_beside_edge ? with_missing_above(below) : below;
+    return Neighbourhood(median_of_rows(above, row, below), largest);
+}
+
+// Likewise in a region of a single row or column, where one or two values touch a pixel, or none. A pixel alone has no
+// neighbours.
+Neighbourhood neighbourhood_in_line(ivec2 place, ivec2 size)
+{
+    ivec2 along = size.x > 1 ? ivec2(1, 0) : ivec2(0, 1);
+    ivec2 before = place - along;
+    ivec2 behind = place + along;
+    float own = means[place.y][place.x];
+    bool has_before = all(greaterThanEqual(before, ivec2(0)));
+    bool has_behind = all(lessThan(behind, size));
+    float first = has_before ? means[before.y][before.x] : BELOW_ALL;
+    float second = has_behind ? means[behind.y][behind.x] : BELOW_ALL;
+    vec3 values = sorted(first, own, second);
+    bool is_alone = !has_before && !has_behind;
+    return Neighbourhood(is_alone ? 0.0 : values.y, values.z);
 }
 
 // Of the pixels of its tile that touch a pixel, and itself.
@@ -140,26 +173,74 @@ float largest_in_tile(uvec2 place, uvec2 size)
     float largest = 0.0;
     for (uint y = first.y; y <= last.y; ++y)
         for (uint x = first.x; x <= last.x; ++x)
-            largest = max(largest, means[y * REGION_SIZE + x]);
+            largest = max(largest, means[y][x]);
     return largest;
 }
 
-// Sums of squares with the sum of the squares of their shares in them.
-void add_squares(inout float sum, inout float shares, float other_sum, float other_shares)
+Squares squares_of(float values[TILE_SIZE])
 {
-    float all = sum + other_sum;
-    shares = all > 0.0 ? (squared(sum / all) * shares + squared(other_sum / all) * other_shares) : 0.0;
-    sum = all;
+    Squares all = Squares(0.0, 0.0);
+    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
+        all.sum += values[i];
+    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
+        all.shares += all.sum > 0.0 ? squared(values[i] / all.sum) : 0.0;
+    return all;
 }
 
-// Adds a tile with a part of the pixels that whole ones have to those of a region.
-void add_tile(inout ErrorSquares region, float square, float pixel_shares, float part)
+// Of both the pixels.
+Squares united(Squares a, Squares b)
 {
-    float before = region.sum;
-    add_squares(region.sum, region.pixel_shares, square, pixel_shares);
-    float tiles = before;
-    add_squares(tiles, region.tile_shares, square, 1.0);
-    region.part_share = tiles > 0.0 ? (region.part_share * before + part * square) / tiles : 0.0;
+    float sum = a.sum + b.sum;
+    return Squares(sum, sum > 0.0 ? squared(a.sum / sum) * a.shares + squared(b.sum / sum) * b.shares : 0.0);
+}
+
+Errors united(Errors a, Errors b)
+{
+    return Errors(united(a.square, b.square), united(a.relative_square, b.relative_square), a.unseen + b.unseen,
+                  a.own + b.own, united(a.findings, b.findings));
+}
+
+// Of all tiles of a region, with the part of the pixels of a whole tile that each has.
+ErrorSquares squares_of_tiles(Squares tiles[TILES_IN_REGION], float parts[TILES_IN_REGION])
+{
+    ErrorSquares all = ErrorSquares(0.0, 0.0, 0.0, 0.0);
+    [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i)
+        all.sum += tiles[i].sum;
+    if (all.sum > 0.0)
+        [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i) {
+            float share = tiles[i].sum / all.sum;
+            all.pixel_shares += squared(share) * tiles[i].shares;
+            all.tile_shares += squared(share);
+            all.part_share += share * parts[i];
+        }
+    return all;
+}
+
+// Of the tiles in errors.
+RegionError region_error(uvec2 size)
+{
+    RegionError region;
+    Findings findings = Findings(uvec2(0u), 0u, 0u);
+    Squares squares[TILES_IN_REGION];
+    Squares relative_squares[TILES_IN_REGION];
+    float parts[TILES_IN_REGION];
+    region.unseen = 0.0;
+    [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i) {
+        squares[i] = errors[i].square;
+        relative_squares[i] = errors[i].relative_square;
+        region.unseen += errors[i].unseen;
+        findings = united(findings, errors[i].findings);
+        uvec2 corner = uvec2(i % TILES_IN_ROW, i / TILES_IN_ROW) * TILE_SIZE;
+        uvec2 in_region = min(size - min(size, corner), uvec2(TILE_SIZE));
+        parts[i] = float(in_region.x * in_region.y) / float(TILE_SIZE * TILE_SIZE);
+    }
+    region.square = squares_of_tiles(squares, parts);
+    region.relative_square = squares_of_tiles(relative_squares, parts);
+    region.rejected = findings.rejected;
+    region.unknown_pixels = findings.unknown;
+    region.lost_pixels = findings.lost;
+    region.reserved = 0u;
+    return region;
 }
 
 void main()
@@ -168,170 +249,129 @@ void main()
     const uvec2 region_place = gl_WorkGroupID.xy * REGION_SIZE;
     const uvec2 size = min(uvec2(estimate.film_width, estimate.row_count) - region_place, uvec2(REGION_SIZE));
 
-    // The row of a tile that this invocation adds up.
-    const uint tile = invocation / TILE_SIZE;
-    const uvec2 row_place = uvec2(tile % TILES_IN_ROW, tile / TILES_IN_ROW) * TILE_SIZE
-                          + uvec2(0u, invocation % TILE_SIZE);
-    const uint row_first = row_place.y * REGION_SIZE + row_place.x;
-    const uint row_pixels = row_place.y < size.y && row_place.x < size.x ? min(size.x - row_place.x, TILE_SIZE) : 0u;
+    // The pixels of this invocation, one below the other, and the tile that has them. Where the region has none of them,
+    // its first pixel is read instead.
+    const uvec2 place = uvec2(invocation % REGION_SIZE, invocation / REGION_SIZE * TILE_SIZE);
+    const uint pixels = place.x < size.x ? min(size.y - min(size.y, place.y), TILE_SIZE) : 0u;
+    const uvec2 first_place = region_place + (pixels > 0u ? place : uvec2(0u));
+    const uint first_pixel = first_place.y * estimate.film_width + first_place.x;
+    const uint last = max(pixels, 1u) - 1u;
+    const uint tile = place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE;
 
-    if (invocation < TILES_IN_REGION)
-        tile_counts[invocation] = uint[4](0u, 0u, 0u, 0u);
-    barrier();
+    // The tile that this invocation sums up, if it does, and its columns, which follow each other.
+    const bool sums_up_tile = invocation < TILES_IN_REGION;
+    const uvec2 tile_place = uvec2(invocation % TILES_IN_ROW, invocation / TILES_IN_ROW) * TILE_SIZE;
+    const uint first_column = sums_up_tile ? tile_place.y / TILE_SIZE * REGION_SIZE + tile_place.x : 0u;
 
-    float unseen[PIXELS_OF_INVOCATION];
-    vec2 own_squares[PIXELS_OF_INVOCATION];
+    // How many samples pixels have.
+    const uvec2 expected = UNEVEN == 1u ? tile_samples.counts[film_tile(first_place)] : estimate.sample_counts;
+    const float sample_count = float(expected.x + expected.y);
+    uvec2 counts[TILE_SIZE];
+    Findings findings = Findings(uvec2(0u), 0u, 0u);
+    PartCount parts[FILM_PARTS][TILE_SIZE];
+    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
+        uint pixel = first_pixel + min(i, last) * estimate.film_width;
+        parts[0][i] = part_count(estimate.older_part, pixel, estimate.strip_pixel_count);
+        parts[1][i] = part_count(1u - estimate.older_part, pixel, estimate.strip_pixel_count);
+    }
+    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
+        counts[i] = uvec2(parts[0][i].accepted, parts[1][i].accepted);
+        if (i < pixels)
+            findings = united(findings, findings_of(parts[0][i], parts[1][i], expected));
+    }
+
+    const RelativeError relative = RelativeError(estimate.relative_offset, estimate.relative_scale);
+    float squares[TILE_SIZE]; // of all channels
+    float relative_squares[TILE_SIZE];
+    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
+        squares[i] = 0.0;
+        relative_squares[i] = 0.0;
+    }
+    float unseen = 0.0;
+    vec2 own = vec2(0.0);
     for (uint channel = 0u; channel < 3u; ++channel) {
         // What the samples of each pixel show.
-        float standard_errors[PIXELS_OF_INVOCATION];
-        float lessers[PIXELS_OF_INVOCATION];
-        for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
-            uint index = i * ESTIMATE_WORKGROUP_SIZE + invocation;
-            uvec2 place = uvec2(index % REGION_SIZE, index / REGION_SIZE);
-            if (any(greaterThanEqual(place, size)))
-                continue;
-            uint pixel = (region_place.y + place.y) * estimate.film_width + region_place.x + place.x;
-            PartCount older = part_count(estimate.older_part, pixel, estimate.strip_pixel_count);
-            PartCount newer = part_count(1u - estimate.older_part, pixel, estimate.strip_pixel_count);
-            Shown shown = shown_in(channel, pixel, counts_of(older, newer));
-            means[index] = shown.mean;
-            standard_errors[i] = shown.standard_error;
-            lessers[i] = shown.lesser;
-            if (channel == 0u) {
-                count_in_tile(place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE, older, newer,
-                              expected_counts(region_place + place));
-                squares[index] = 0.0;
-                relative_squares[index] = 0.0;
-                unseen[i] = 0.0;
-                own_squares[i] = vec2(0.0);
+        float standard_errors[TILE_SIZE];
+        float lessers[TILE_SIZE];
+        [[unroll]] for (uint first = 0u; first < TILE_SIZE; first += PIXELS_ASKED_FOR) {
+            uvec4 sums[FILM_PARTS][PIXELS_ASKED_FOR];
+            [[unroll]] for (uint i = 0u; i < PIXELS_ASKED_FOR; ++i) {
+                uint pixel = first_pixel + min(first + i, last) * estimate.film_width;
+                sums[0][i] = part_sum(estimate.older_part, channel, pixel, estimate.strip_pixel_count);
+                sums[1][i] = part_sum(1u - estimate.older_part, channel, pixel, estimate.strip_pixel_count);
             }
+            [[unroll]] for (uint i = 0u; i < PIXELS_ASKED_FOR; ++i)
+                if (first + i < pixels) {
+                    Shown shown = shown_by(sums[0][i], sums[1][i], counts[first + i]);
+                    means[place.y + first + i][place.x] = shown.mean;
+                    standard_errors[first + i] = shown.standard_error;
+                    lessers[first + i] = shown.lesser;
+                }
         }
-        barrier();
 
-        // What the pixels are on the average: of rows of tiles, then of tiles, then of the region.
-        ValueSet row_set = empty_set();
-        for (uint i = 0u; i < row_pixels; ++i)
-            row_set = with_value(row_set, means[row_first + i]);
-        rows[invocation] = vec4(row_set.sum, row_set.count, row_set.largest, row_set.second);
+        // What the pixels are on the average: of columns of tiles, then of tiles, then of the region. Means are taken
+        // as they were stored: who asks a set about one of its values must have the same number.
+        ValueSet column_set = empty_set();
+        for (uint i = 0u; i < pixels; ++i)
+            column_set = with_value(column_set, means[place.y + i][place.x]);
+        column_sets[invocation] = column_set;
         barrier();
-        if (invocation < TILES_IN_REGION) {
+        if (sums_up_tile) {
             ValueSet tile_set = empty_set();
-            for (uint i = 0u; i < TILE_SIZE; ++i) {
-                vec4 row = rows[invocation * TILE_SIZE + i];
-                tile_set = united(tile_set, ValueSet(row.x, row.y, row.z, row.w));
-            }
+            [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
+                tile_set = united(tile_set, column_sets[first_column + i]);
             tile_sets[invocation] = tile_set;
         }
         barrier();
         ValueSet region_set = empty_set();
         for (uint i = 0u; i < TILES_IN_REGION; ++i)
             region_set = united(region_set, tile_sets[i]);
+        const ValueSet tile_set = tile_sets[tile];
 
-        // What is expected of each pixel's error.
-        for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
-            uint index = i * ESTIMATE_WORKGROUP_SIZE + invocation;
-            uvec2 place = uvec2(index % REGION_SIZE, index / REGION_SIZE);
-            if (any(greaterThanEqual(place, size)))
-                continue;
-            // As it was stored: of what sets have, it must be the same number.
-            float mean = means[index];
-            Neighbourhood near = neighbourhood(ivec2(place), ivec2(size));
-            ValueSet tile_set = tile_sets[place.y / TILE_SIZE * TILES_IN_ROW + place.x / TILE_SIZE];
-            float around = max(near.median, level_about(mean, tile_set, region_set));
-            RelativeError relative = RelativeError(estimate.relative_offset, estimate.relative_scale);
-            uvec2 counts = expected_counts(region_place + place);
-            squares[index] += squared(standard_errors[i]);
-            relative_squares[index] += relative_square(standard_errors[i], mean, lessers[i], around, relative);
-            unseen[i] += unseen_square(mean, near.largest, float(counts.x + counts.y), estimate.relative_offset);
-            if (UNEVEN == 1u)
-                own_squares[i] += vec2(
-                    relative_square(standard_errors[i], mean, lessers[i],
-                                    mean_besides_and_without_largest(tile_set, mean), relative),
-                    unseen_square(mean, largest_in_tile(place, size), float(counts.x + counts.y), relative.offset));
-        }
+        // What is expected of each pixel's error. The rows about it are taken along from pixel to pixel.
+        const bool is_line = size.x == 1u || size.y == 1u;
+        const ivec2 bounds = ivec2(size);
+        vec3 above = pixels > 0u && place.y > 0u ? row_about(ivec2(place) - ivec2(0, 1), bounds) : vec3(0.0);
+        vec3 row = pixels > 0u ? row_about(ivec2(place), bounds) : vec3(0.0);
+        [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
+            if (i < pixels) {
+                const ivec2 at = ivec2(place) + ivec2(0, i);
+                const float mean = means[at.y][at.x];
+                const vec3 below = at.y + 1 < bounds.y ? row_about(at + ivec2(0, 1), bounds) : vec3(0.0);
+                const Neighbourhood near =
+                    is_line ? neighbourhood_in_line(at, bounds) : neighbourhood(above, row, below, at, bounds);
+                above = row;
+                row = below;
+                const float around = max(near.median, level_about(mean, tile_set, region_set));
+                squares[i] += squared(standard_errors[i]);
+                relative_squares[i] += relative_square(standard_errors[i], mean, lessers[i], around, relative);
+                unseen += unseen_square(mean, near.largest, sample_count, relative.offset);
+                if (UNEVEN == 1u)
+                    own += vec2(relative_square(standard_errors[i], mean, lessers[i],
+                                                mean_besides_and_without_largest(tile_set, mean), relative),
+                                unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
+            }
         barrier(); // before the next channel's means
     }
-    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i)
-        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = unseen[i];
-    barrier();
 
-    // Sums of rows of tiles, then of each tile.
-    vec4 row = vec4(0.0);
-    float row_unseen = 0.0;
-    for (uint i = 0u; i < row_pixels; ++i) {
-        add_squares(row.x, row.y, squares[row_first + i], 1.0);
-        add_squares(row.z, row.w, relative_squares[row_first + i], 1.0);
-        row_unseen += means[row_first + i];
-    }
-    barrier(); // all have read the pixels
-    rows[invocation] = row;
-    means[invocation] = row_unseen;
+    // Sums of columns of tiles, then of tiles, then of the region.
+    errors[invocation] = Errors(squares_of(squares), squares_of(relative_squares), unseen, own, findings);
     barrier();
-    if (invocation < TILES_IN_REGION) {
-        vec4 sum = vec4(0.0);
-        float tile_unseen = 0.0;
-        for (uint i = 0u; i < TILE_SIZE; ++i) {
-            vec4 other = rows[invocation * TILE_SIZE + i];
-            add_squares(sum.x, sum.y, other.x, other.y);
-            add_squares(sum.z, sum.w, other.z, other.w);
-            tile_unseen += means[invocation * TILE_SIZE + i];
-        }
-        squares[invocation] = sum.x;
-        squares[TILES_IN_REGION + invocation] = sum.y;
-        relative_squares[invocation] = sum.z;
-        relative_squares[TILES_IN_REGION + invocation] = sum.w;
-        means[PIXELS_IN_REGION - 1u - invocation] = tile_unseen; // beyond those of rows
+    Errors of_tile;
+    if (sums_up_tile) {
+        of_tile = errors[first_column];
+        for (uint i = 1u; i < TILE_SIZE; ++i)
+            of_tile = united(of_tile, errors[first_column + i]);
     }
+    barrier(); // all have read the columns
+    if (sums_up_tile)
+        errors[invocation] = of_tile;
     barrier();
+    if (invocation == 0u)
+        estimated.regions[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = region_error(size);
 
-    // And of tiles.
-    if (invocation == 0u) {
-        RegionError region;
-        region.square = ErrorSquares(0.0, 0.0, 0.0, 0.0);
-        region.relative_square = ErrorSquares(0.0, 0.0, 0.0, 0.0);
-        region.unseen = 0.0;
-        region.unknown_pixels = 0u;
-        region.lost_pixels = 0u;
-        region.reserved = 0u;
-        region.rejected = uvec2(0u);
-        for (uint i = 0u; i < TILES_IN_REGION; ++i) {
-            // The pixels of a tile that the region has, of those of a whole one.
-            uvec2 corner = uvec2(i % TILES_IN_ROW, i / TILES_IN_ROW) * TILE_SIZE;
-            uvec2 in_region = min(size - min(size, corner), uvec2(TILE_SIZE));
-            float part = float(in_region.x * in_region.y) / float(TILE_SIZE * TILE_SIZE);
-            add_tile(region.square, squares[i], squares[TILES_IN_REGION + i], part);
-            add_tile(region.relative_square, relative_squares[i], relative_squares[TILES_IN_REGION + i], part);
-            region.unseen += means[PIXELS_IN_REGION - 1u - i];
-            uint carry;
-            region.rejected.x = uaddCarry(region.rejected.x, tile_counts[i][0], carry);
-            region.rejected.y += tile_counts[i][1] + carry;
-            region.unknown_pixels += tile_counts[i][2];
-            region.lost_pixels += tile_counts[i][3];
-        }
-        estimated.regions[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = region;
-    }
-    if (UNEVEN == 0u)
-        return;
-
-    // What tiles say of themselves, in the same order.
-    barrier(); // the region has been written
-    for (uint i = 0u; i < PIXELS_OF_INVOCATION; ++i) {
-        means[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i].x;
-        squares[i * ESTIMATE_WORKGROUP_SIZE + invocation] = own_squares[i].y;
-    }
-    barrier();
-    vec2 row_squares = vec2(0.0);
-    for (uint i = 0u; i < row_pixels; ++i)
-        row_squares += vec2(means[row_first + i], squares[row_first + i]);
-    rows[invocation].xy = row_squares;
-    barrier();
-    uvec2 tile_place = uvec2(invocation % TILES_IN_ROW, invocation / TILES_IN_ROW) * TILE_SIZE;
-    if (invocation < TILES_IN_REGION && all(lessThan(tile_place, size))) {
-        vec2 tile_squares = vec2(0.0);
-        for (uint i = 0u; i < TILE_SIZE; ++i)
-            tile_squares += rows[invocation * TILE_SIZE + i].xy;
-        // Where both parts of some pixel do not have a sample, nothing is known.
+    // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
+    if (UNEVEN == 1u && sums_up_tile && all(lessThan(tile_place, size)))
         tile_errors.squares[film_tile(region_place + tile_place)] =
-            tile_counts[invocation][2] > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : tile_squares;
-    }
+            of_tile.findings.unknown > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : of_tile.own;
 }

@@ -68,13 +68,14 @@ uint[NUMBER_WORDS] difference(uint a[NUMBER_WORDS], uint b[NUMBER_WORDS], out ui
 // |A b - B a| of the sums A of a samples and B of b. first_is_less: A / a < B / b.
 uint[NUMBER_WORDS] weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b, out bool first_is_less)
 {
-    uint borrow, unused;
-    uint product_a[NUMBER_WORDS] = product(sum_a, b);
-    uint product_b[NUMBER_WORDS] = product(sum_b, a);
-    uint words[NUMBER_WORDS] = difference(product_a, product_b, borrow);
+    uint borrow;
+    uint words[NUMBER_WORDS] = difference(product(sum_a, b), product(sum_b, a), borrow);
     first_is_less = borrow == 1u;
-    if (first_is_less)
-        words = difference(product_b, product_a, unused);
+    // The negative of a number is its complement and 1.
+    uint mask = first_is_less ? 0xffffffffu : 0u;
+    uint carry = borrow;
+    [[unroll]] for (uint i = 0u; i < NUMBER_WORDS; ++i)
+        words[i] = uaddCarry(words[i] ^ mask, carry, carry);
     return words;
 }
 
