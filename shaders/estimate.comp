@@ -130,10 +130,10 @@ vec3 with_missing_above(vec3 row)
     return vec3(row.yz, ABOVE_ALL);
 }
 
-// The values that touch a pixel, and its own: k of nine, where the region ends beside it. The lower of two in the middle
-// is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2 of those
-// that are missing lie below all, and the others above: of the three missing beside an edge two lie below, and of the
-// five about a corner three.
+// The values that touch a pixel, and its own: k of nine, where the region ends beside it. The lower of two in the
+// middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2
+// of those that are missing lie below all, and the others above: of the three missing beside an edge two lie below, and
+// of the five about a corner three.
 Neighbourhood neighbourhood(vec3 above, vec3 row, vec3 below, ivec2 place, ivec2 size)
 {
     bool is_first = place.y == 0;
@@ -177,13 +177,20 @@ float largest_in_tile(uvec2 place, uvec2 size)
     return largest;
 }
 
+// Of a sum that is not 0. What is all of it has a share of 1, though a division may be off by some units in the last
+// place: one tile alone has no spread, which the host finds as a difference of shares.
+float share_of(float part, float sum)
+{
+    return part == sum ? 1.0 : part / sum;
+}
+
 Squares squares_of(float values[TILE_SIZE])
 {
     Squares all = Squares(0.0, 0.0);
     [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
         all.sum += values[i];
     [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
-        all.shares += all.sum > 0.0 ? squared(values[i] / all.sum) : 0.0;
+        all.shares += all.sum > 0.0 ? squared(share_of(values[i], all.sum)) : 0.0;
     return all;
 }
 
@@ -191,7 +198,8 @@ Squares squares_of(float values[TILE_SIZE])
 Squares united(Squares a, Squares b)
 {
     float sum = a.sum + b.sum;
-    return Squares(sum, sum > 0.0 ? squared(a.sum / sum) * a.shares + squared(b.sum / sum) * b.shares : 0.0);
+    return Squares(sum, sum > 0.0 ? squared(share_of(a.sum, sum)) * a.shares + squared(share_of(b.sum, sum)) * b.shares
+                                  : 0.0);
 }
 
 Errors united(Errors a, Errors b)
@@ -208,7 +216,7 @@ ErrorSquares squares_of_tiles(Squares tiles[TILES_IN_REGION], float parts[TILES_
         all.sum += tiles[i].sum;
     if (all.sum > 0.0)
         [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i) {
-            float share = tiles[i].sum / all.sum;
+            float share = share_of(tiles[i].sum, all.sum);
             all.pixel_shares += squared(share) * tiles[i].shares;
             all.tile_shares += squared(share);
             all.part_share += share * parts[i];
@@ -249,8 +257,8 @@ void main()
     const uvec2 region_place = gl_WorkGroupID.xy * REGION_SIZE;
     const uvec2 size = min(uvec2(estimate.film_width, estimate.row_count) - region_place, uvec2(REGION_SIZE));
 
-    // The pixels of this invocation, one below the other, and the tile that has them. Where the region has none of them,
-    // its first pixel is read instead.
+    // The pixels of this invocation, one below the other, and the tile that has them. Where the region has none of
+    // them, its first pixel is read instead.
     const uvec2 place = uvec2(invocation % REGION_SIZE, invocation / REGION_SIZE * TILE_SIZE);
     const uint pixels = place.x < size.x ? min(size.y - min(size.y, place.y), TILE_SIZE) : 0u;
     const uvec2 first_place = region_place + (pixels > 0u ? place : uvec2(0u));
@@ -309,8 +317,11 @@ void main()
                 }
         }
 
+        barrier();
+
         // What the pixels are on the average: of columns of tiles, then of tiles, then of the region. Means are taken
-        // as they were stored: who asks a set about one of its values must have the same number.
+        // as they were stored, behind a barrier, lest a driver rounds the same mean in two ways: who asks a set about
+        // one of its values must have the same number.
         ValueSet column_set = empty_set();
         for (uint i = 0u; i < pixels; ++i)
             column_set = with_value(column_set, means[place.y + i][place.x]);

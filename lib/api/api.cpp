@@ -14,6 +14,7 @@
 #include <pt/async.h>
 #include <pt/errors.h>
 #include <pt/film.h>
+#include <pt/map.h>
 #include <pt/shaders.h>
 #include <pt/vulkan.h>
 
@@ -283,6 +284,19 @@ pt_result pt_readback(pt_context *context, const pt_image *image) {
         renderer.readback(
             sized ? pt::validated_image(target, renderer.width(), renderer.row_count(), pt::ImageSource::Context)
                   : pt::Image{});
+    });
+}
+
+pt_result pt_map_image(pt_context *context, const pt_image *image, void **data, uint64_t *size_bytes) {
+    return pt::guard_context(context, [&](pt::Renderer &renderer) {
+        const pt_image source = pt::copy_in(image, "image");
+        pt::require_not_null(data, "data");
+        const bool sized = renderer.width() > 0;
+        const std::span<std::byte> pixels = renderer.map(
+            sized ? pt::validated_mapped_layout(source, renderer.width(), renderer.row_count()) : pt::ImageLayout{});
+        *data = pixels.data();
+        if (size_bytes)
+            *size_bytes = pixels.size();
     });
 }
 

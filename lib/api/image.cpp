@@ -94,6 +94,22 @@ Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t
     return {layout, static_cast<std::byte *>(source.data)};
 }
 
+ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height) {
+    Violations violations;
+    const Subject image(violations, "image");
+    image.require(!source.data, "data", std::uint64_t{reinterpret_cast<std::uintptr_t>(source.data)},
+                  "must be NULL: the memory is the library's");
+    image.require(source.size_bytes == 0, "size_bytes", source.size_bytes, "must be 0: the memory is the library's");
+    image.require(source.row_bytes == 0, "row_bytes", source.row_bytes, "must be 0: rows have no gaps");
+    pt_image sized = source;
+    sized.size_bytes = UINT64_MAX;
+    sized.row_bytes = 0;
+    const ImageLayout layout =
+        checked_layout(image, sized, component_bytes(source.format), 0, width, height, ImageSource::Context);
+    violations.throw_if_any(PT_ERROR_INVALID_ARGUMENT);
+    return layout;
+}
+
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height) {
     Violations violations;
     const Subject image(violations, "image");

@@ -38,6 +38,8 @@ enum class ImageSource { Context, Samples };
 // Checks an image whose struct_size is settled, of width x height pixels that are rendered, both >= 1. Throws
 // PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Image validated_image(const pt_image &source, std::uint32_t width, std::uint32_t height, ImageSource of);
+// The same of an image that the library has memory for: without gaps.
+ImageLayout validated_mapped_layout(const pt_image &source, std::uint32_t width, std::uint32_t height);
 BufferImage validated_image(const pt_buffer_image &source, std::uint32_t width, std::uint32_t height);
 
 } // namespace pt

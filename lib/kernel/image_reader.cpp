@@ -11,42 +11,78 @@ namespace {
 // Large enough for a bus to be busy with one, small enough to wait little for the first: 3 MiB.
 constexpr std::uint32_t read_pixels = 1U << 18;
 
+void require_no_loss(std::span<const std::byte> findings) {
+    std::uint32_t lost_pixels = 0;
+    std::memcpy(&lost_pixels, findings.data(), sizeof lost_pixels);
+    pt::require_no_loss(lost_pixels);
+}
+
 } // namespace
+
+ImageReader::Pieces::Pieces(const ImageQuery &query) :
+    total(query.pixels.pixel_count()),
+    most(std::min<std::uint64_t>(std::uint64_t{std::max(read_pixels / query.pixels.width, 1U)} * query.pixels.width,
+                                 total)),
+    bytes_of_pixel(pixel_bytes(query.format)) {}
+
+gpu::ResolveConstants ImageReader::constants_of(const ImageQuery &query, const Pieces &pieces,
+                                                std::uint64_t piece) const {
+    gpu::ResolveConstants constants = resolve_constants(query, film_);
+    const std::uint64_t row = query.pixels.y + piece * pieces.most / query.pixels.width;
+    constants.row_words =
+        static_cast<std::uint32_t>(query.pixels.width * pieces.bytes_of_pixel / sizeof(std::uint32_t));
+    constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
+    constants.pixel_count = static_cast<std::uint32_t>(pieces.pixels_of(piece));
+    return constants;
+}
 
 // The device resolves a piece, and copies it, while the host takes the one before.
 void ImageReader::read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive) {
-    const std::uint64_t bytes_of_pixel = pixel_bytes(query.format);
-    const std::uint64_t total = query.pixels.pixel_count();
-    const std::uint64_t rows_in_piece = std::max(read_pixels / query.pixels.width, 1U);
-    const std::uint64_t most = std::min(rows_in_piece * query.pixels.width, total);
-    const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, (total + most - 1) / most);
+    const Pieces pieces(query);
+    const std::size_t slot_count = std::min<std::uint64_t>(device_.policy().queue_depth, pieces.count());
     for (std::size_t i = 0; i < slot_count; ++i)
-        slot(i, most * bytes_of_pixel, query.format);
+        slot(i, pieces.most * pieces.bytes_of_pixel, query.format);
 
-    gpu::ResolveConstants constants = resolve_constants(query, film_);
-    constants.row_words = static_cast<std::uint32_t>(query.pixels.width * bytes_of_pixel / sizeof(std::uint32_t));
-    const auto pixels_of = [&](std::uint64_t piece) { return std::min(most, total - piece * most); };
-    const std::uint64_t piece_count = (total + most - 1) / most;
     vulkan::SubmissionsUnderWay under_way(device_, slot_count);
     const auto start = [&](std::uint64_t piece) {
-        const std::uint64_t row = query.pixels.y + piece * most / query.pixels.width;
-        constants.first_pixel = static_cast<std::uint32_t>(row * film_.width() + query.pixels.x);
-        constants.pixel_count = static_cast<std::uint32_t>(pixels_of(piece));
-        under_way.start(
-            [&](const auto &commands) { record(commands, slots_[piece % slot_count], query.format, constants); });
+        const Slot &slot = slots_[piece % slot_count];
+        under_way.start([&](const vk::raii::CommandBuffer &commands) {
+            slot.findings.clear(commands, 0, findings_bytes);
+            record(commands, slot, query.format, constants_of(query, pieces, piece), slot.host, findings_bytes);
+            slot.host.copy(commands, slot.findings, findings_bytes);
+        });
     };
     for (std::uint64_t piece = 0; piece < slot_count; ++piece)
         start(piece);
-    for (std::uint64_t piece = 0; piece < piece_count; ++piece) {
+    for (std::uint64_t piece = 0; piece < pieces.count(); ++piece) {
         under_way.finish_first();
         const std::span<const std::byte> bytes = slots_[piece % slot_count].host.host_bytes();
-        std::uint32_t lost_pixels = 0;
-        std::memcpy(&lost_pixels, bytes.data(), sizeof lost_pixels);
-        require_no_loss(lost_pixels);
-        receive(bytes.subspan(findings_bytes, pixels_of(piece) * bytes_of_pixel));
-        if (piece + slot_count < piece_count)
+        require_no_loss(bytes);
+        receive(bytes.subspan(findings_bytes, pieces.pixels_of(piece) * pieces.bytes_of_pixel));
+        if (piece + slot_count < pieces.count())
             start(piece + slot_count);
     }
+}
+
+// In one submission, since the host has nothing to do meanwhile.
+std::span<std::byte> ImageReader::map(const ImageQuery &query) {
+    const Pieces pieces(query);
+    const std::uint64_t bytes = pieces.total * pieces.bytes_of_pixel;
+    const Slot &slot = this->slot(0, pieces.most * pieces.bytes_of_pixel, query.format);
+    if (!mapped_ || mapped_->size() < bytes + findings_bytes) {
+        mapped_.reset(); // before the new one takes memory
+        mapped_.emplace(device_, vulkan::BufferUse::HostRead, bytes + findings_bytes, "mapped image");
+    }
+    device_.submit([&](const vk::raii::CommandBuffer &commands) {
+        slot.findings.clear(commands, 0, findings_bytes);
+        for (std::uint64_t piece = 0; piece < pieces.count(); ++piece)
+            record(commands, slot, query.format, constants_of(query, pieces, piece), *mapped_,
+                   piece * pieces.most * pieces.bytes_of_pixel);
+        mapped_->copy(commands, slot.findings, findings_bytes, bytes);
+    });
+    const std::span<std::byte> memory = mapped_->host_memory();
+    require_no_loss(memory.subspan(bytes));
+    return memory.first(bytes);
 }
 
 ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std::uint32_t format) {
@@ -70,14 +106,13 @@ ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std
     return slots_[index];
 }
 
+// After a barrier, because what was resolved before may be on its way still.
 void ImageReader::record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
-                         const gpu::ResolveConstants &constants) const {
-    slot.findings.clear(commands, 0, findings_bytes);
+                         const gpu::ResolveConstants &constants, const vulkan::Buffer &to, std::uint64_t offset) const {
     vulkan::barrier_between_commands(commands);
     resolve(commands, pipelines_.of(format), film_, slot.sets, constants);
     vulkan::barrier_between_commands(commands);
-    slot.host.copy(commands, slot.findings, findings_bytes);
-    slot.host.copy(commands, slot.resolved, std::uint64_t{constants.pixel_count} * pixel_bytes(format), findings_bytes);
+    to.copy(commands, slot.resolved, std::uint64_t{constants.pixel_count} * pixel_bytes(format), offset);
 }
 
 } // namespace pt

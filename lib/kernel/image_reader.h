@@ -6,9 +6,11 @@
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/submissions_under_way.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +28,10 @@ public:
     // work.
     void read(const ImageQuery &query, const std::function<void(std::span<const std::byte>)> &receive);
 
+    // All of them in memory that the device writes to, without gaps. They stay as long as this object, or until the
+    // next call of it. Throws likewise.
+    std::span<std::byte> map(const ImageQuery &query);
+
 private:
     // Where a piece is resolved, and then read by the host.
     struct Slot {
@@ -35,14 +41,27 @@ private:
         std::vector<vulkan::DescriptorSet> sets; // one per strip of the film
     };
 
+    // Pixels of an image, of which the device makes so many rows at a time.
+    struct Pieces {
+        explicit Pieces(const ImageQuery &query);
+        std::uint64_t count() const { return (total + most - 1) / most; }
+        std::uint64_t pixels_of(std::uint64_t piece) const { return std::min(most, total - piece * most); }
+
+        std::uint64_t total; // pixels
+        std::uint64_t most;  // pixels of a piece
+        std::uint64_t bytes_of_pixel;
+    };
+
     Slot &slot(std::size_t index, std::uint64_t bytes, std::uint32_t format);
+    gpu::ResolveConstants constants_of(const ImageQuery &query, const Pieces &pieces, std::uint64_t piece) const;
     void record(const vk::raii::CommandBuffer &commands, const Slot &slot, std::uint32_t format,
-                const gpu::ResolveConstants &constants) const;
+                const gpu::ResolveConstants &constants, const vulkan::Buffer &to, std::uint64_t offset) const;
 
     vulkan::Device &device_;
     ResolvePipelines &pipelines_;
     DeviceFilm &film_;
     std::vector<Slot> slots_;
+    std::optional<vulkan::Buffer> mapped_; // an image, then findings, once one was mapped
 };
 
 } // namespace pt

@@ -96,6 +96,12 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
     }
 }
 
+std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query, const TileSamples &samples) {
+    if (!home().device().policy().resolve_on_device || !is_one_film(samples))
+        return std::nullopt;
+    return home().image_reader().map(query);
+}
+
 // Of the rows that the image has a part of.
 void FilmView::read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const {
     ImageRows rows(image);

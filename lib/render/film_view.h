@@ -12,6 +12,7 @@
 #include "lib/kernel/resolve.h"
 #include "lib/render/render_device.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <list>
@@ -31,6 +32,10 @@ public:
 
     // Of the films' samples, pixels as an image wants them. Throws PT_ERROR_INTERNAL if a driver lost work.
     void read(const Image &image, const ImageQuery &query, const TileSamples &samples);
+
+    // Likewise, without gaps, in memory of the first device, where that makes the image; it stays until the film is
+    // replaced, or the next call. Elsewhere none.
+    std::optional<std::span<std::byte>> map(const ImageQuery &query, const TileSamples &samples);
 
     // Gives the estimator all that is known of the error of films with the same samples in all tiles. is_recorded: it
     // is there already, of a submission that took the samples on the only device. Throws likewise.

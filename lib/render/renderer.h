@@ -116,6 +116,10 @@ public:
     void readback(const Image &image);
     void readback(const BufferImage &image);
 
+    // The same as of an image without gaps, in memory that stays until the next call, set_render() or
+    // reload_shaders().
+    std::span<std::byte> map(const ImageLayout &layout);
+
     // Of the film of the samples so far.
     FilmHeader film_header() const;
     void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
@@ -190,7 +194,8 @@ private:
     AdaptiveRound round_;                           // that they have come to
     std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_; // likewise
-    std::vector<double> tile_squares_; // likewise, if they are uneven or may come to be, and a kernel finds them
+    std::vector<double> tile_squares_;    // likewise, if they are uneven or may come to be, and a kernel finds them
+    std::vector<std::byte> mapped_image_; // as far as the host makes images that are mapped
     DeviceWork work_;
     std::optional<Job> job_; // while samples are under way
 };

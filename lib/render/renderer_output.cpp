@@ -78,6 +78,20 @@ void Renderer::readback(const Image &image) {
     view_.read(image, query(image.layout), samples_);
 }
 
+// Where no device has it in memory that the host reads, the host makes it in its own.
+std::span<std::byte> Renderer::map(const ImageLayout &layout) {
+    require_settings();
+    if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
+        require_samples();
+        const KernelsKept kept(devices_);
+        if (const std::optional<std::span<std::byte>> mapped = view_.map(query(layout), samples_))
+            return *mapped;
+    }
+    mapped_image_.resize(layout.row_bytes * layout.pixels.height);
+    readback(Image{layout, mapped_image_.data()});
+    return mapped_image_;
+}
+
 // A lent device is the only one, so its film holds all samples.
 void Renderer::readback(const BufferImage &image) {
     require_alive();

@@ -8,9 +8,11 @@ medians over the rounds, of the coursework scene; a camera is moved before every
 
 64 samples      pt_accumulate, on a film that has samples
 readback        pt_readback of the radiance into memory that has been written before
+map             pt_map_image of the same, and a look at the last pixel; of libraries that have it
 one sample      pt_accumulate of one more
 camera + 1      pt_set_camera and pt_accumulate of one
 picture of N    pt_set_camera, pt_accumulate of N samples, and pt_readback
+mapped N        the same with pt_map_image
 to ERROR        pt_set_camera and pt_accumulate with a target error; the samples that it took; and N samples without a
                 target, which is what it would take to know that number beforehand
 first           pt_create to the first picture of one sample, in a process whose driver has its kernels in a cache or not
@@ -27,7 +29,7 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "tests/support"))
 from scene_file import FOLDER, read_scene  # noqa: E402
-from scene_renderer import SceneRenderer, vector  # noqa: E402
+from scene_renderer import SceneRenderer, structs, vector  # noqa: E402
 from table import print_table  # noqa: E402
 
 
@@ -81,6 +83,14 @@ class Measured:
     def readback(self):
         self.renderer.readback(self.image)
 
+    def has_map(self):
+        return hasattr(self.renderer.library, "pt_map_image")
+
+    def map(self):
+        pixels, size = ctypes.c_void_p(), ctypes.c_uint64()
+        self.renderer.call("pt_map_image", ctypes.byref(structs.pt_image()), ctypes.byref(pixels), ctypes.byref(size))
+        return ctypes.c_float.from_address(pixels.value + size.value - 4).value
+
     def sample_count(self):
         stats = self.renderer.stats()
         return stats.sample_count
@@ -97,11 +107,16 @@ def measure_size(contexts, arguments, path_length):
         for context in contexts:
             context.measure("64 samples", lambda: context.accumulate(64))
             context.measure("readback", context.readback)
+            if context.has_map():
+                context.measure("map", context.map)
             context.measure("one sample", lambda: context.accumulate(1))
             context.measure("camera + 1", context.move_camera, lambda: context.accumulate(1))
             for count in arguments.samples.split(","):
                 context.measure(f"picture of {count}", context.move_camera, lambda: context.accumulate(int(count)),
                                 context.readback)
+                if context.has_map():
+                    context.measure(f"mapped {count}", context.move_camera, lambda: context.accumulate(int(count)),
+                                    context.map)
 
 
 def measure_errors(contexts, arguments):
@@ -134,9 +149,10 @@ def main():
             measure_size(contexts, arguments, path_length)
             measure_errors(contexts, arguments)
             print(f"\n{size}, path length {path_length}\n")
-            cases = list(contexts[0].times)
+            cases = list(max((context.times for context in contexts), key=len))
             print_table([["ms"] + [context.name for context in contexts]] +
-                        [[case] + [f"{statistics.median(context.times[case]):.3f}" for context in contexts]
+                        [[case] + [f"{statistics.median(context.times[case]):.3f}" if case in context.times else "-"
+                                   for context in contexts]
                          for case in cases])
             sys.stdout.flush()
 

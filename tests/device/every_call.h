@@ -6,6 +6,7 @@
 #include <pt/accuracy.h>
 #include <pt/async.h>
 #include <pt/devices.h>
+#include <pt/map.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
@@ -28,6 +29,9 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     const pt_accumulate_info one = samples(1);
     std::vector<float> pixels(width * height * 3);
     const pt_image image = tight_image(pixels);
+    pt_image mapped{};
+    mapped.struct_size = sizeof mapped;
+    void *data = nullptr;
     pt_buffer_image buffer_image{};
     buffer_image.struct_size = sizeof buffer_image;
     pt_device_info device{};
@@ -44,6 +48,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_accumulate", [&] { return pt_accumulate(context, &one); }},
         {"pt_start", [&] { return pt_start(context, &one); }},
         {"pt_readback", [&] { return pt_readback(context, &image); }},
+        {"pt_map_image", [&] { return pt_map_image(context, &mapped, &data, nullptr); }},
         {"pt_readback_to_buffer", [&] { return pt_readback_to_buffer(context, &buffer_image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
         {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
@@ -58,7 +63,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 
 // That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 12U);
+    EXPECT_EQ(outcomes.size(), 13U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }

@@ -6,8 +6,11 @@
 #include "tests/support/render_image.h"
 #include "tests/support/shared_context.h"
 
+#include <pt/map.h>
+
 #include <algorithm>
 #include <cstring>
+#include <string>
 #include <tuple>
 
 namespace {
@@ -88,6 +91,76 @@ TEST_F(ReadbackTest, RectanglesAndFormatsArePartsOfTheImage) {
                 }
         }
     });
+}
+
+// Whoever has the memory, and after images of other sizes.
+TEST_F(ReadbackTest, MappedImagesHaveTheSameBytes) {
+    on_each_path([](pt_context *context) {
+        for (const std::uint32_t quantity : {PT_QUANTITY_RADIANCE, PT_QUANTITY_STANDARD_ERROR, PT_QUANTITY_DEPTH})
+            for (const std::uint32_t format : {PT_FORMAT_RGB32F, PT_FORMAT_RGBA16F})
+                for (const auto &[x, y, width, height] :
+                     {std::tuple(2U, 5U, 30U, 20U), {0U, 0U, whole_width, whole_height}, {60U, 39U, 1U, 1U}}) {
+                    std::vector<std::byte> expected(std::size_t{width} * height * pt::pixel_bytes(format), untouched);
+                    pt_image image{};
+                    image.struct_size = sizeof image;
+                    image.quantity = quantity;
+                    image.format = format;
+                    image.x = x;
+                    image.y = y;
+                    image.width = width;
+                    image.height = height;
+                    void *pixels = nullptr;
+                    std::uint64_t size = 0;
+                    ASSERT_EQ(pt_map_image(context, &image, &pixels, &size), PT_OK) << pt_last_error(context);
+                    image.data = expected.data();
+                    image.size_bytes = expected.size();
+                    ASSERT_EQ(pt_readback(context, &image), PT_OK) << pt_last_error(context);
+                    ASSERT_EQ(size, expected.size());
+                    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(pixels) % 16, 0U);
+                    EXPECT_EQ(std::memcmp(pixels, expected.data(), expected.size()), 0);
+                }
+    });
+}
+
+TEST_F(ReadbackTest, AMappedImageStaysWhileTheNextIsRendered) {
+    on_each_path([](pt_context *context) {
+        const std::vector<float> before = whole(context, PT_QUANTITY_RADIANCE);
+        pt_image image{};
+        image.struct_size = sizeof image;
+        void *pixels = nullptr;
+        ASSERT_EQ(pt_map_image(context, &image, &pixels, nullptr), PT_OK) << pt_last_error(context);
+        const pt_camera camera = CourseworkScene::camera();
+        ASSERT_EQ(pt_set_camera(context, &camera), PT_OK);
+        pt_accumulate_info samples{};
+        samples.struct_size = sizeof samples;
+        samples.sample_count = 3;
+        ASSERT_EQ(pt_accumulate(context, &samples), PT_OK);
+        EXPECT_NE(whole(context, PT_QUANTITY_RADIANCE), before);
+        EXPECT_EQ(std::memcmp(pixels, before.data(), before.size() * sizeof(float)), 0);
+        void *again = nullptr;
+        ASSERT_EQ(pt_map_image(context, &image, &again, nullptr), PT_OK) << pt_last_error(context);
+        EXPECT_EQ(again, pixels) << "the memory is kept";
+        EXPECT_NE(std::memcmp(pixels, before.data(), before.size() * sizeof(float)), 0);
+    });
+}
+
+TEST_F(ReadbackTest, MappedImagesHaveNoMemoryOfTheCallers) {
+    render(context());
+    std::vector<float> values(std::size_t{3} * whole_width * whole_height);
+    const pt_image target = image_target(values, PT_QUANTITY_RADIANCE, std::uint64_t{12} * whole_width);
+    void *const nothing = &values;
+    void *pixels = nothing;
+    EXPECT_EQ(pt_map_image(context(), &target, &pixels, nullptr), PT_ERROR_INVALID_ARGUMENT);
+    const std::string message = pt_last_error(context());
+    for (const char *const rule : {"image.data = ", ": must be NULL: the memory is the library's",
+                                   "image.size_bytes = 29280: must be 0: the memory is the library's",
+                                   "image.row_bytes = 732: must be 0: rows have no gaps"})
+        EXPECT_NE(message.find(rule), std::string::npos) << message;
+    EXPECT_EQ(pixels, nothing);
+    pt_image image{};
+    image.struct_size = sizeof image;
+    EXPECT_EQ(pt_map_image(context(), &image, nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT);
+    EXPECT_STREQ(pt_last_error(context()), "data = NULL: must not be NULL");
 }
 
 TEST_F(ReadbackTest, RectanglesMustLieWithinWhatIsRendered) {

@@ -9,6 +9,7 @@
 
 #include <pt/async.h>
 #include <pt/film.h>
+#include <pt/map.h>
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,7 @@ Steps Life::all_steps() {
             "pt_accumulate",
             "pt_readback, radiance",
             "pt_readback, standard error",
+            "pt_map_image",
             "pt_readback, objects",
             "pt_readback, coverage",
             "pt_accumulate, to a target",
@@ -154,6 +156,7 @@ void Life::tell() {
     accumulate_to("pt_accumulate", 2, 0.0);
     readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
     readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);
+    map_image("pt_map_image");
     read_of_scene("pt_readback, objects", PT_QUANTITY_OBJECT);
     read_of_scene("pt_readback, coverage", PT_QUANTITY_COVERAGE);
     accumulate_to("", 16, 0.0);
@@ -256,6 +259,18 @@ void Life::readback(const std::string &step, uint32_t quantity) {
     call(step, [&] { return pt_readback(context_, &target); });
     const auto &images = quantity == PT_QUANTITY_RADIANCE ? expected_.radiance : expected_.standard_error;
     EXPECT_EQ(image, images.at(state().sample_count)) << step;
+}
+
+void Life::map_image(const std::string &step) {
+    pt_image source{};
+    source.struct_size = sizeof source;
+    void *data = nullptr;
+    uint64_t size_bytes = 0;
+    look(step, [&] { return pt_map_image(context_, &source, &data, &size_bytes); });
+    if (!data)
+        return; // it was not wanted
+    const auto *const pixels = static_cast<const float *>(data);
+    EXPECT_EQ(Image(pixels, pixels + size_bytes / sizeof(float)), expected_.radiance.at(state().sample_count)) << step;
 }
 
 // All pixels, and the same again, whatever failed before.

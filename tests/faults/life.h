@@ -82,6 +82,7 @@ private:
     void accumulate_to(const std::string &step, uint32_t sample_count, double target_error,
                        Accumulate accumulate = &pt_accumulate);
     void readback(const std::string &step, uint32_t quantity);
+    void map_image(const std::string &step);
     void read_of_scene(const std::string &step, uint32_t quantity);
     void save_film(const std::string &step);
     void add_film(const std::string &step);

@@ -5,6 +5,7 @@
 #include <pt/devices.h>
 #include <pt/errors.h>
 #include <pt/film.h>
+#include <pt/map.h>
 #include <pt/pt.h>
 #include <pt/shaders.h>
 #include <pt/stats.h>
@@ -57,6 +58,8 @@ static_assert(std::is_same_v<decltype(&pt_start), pt_result (*)(pt_context *, co
 static_assert(std::is_same_v<decltype(&pt_poll), pt_result (*)(pt_context *, uint64_t, double *)>);
 static_assert(std::is_same_v<decltype(&pt_cancel), pt_result (*)(pt_context *)>);
 static_assert(std::is_same_v<decltype(&pt_readback), pt_result (*)(pt_context *, const pt_image *)>);
+static_assert(
+    std::is_same_v<decltype(&pt_map_image), pt_result (*)(pt_context *, const pt_image *, void **, uint64_t *)>);
 static_assert(std::is_same_v<decltype(&pt_readback_to_buffer), pt_result (*)(pt_context *, const pt_buffer_image *)>);
 static_assert(std::is_same_v<decltype(&pt_get_stats), pt_result (*)(pt_context *, pt_stats *)>);
 static_assert(

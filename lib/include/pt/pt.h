@@ -3,9 +3,9 @@
  *
  * The story is four verbs: pt_create, pt_set_scene (with pt_set_camera and pt_set_render), pt_accumulate, pt_readback.
  * What only some programs need stands beside it: pt/async.h (samples that are taken while the program goes on),
- * pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as data), pt/devices.h (which devices
- * there are), pt/film.h (films that are saved and added), pt/vulkan.h (a device of the caller's own), pt/shaders.h
- * (changed kernels) and pt/accuracy.h (how well a device computes).
+ * pt/map.h (images without a copy), pt/stats.h (what was done, and the image's error), pt/errors.h (the last error as
+ * data), pt/devices.h (which devices there are), pt/film.h (films that are saved and added), pt/vulkan.h (a device of
+ * the caller's own), pt/shaders.h (changed kernels) and pt/accuracy.h (how well a device computes).
  *
  * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Colour is
  *   linear RGB radiance, unclamped. Row 0 of an image is the top row.
