@@ -31,8 +31,8 @@ public:
     // The smallest rectangle of the image with all of its pixels.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds the samples of another. Throws PT_ERROR_INCOMPATIBLE if it is of another picture or a pixel has a sample in
-    // both; then, and where memory is lacking, nothing has changed.
+    // Adds the samples of another, in place: besides the other it takes little memory. Throws PT_ERROR_INCOMPATIBLE if
+    // it is of another picture or a pixel has a sample in both; then, and where memory is lacking, nothing has changed.
     void add(Film other);
 
     // Of the layout's size of header().
@@ -76,8 +76,10 @@ private:
 
     PixelSums rows(std::uint32_t first_row, std::uint32_t row_count) const; // of the bounds
     std::vector<FilmTile> list() const;
-    std::vector<Tile> cut_to(const std::vector<Rectangle> &cuts) const;
-    static std::vector<FilmTile> sum_of(const std::vector<Tile> &tiles, const std::vector<Tile> &others);
+    void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
+    void cut_along(const TileMap &map);
+    static std::vector<Tile> outside(const TileMap &map, std::vector<Tile> tiles);
+    static void add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept;
     void write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const;
 
     FilmFacts facts_;

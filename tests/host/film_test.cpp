@@ -97,6 +97,22 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
     }
 }
 
+// Rows so long that a film keeps each by itself, and a part that cuts them.
+TEST(Film, LongRowsAddUp) {
+    const pt::Rectangle pixels{0, 0, 40'000, 3};
+    const pt::Rectangle part{39'000, 1, 1'000, 2};
+    Samples samples;
+    Samples added;
+    give(samples, pixels, {0, 1, 2});
+    give(added, part, {3});
+    const pt::FilmIdentity identity = film_maker::identity(40'000, 3);
+    pt::Film film(film_maker::film_of(identity, {pixels}, samples));
+    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {pixels}, samples));
+    film.add(pt::Film(film_maker::film_of(identity, {part}, added)));
+    give(samples, part, {3});
+    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {{0, 0, 40'000, 1}, {0, 1, 39'000, 2}, part}, samples));
+}
+
 // Halves of the samples that meet in every tile make one tile of all.
 TEST(Film, EqualSamplesOfAllPixelsAreOneTile) {
     Samples even;

@@ -98,10 +98,9 @@ PT_API void pt_close_film(pt_film *film);
 /** Adds the samples of a film that pt_save_film or pt_write_film has written, which may be of other pixels of the
  * image. In any order, films add up to the same bits.
  *
- * For the time of the call it takes as much memory as opening the other does; where the two have other tiles, so much
- * again for each. One thread at a time per film. PT_ERROR_INCOMPATIBLE: the bytes are no film, damaged, cut short, of
- * another picture, or have samples of some pixel that are in the film already; the message has a line for each
- * difference. */
+ * For the time of the call it takes as much memory as opening the other does, and a little. One thread at a time per
+ * film. PT_ERROR_INCOMPATIBLE: the bytes are no film, damaged, cut short, of another picture, or have samples of some
+ * pixel that are in the film already; the message has a line for each difference. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
 /** Writes a film as bytes; data and *size_bytes are as with pt_save_film, and so are the bytes: a context that has
