@@ -76,10 +76,10 @@ std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, co
     return pieces;
 }
 
-// Whether pieces lie below others in the same columns and tiles.
+// Whether pieces lie below others in the same columns and tiles; both rows are as wide.
 bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
     return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
-        return a.pixels.x == b.pixels.x && a.pixels.width == b.pixels.width && a.tile == b.tile;
+        return a.pixels.x == b.pixels.x && a.tile == b.tile;
     });
 }
 
