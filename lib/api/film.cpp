@@ -91,8 +91,7 @@ pt_stats stats_of(const Film &film, bool with_error) {
 
 // Goals of all tiles: those that a step does not name keep what they have.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
-    const TileSamples samples = film.samples_by_tile();
-    const std::size_t tile_count = samples.grid().count();
+    const std::size_t tile_count = film.tile_count();
     if (!goals) {
         count = static_cast<std::uint32_t>(tile_count);
         return PT_OK;
@@ -102,6 +101,7 @@ pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::u
                     BrokenRule{.subject = "count",
                                .value = std::to_string(count),
                                .rule = "must be the number of tiles, " + std::to_string(tile_count)});
+    const TileSamples samples = film.samples_by_tile();
     const std::optional<TileStep> step = film.plan(samples, target_error, most, may_miss_lamps(film.facts()));
     for (std::size_t tile = 0; tile < tile_count; ++tile)
         goals[tile] = static_cast<std::uint32_t>(samples.of(tile).count());

@@ -3,7 +3,6 @@
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
 #include "lib/film/film_tiles.h"
-#include "lib/film/uneven_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -254,18 +253,22 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
     if (samples < min_estimate_samples)
         return unknown_error();
     const std::optional<TileSamples> tiles = tile_samples(header_.tiles, bounds_);
+    if (tiles && !tiles->even())
+        return uneven_error(*tiles, may_miss_lamps);
     ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps});
-    if (tiles && !tiles->even()) {
-        UnevenErrors errors;
-        const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) {
-            return rows(first_row, row_count);
-        };
-        for (const RegionErrors &region : errors.regions(*tiles, std::ldexp(1.0, facts_.unit_exponent), read_rows))
-            estimator.add(region);
-    } else {
-        read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
-    }
+    read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
+}
+
+// Region by region.
+ErrorEstimate Film::uneven_error(const TileSamples &samples, bool may_miss_lamps) const {
+    if (samples.least() < min_estimate_samples)
+        return unknown_error();
+    ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
+    const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
+    for (const RegionErrors &region : errors_.regions(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows))
+        estimator.add(region);
+    return hides_error(estimator.rejected(), samples.total()) ? unknown_error() : estimator.result();
 }
 
 TileSamples Film::samples_by_tile() const {
@@ -278,19 +281,12 @@ TileSamples Film::samples_by_tile() const {
 // Region by region, also where all tiles have the same samples, as a context looks that may tell them apart.
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                    bool may_miss_lamps) {
-    const double unit = std::ldexp(1.0, facts_.unit_exponent);
-    UnevenErrors errors;
     const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
-    const auto look_at_tiles = [&] { return errors.tile_squares(samples, unit, read_rows); };
+    const auto look_at_tiles = [&] {
+        return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows);
+    };
     const auto look = [&]() -> AdaptivePlan::Error {
-        ErrorEstimate error = unknown_error();
-        if (samples.least() >= min_estimate_samples) {
-            ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
-            for (const RegionErrors &region : errors.regions(samples, unit, read_rows))
-                estimator.add(region);
-            if (!hides_error(estimator.rejected(), samples.total()))
-                error = estimator.result();
-        }
+        const ErrorEstimate error = uneven_error(samples, may_miss_lamps);
         return {error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
     };
     return AdaptivePlan(target_error, most, look, look_at_tiles).next(samples, header_.round);

@@ -8,6 +8,7 @@
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_sums.h"
 #include "lib/film/tile_map.h"
+#include "lib/film/uneven_errors.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,9 @@ public:
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                  bool may_miss_lamps);
 
+    // Squares of tiles over its bounds, as samples_by_tile() has them.
+    std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
+
 private:
     struct Tile {
         Rectangle pixels;
@@ -74,6 +78,7 @@ private:
         PixelSums sums;
     };
 
+    ErrorEstimate uneven_error(const TileSamples &samples, bool may_miss_lamps) const;
     PixelSums rows(std::uint32_t first_row, std::uint32_t row_count) const; // of the bounds
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
@@ -86,6 +91,7 @@ private:
     std::vector<Tile> tiles_;
     FilmHeader header_; // of them
     Rectangle bounds_;
+    mutable UnevenErrors errors_; // of looks before, so that the next is at what has changed
 };
 
 } // namespace pt
