@@ -25,7 +25,7 @@ except ImportError:
 from pt import farm
 from pt.farm import _coordinator, _task
 from pt.farm._crew import MOST_FAILURES
-from pt.farm._part import Part, missing_parts
+from pt.farm._part import Part, cells_of, further_parts, has_only, missing_parts
 from pt.farm._sum import write_film
 
 LAMP = pt.Material(emission=(4, 3, 2))
@@ -256,7 +256,7 @@ class Parts(unittest.TestCase):
     def test_what_is_missing(self):
         import numpy as np
         goals = np.full((13, 17), 24, np.uint32)
-        one = missing_parts(None, 8, goals)
+        one = missing_parts(cells_of(None, goals.shape), 8, goals)
         self.assertEqual([(part.first, part.end, len(part.tiles)) for part in one], [(8, 32, 221)])
         with pt.Context() as context:
             context.set_scene(SCENE)
@@ -266,7 +266,7 @@ class Parts(unittest.TestCase):
             counts[12, 3:] = 5  # the last row, of 4 pixels, and not its first tiles
             context.accumulate_tiles(counts)
             film = context.film()
-        left = missing_parts(film, 8, goals)
+        left = missing_parts(cells_of(film, goals.shape), 8, goals)
         self.assertEqual(sum(part.work for part in left), 221 * 24 - 14 * 5)
         self.assertEqual([(part.first, part.end, len(part.tiles)) for part in left],
                          [(8, 10, 14), (8, 32, 207), (15, 32, 14)])

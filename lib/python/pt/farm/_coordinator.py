@@ -8,6 +8,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from pt._errors import IncompatibleError
 from pt._film import Film
 from pt._stats import Stats
@@ -16,7 +18,7 @@ from pt.farm._crew import Crew
 from pt.farm._errors import FarmError
 from pt.farm._job import Job, name_of
 from pt.farm._options import Options, Result
-from pt.farm._part import Goals, Part, grid_shape, is_film_of, missing_parts
+from pt.farm._part import Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
 from pt.farm._progress import Progress
 from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
@@ -53,29 +55,64 @@ class Coordinator:
         self._start = self._checkpoint_time = now()
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
+        self._goals: Goals = np.zeros(self._shape, np.uint32)
+        self._has_only = self._sum.film is None  # whether it had just the samples of the goals before these
+        self._asked_at = -1  # parts
+        self._ask_end = self._ask_cost = 0.0
         self._stopped = False
 
     # ---- the picture ----
 
-    def run(self, goals: Goals) -> bool:
-        """Until the film has these samples by tile; False if progress() asked to stop."""
-        self._progress.samples_wanted = float(goals.mean())
+    def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
+        """Until the film has these samples by tile; False if progress() asked to stop. more: is asked, when all has
+        been given out and some of it is back, what tiles with nothing under way are to have besides."""
+        first_sample, has_worked = self._job.settings.first_sample, False
+        self._goals = goals
         while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
-            missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
+            cells = cells_of(self._sum.film, self._shape)
+            missing = missing_parts(cells, first_sample, self._goals)
             if not missing and self._crew.is_there:
+                self._has_only = has_only(cells, first_sample, self._goals)
                 return True
+            if has_worked:
+                self._forgot(missing)
             self._waiting.extend((None, part) for part in missing)
-            self._work()
+            self._progress.samples_wanted = float(self._goals.mean())
+            self._work(more)
+            has_worked = True
         return False
 
-    def _work(self) -> None:
+    def _work(self, more: Callable[[], Goals | None]) -> None:
         while (self._waiting or self._open or not self._crew.is_there) and not self._stopped:
             for lost in self._crew.look():
                 self._lose(lost, "its worker died")
             self._look_for_late()
             self._hand_out()
             self._take_in()
+            if not self._waiting and self._open and self._has_only:
+                self._ask_for(more)
         self._sum.merge()
+
+    def _ask_for(self, more: Callable[[], Goals | None]) -> None:
+        """As often as a part has been merged, but for no more than half of the time."""
+        if self._progress.parts == self._asked_at or now() - self._ask_end < self._ask_cost:
+            return
+        start = now()
+        goals = more()
+        if goals is not None:
+            further = further_parts(self._goals, goals, self._job.settings.first_sample)
+            self._waiting.extend((None, part) for part in further)
+            self._goals = np.maximum(self._goals, goals)
+            self._progress.samples_wanted = float(self._goals.mean())
+        self._asked_at, self._ask_end = self._progress.parts, now()
+        self._ask_cost = self._ask_end - start
+
+    def _forgot(self, missing: list[Part]) -> None:
+        """Parts that nobody failed and that are not in the film: the accounts are wrong, though the film will not be."""
+        work = sum(part.work for part in missing)
+        if work:
+            self._progress.forgotten += work
+            self._progress.messages.append(f"the coordinator has lost {work} samples of tiles, which are taken again")
 
     @property
     def film(self) -> Film:
