@@ -159,21 +159,25 @@ def overhead():
 
 
 def error():
-    what = job("640x480")
+    what = job(ARGUMENTS.size)
     one = context_of(what)
     with cluster() as here, Client(here) as client:
         farm.render(client, what, 16)
+        workers = [each.process.pid for each in here.workers.values()]
         for _ in range(ARGUMENTS.repeats):
             one.set_render(what.settings)
-            begun = time.monotonic()
+            start, begun = processor_seconds(os.getpid()), time.monotonic()
             one.accumulate(65536, target_error=ARGUMENTS.target)
-            single, begun = time.monotonic() - begun, time.monotonic()
+            single, single_wall = processor_seconds(os.getpid()) - start, time.monotonic() - begun
+            everyone = [os.getpid(), *workers]
+            start, begun = [processor_seconds(each) for each in everyone], time.monotonic()
             result = farm.render(client, what, 65536, target_error=ARGUMENTS.target)
             wall = time.monotonic() - begun
+            each = [processor_seconds(process) - first for process, first in zip(everyone, start)]
             assert result.film == one.film()
-            print(f"to {ARGUMENTS.target:.1%}: one process {single:.1f} s, farm {wall:.1f} s, "
-                  f"{result.progress.parts} parts, "
-                  f"{one.stats().mean_sample_count:.0f} spp", flush=True)
+            print(f"to {ARGUMENTS.target:.1%}: one process {single_wall:.1f} s ({single:.1f} s of processors), farm "
+                  f"{wall:.1f} s ({sum(each[1:]):.1f} s of workers, {each[0]:.1f} of coordinator and scheduler), "
+                  f"{result.progress.parts} parts, {one.stats().mean_sample_count:.0f} spp", flush=True)
 
 
 def scheduler():
@@ -212,6 +216,7 @@ if __name__ == "__main__":
     parser.add_argument("--json")
     parser.add_argument("--samples", type=int, default=512)
     parser.add_argument("--target", type=float, default=0.01)
+    parser.add_argument("--size", default="640x480")
     parser.add_argument("--repeats", type=int, default=3)
     ARGUMENTS = parser.parse_args()
     rows = globals()[ARGUMENTS.what]()
