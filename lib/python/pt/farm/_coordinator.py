@@ -18,7 +18,7 @@ from pt.farm._crew import Crew
 from pt.farm._errors import FarmError
 from pt.farm._job import Job, name_of
 from pt.farm._options import Options, Result
-from pt.farm._part import Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
+from pt.farm._part import Cells, Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
 from pt.farm._progress import Progress
 from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
@@ -30,6 +30,7 @@ SLOTS = 2  # parts that a worker has at a time: it renders one while the other t
 # Of a CPU a sample of 16 tiles takes as long a tile as one of 1024 (measure.py costs); 64 let 16 cores have 4 each.
 # 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
 LEAST_TILES = {True: 64, False: 4096}
+LEAD = 0.05  # seconds: of the way to a worker and back, and of the coordinator's merging
 LATE = 3.0  # times the expected seconds
 LOOK_SHARE = 0.05  # of the time, for the error that is shown: looking takes as long as planning a round
 
@@ -57,6 +58,8 @@ class Coordinator:
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
         self._has_only = self._sum.film is None  # whether it had just the samples of the goals before these
+        self._cells: Cells | None = None  # of the film when so many parts were merged
+        self._cells_at = 0
         self._asked_at = -1  # parts
         self._ask_end = self._ask_cost = 0.0
         self._stopped = False
@@ -69,10 +72,11 @@ class Coordinator:
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
         while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
-            cells = cells_of(self._sum.film, self._shape)
-            missing = missing_parts(cells, first_sample, self._goals)
+            if self._cells is None or self._cells_at != self._progress.parts:
+                self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
+            missing = missing_parts(self._cells, first_sample, self._goals)
             if not missing and self._crew.is_there:
-                self._has_only = has_only(cells, first_sample, self._goals)
+                self._has_only = has_only(self._cells, first_sample, self._goals)
                 return True
             if has_worked:
                 self._forgot(missing)
@@ -88,15 +92,20 @@ class Coordinator:
                 self._lose(lost, "its worker died")
             self._look_for_late()
             self._hand_out()
-            self._take_in()
-            if not self._waiting and self._open and self._has_only:
+            self._take_in(min(TICK, max(self._seconds_to_ask(), 0.0)))
+            if self._seconds_to_ask() <= 0.0:
                 self._ask_for(more)
         self._sum.merge()
 
+    def _seconds_to_ask(self) -> float:
+        """Until shortly before a worker will have nothing to do, if a part has been merged since the last time; but the
+        later, the more tiles are back to be decided together. For no more than half of the time."""
+        if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
+            return float("inf")
+        idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
+        return max(idle - LEAD - self._ask_cost, self._ask_end + self._ask_cost) - now()
+
     def _ask_for(self, more: Callable[[], Goals | None]) -> None:
-        """As often as a part has been merged, but for no more than half of the time."""
-        if self._progress.parts == self._asked_at or now() - self._ask_end < self._ask_cost:
-            return
         start = now()
         goals = more()
         if goals is not None:
@@ -254,8 +263,8 @@ class Coordinator:
         except (ValueError, IncompatibleError) as error:
             return outcome, f"its film is not taken: {error}", None, 0
 
-    def _take_in(self) -> None:
-        event = self._next_event(TICK)
+    def _take_in(self, patience: float) -> None:
+        event = self._next_event(patience)
         while event is not None:
             self._take(*event)
             event = self._next_event(0.0)
