@@ -6,6 +6,7 @@
 #include "lib/api/image.h"
 #include "lib/base/rules.h"
 #include "lib/base/struct_size.h"
+#include "lib/base/work_progress.h"
 #include "lib/film/pixel_format.h"
 
 #include <pt/film.h>
@@ -171,6 +172,22 @@ pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes) {
             film->film.write({static_cast<std::byte *>(data), needed});
         }
         *size_bytes = needed;
+    });
+}
+
+pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::require_not_null(reinterpret_cast<const void *>(take), "take");
+        try {
+            film->film.stream([&](std::span<const std::byte> piece) {
+                if (take(user, piece.data(), piece.size()) != 0)
+                    throw pt::Cancelled();
+            });
+            return PT_OK;
+        } catch (const pt::Cancelled &) {
+            return PT_CANCELLED;
+        }
     });
 }
 

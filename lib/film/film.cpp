@@ -172,25 +172,39 @@ void Film::add(Film other) {
 }
 
 void Film::write(std::span<std::byte> bytes) const {
-    FilmWriter writer(header_, bytes);
-    const TileMap written(header_.tiles);
-    for (const Tile &tile : tiles_)
-        write_tile(tile, written, writer);
-    writer.end();
+    stream([&](std::span<const std::byte> piece) {
+        std::ranges::copy(piece, bytes.begin());
+        bytes = bytes.subspan(piece.size());
+    });
 }
 
-// A row of it lies in one tile of those that are written, which are as wide as can be.
-void Film::write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const {
-    const Rectangle &pixels = tile.pixels;
-    const std::size_t first = written.find(pixels.x, pixels.y)->tile;
-    if (header_.tiles[first].pixels == pixels) {
-        writer.write(first, 0, tile.sums);
-        return;
+void Film::stream(const FilmStream::Receive &receive) const {
+    FilmStream stream(header_, receive);
+    const TileMap own(list());
+    for (const FilmTile &tile : header_.tiles) {
+        const std::vector<TileMap::Piece> pieces = own.cut(tile.pixels);
+        const PartCounts counts = part_counts(tile.samples);
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && counts[part] > 0; ++plane)
+                stream_plane(pieces, part, plane, stream);
     }
-    for (std::uint32_t y = pixels.y; y < pixels.y + pixels.height; ++y) {
-        const std::size_t to = written.find(pixels.x, y)->tile;
-        const Rectangle row{pixels.x, y, pixels.width, 1};
-        writer.write(to, index_in(header_.tiles[to].pixels, pixels.x, y), part_of(tile.sums, pixels, row));
+    stream.end();
+}
+
+// Of a tile whose pixels the pieces are, each in one tile of those in memory: row by row, as its bytes are.
+void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
+                        FilmStream &stream) const {
+    for (auto first = pieces.begin(); first != pieces.end();) {
+        const auto [x, top, width, height] = first->pixels;
+        const auto end =
+            std::find_if(first, pieces.end(), [y = top](const auto &piece) { return piece.pixels.y != y; });
+        for (std::uint32_t y = top; y < top + height; ++y)
+            for (auto piece = first; piece != end; ++piece) {
+                const Tile &tile = tiles_[*piece->tile];
+                stream.add(tile.sums.plane(part, plane)
+                               .subspan(index_in(tile.pixels, piece->pixels.x, y), piece->pixels.width));
+            }
+        first = end;
     }
 }
 

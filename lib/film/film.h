@@ -39,6 +39,9 @@ public:
     // Of the layout's size of header().
     void write(std::span<std::byte> bytes) const;
 
+    // The same bytes, piece by piece.
+    void stream(const FilmStream::Receive &receive) const;
+
     // The fewest samples of a pixel within the bounds: 0 if there is one without any.
     std::uint64_t sample_count() const;
     std::uint64_t max_sample_count() const;
@@ -85,7 +88,8 @@ private:
     void cut_along(const TileMap &map);
     static std::vector<Tile> outside(const TileMap &map, std::vector<Tile> tiles);
     static void add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept;
-    void write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const;
+    void stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
+                      FilmStream &stream) const;
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;

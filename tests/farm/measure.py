@@ -3,7 +3,7 @@
     PYTHONPATH=lib/python PT_LIBRARY=build/lib/libpt.so python3 tests/farm/measure.py WHAT --pt build/bin/pt
 
 costs      seconds and bytes of a part, on a worker and on the coordinator, by tiles (--json FILE for simulate.py)
-memory     of the coordinator, over a thousand parts of 1920x1080
+memory     of the coordinator, over about a thousand parts of 1920x1080
 overhead   processor seconds of two workers, coordinator and scheduler, and of one process for the same samples
 error      seconds to a target error, of two workers and of one process
 scheduler  bytes that a scheduler in a process of its own takes and sends"""
@@ -16,6 +16,7 @@ import re
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -119,19 +120,17 @@ def add_all(whole, parts):
 
 
 def memory():
+    """Of a rendering that writes checkpoints, beside what the interpreter has taken before."""
     what = job("1920x1080")
-    with cluster() as here, Client(here) as client:
+    with cluster() as here, Client(here) as client, tempfile.TemporaryDirectory() as folder:
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=thousand)
+        options = farm.Options(part_seconds=0.02, checkpoint=pathlib.Path(folder, "kept"), checkpoint_every=5.0)
+        result = farm.render(client, what, 20, options=options)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    film = len(result.film.to_bytes())
+    film = result.film.size
     print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, "
           f"at the most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so "
           f"{(after - before) * 1024 / film:.2f} films")
-
-
-def thousand(progress, _):
-    return progress.parts >= 1000
 
 
 def overhead():

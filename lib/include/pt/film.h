@@ -109,6 +109,17 @@ PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_by
  * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: size_bytes is too small; it stays as it was. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
 
+/** Takes the next bytes of a film, which stay as they are until it returns. Called by the thread of the call that it
+ * was given to. Return 0 to go on; anything else ends that call. */
+typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
+
+/** Hands on the bytes that pt_write_film writes, from the first to the last in pieces of at most a megabyte: so a film
+ * is kept or sent without being in memory twice.
+ *
+ * take must not call anything with this film; user is for it. One thread at a time per film. PT_CANCELLED: take asked
+ * to end it. */
+PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
+
 /** Writes mean radiance, its standard error or the counts of samples, like pt_readback: the same bits that the context
  * shows which took the samples.
  *

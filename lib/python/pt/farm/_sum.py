@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pathlib
 from collections import deque
+from typing import BinaryIO
 
 from pt._errors import IncompatibleError
 from pt._film import Film
@@ -72,9 +73,16 @@ class Sum:
 def write_film(film: Film, path: Path) -> None:
     """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
     both."""
-    module = _packing.zstd()
-    data = film.to_bytes()
-    write_atomically(path, module.compress(data) if module else data)
+    packer = _packing.packer(film.size)
+    if packer is None:
+        film.save(path)
+        return
+
+    def write(file: BinaryIO) -> None:
+        film.stream(lambda piece: file.write(packer.compress(piece)))
+        file.write(packer.flush())
+
+    write_atomically(path, write)
 
 
 def read_film(path: Path) -> Film | None:
