@@ -117,7 +117,8 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Parts that nobody failed and that are not in the film: the accounts are wrong, though the film will not be."""
+        """Parts that nobody failed at and that are not in the film: the accounts are wrong, though the film will not
+        be."""
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work

@@ -16,8 +16,8 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Adding to a film costs by its tiles too, and not by the part's alone, so that parts are first added to each other. With
-# batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
+# Adding to a film costs by its tiles too, and not by the part's alone, so that parts are first added to each other.
+# With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
 # processor; 1/8 took 2.5 films of memory (measure.py memory), and 1/32 1.5.
 BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # of the time, for adding less than that, so that the picture so far is recent
