@@ -135,6 +135,29 @@ TEST(Film, EqualSamplesOfAllPixelsAreOneTile) {
     EXPECT_TRUE(bytes_of(sum) == film_maker::film_of(identity, grid(image_width, image_height), all));
 }
 
+TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
+    Samples samples;
+    std::uint32_t count = 0;
+    for (const pt::Rectangle &tile : grid(8, 8)) {
+        count = count % 3 + 1;
+        for (std::uint32_t i = 0; i < count; ++i)
+            give(samples, tile, {i});
+    }
+    const pt::TileSamples found = pt::Film(film_by_sample(samples)).samples_by_tile();
+    ASSERT_EQ(found.grid().count(), grid(8, 8).size());
+    for (std::size_t tile = 0; tile < found.grid().count(); ++tile)
+        EXPECT_EQ(found.of(tile).count(), tile % 3 + 1) << tile;
+    give(samples, {9, 3, 2, 1}, {7});
+    const pt::Film cut(film_by_sample(samples));
+    EXPECT_EQ(error_of([&] { (void)cut.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
+    samples.erase({2, 2}); // a square of which a part has none
+    Samples without = samples;
+    for (auto &[pixel, indices] : without)
+        indices.erase(7);
+    const pt::Film gap(film_by_sample(without));
+    EXPECT_EQ(error_of([&] { (void)gap.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
+}
+
 // What pixels show does not depend on how tiles are cut, and they know it by themselves: of exact sums one float is
 // nearest.
 TEST(Film, ImagesAreThoseOfTheSums) {
