@@ -6,6 +6,7 @@
 #include "lib/api/image.h"
 #include "lib/base/rules.h"
 #include "lib/base/struct_size.h"
+#include "lib/base/work_progress.h"
 #include "lib/film/pixel_format.h"
 
 #include <pt/film.h>
@@ -91,8 +92,7 @@ pt_stats stats_of(const Film &film, bool with_error) {
 
 // Goals of all tiles: those that a step does not name keep what they have.
 pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::uint32_t *goals, std::uint32_t &count) {
-    const TileSamples samples = film.samples_by_tile();
-    const std::size_t tile_count = samples.grid().count();
+    const std::size_t tile_count = film.tile_count();
     if (!goals) {
         count = static_cast<std::uint32_t>(tile_count);
         return PT_OK;
@@ -102,6 +102,7 @@ pt_result write_plan(Film &film, double target_error, std::uint32_t most, std::u
                     BrokenRule{.subject = "count",
                                .value = std::to_string(count),
                                .rule = "must be the number of tiles, " + std::to_string(tile_count)});
+    const TileSamples samples = film.samples_by_tile();
     const std::optional<TileStep> step = film.plan(samples, target_error, most, may_miss_lamps(film.facts()));
     for (std::size_t tile = 0; tile < tile_count; ++tile)
         goals[tile] = static_cast<std::uint32_t>(samples.of(tile).count());
@@ -171,6 +172,22 @@ pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes) {
             film->film.write({static_cast<std::byte *>(data), needed});
         }
         *size_bytes = needed;
+    });
+}
+
+pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::require_not_null(reinterpret_cast<const void *>(take), "take");
+        try {
+            film->film.stream([&](std::span<const std::byte> piece) {
+                if (take(user, piece.data(), piece.size()) != 0)
+                    throw pt::Cancelled();
+            });
+            return PT_OK;
+        } catch (const pt::Cancelled &) {
+            return PT_CANCELLED;
+        }
     });
 }
 

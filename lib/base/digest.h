@@ -36,4 +36,20 @@ private:
 
 std::uint64_t checksum(std::span<const std::byte> bytes);
 
+// The checksum of bytes that are given piece by piece.
+class RunningChecksum {
+public:
+    RunningChecksum();
+    ~RunningChecksum();
+    RunningChecksum(const RunningChecksum &) = delete;
+    RunningChecksum &operator=(const RunningChecksum &) = delete;
+
+    void add(std::span<const std::byte> bytes);
+    std::uint64_t value() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 } // namespace pt

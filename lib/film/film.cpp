@@ -3,16 +3,19 @@
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
 #include "lib/film/film_tiles.h"
-#include "lib/film/uneven_errors.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
 namespace pt {
 
 namespace {
+
+// Of a tile in memory, but for one long row: 7 MB, so that little is there twice while another film's tiles cut it.
+constexpr std::uint32_t most_pixels = 1U << 16;
 
 [[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
     throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = field, .value = value, .rule = rule});
@@ -37,9 +40,8 @@ PixelSums part_of(const PixelSums &sums, const Rectangle &pixels, const Rectangl
 }
 
 // Brings the sums of samples to the split of more samples, which may put all of them on one side.
-void split_for(PixelSums &sums, const SampleSet &samples, const SampleSet &all) noexcept {
+void split_for(PixelSums &sums, const SampleSet &samples, std::uint64_t split) noexcept {
     const std::uint64_t own = split_of(samples.hull());
-    const std::uint64_t split = split_of(all.hull());
     if (own != split)
         sums.fold_into(own < split ? older_part : newer_part);
 }
@@ -57,9 +59,14 @@ Film::Film(std::span<const std::byte> bytes) {
         throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles reach beyond the image");
     header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round};
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        tiles_.push_back({tiles[i].pixels, tiles[i].samples, {}});
-        tiles_.back().sums.resize(tiles[i].pixels.pixel_count());
-        reader.read(i, 0, tiles_.back().sums);
+        const auto [x, y, width, height] = tiles[i].pixels;
+        const std::uint32_t row_count = std::max(most_pixels / width, 1U);
+        for (std::uint32_t row = 0; row < height; row += row_count) {
+            const Rectangle pixels{x, y + row, width, std::min(row_count, height - row)};
+            tiles_.push_back({pixels, tiles[i].samples, {}});
+            tiles_.back().sums.resize(pixels.pixel_count());
+            reader.read(i, std::size_t{row} * width, tiles_.back().sums);
+        }
     }
 }
 
@@ -71,86 +78,133 @@ std::vector<FilmTile> Film::list() const {
     return tiles;
 }
 
-std::vector<Film::Tile> Film::cut_to(const std::vector<Rectangle> &cuts) const {
-    const TileMap map(list());
-    std::vector<Tile> tiles;
-    tiles.reserve(cuts.size());
-    for (const Rectangle &cut : cuts) {
-        tiles.push_back({cut, {}, {}});
-        if (const TileMap::Span *span = map.find(cut.x, cut.y)) {
-            const Tile &whole = tiles_[span->tile];
-            tiles.back().samples = whole.samples;
-            tiles.back().sums = part_of(whole.sums, whole.pixels, cut);
-        } else {
-            tiles.back().sums.resize(cut.pixel_count());
+// Throws PT_ERROR_INCOMPATIBLE if a pixel has a sample here and in others, whose map is given.
+void Film::require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const {
+    for (const Tile &own : tiles_)
+        for (const TileMap::Piece &piece : map.cut(own.pixels)) {
+            if (!piece.tile)
+                continue;
+            const SampleSet &added = others[*piece.tile].samples;
+            if (const auto overlap = added.overlap(own.samples))
+                refuse("samples", text_of(added) + where(piece.pixels),
+                       text_of(*overlap) + " are in the film already that it is added to");
+            if (own.samples.count() + added.count() > UINT32_MAX)
+                refuse("samples", text_of(added), "a pixel holds at most 2^32 - 1");
         }
+}
+
+// Tile by tile, so that no more than one is there twice. Each lies in one tile of the map then, or in none.
+void Film::cut_along(const TileMap &map) {
+    const std::size_t count = tiles_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::vector<TileMap::Piece> pieces = map.cut(tiles_[i].pixels);
+        if (pieces.size() == 1)
+            continue;
+        std::vector<Tile> cut;
+        for (const TileMap::Piece &piece : pieces)
+            cut.push_back({piece.pixels, tiles_[i].samples, part_of(tiles_[i].sums, tiles_[i].pixels, piece.pixels)});
+        tiles_.insert(tiles_.end(), std::move_iterator(cut.begin() + 1), std::move_iterator(cut.end()));
+        tiles_[i] = std::move(cut.front());
     }
-    return tiles;
+}
+
+// What of them is in no tile of a map.
+std::vector<Film::Tile> Film::outside(const TileMap &map, std::vector<Tile> tiles) {
+    std::vector<Tile> found;
+    for (Tile &tile : tiles)
+        for (const TileMap::Piece &piece : map.cut(tile.pixels)) {
+            if (piece.tile)
+                continue;
+            const bool is_whole = piece.pixels == tile.pixels;
+            found.push_back({piece.pixels, tile.samples,
+                             is_whole ? std::move(tile.sums) : part_of(tile.sums, tile.pixels, piece.pixels)});
+        }
+    return found;
+}
+
+// Adds to a tile what another has in its pixels. samples: of both together. Of a film that is brought to another split
+// all samples are on one side of it.
+void Film::add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept {
+    const std::uint64_t split = split_of(samples.hull());
+    const std::uint64_t others_split = split_of(other.samples.hull());
+    split_for(tile.sums, tile.samples, split);
+    const Rectangle &pixels = tile.pixels;
+    const bool has_whole_rows = pixels.width == other.pixels.width;
+    const std::size_t row_count = has_whole_rows ? 1 : pixels.height;
+    const std::size_t run = has_whole_rows ? pixels.pixel_count() : pixels.width;
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
+        if (part_counts(other.samples)[part] == 0)
+            continue;
+        const std::uint32_t to_part = others_split == split ? part : others_split < split ? older_part : newer_part;
+        for (std::size_t row = 0; row < row_count; ++row)
+            tile.sums.add_part(to_part, row * run, other.sums, part,
+                               index_in(other.pixels, pixels.x, pixels.y) + row * other.pixels.width, run);
+    }
+    tile.samples = std::move(samples);
 }
 
 void Film::add(Film other) {
     require_same(other.header_.identity, header_.identity, "as in the film that it is added to");
-    const std::vector<FilmTile> own = list();
     const std::vector<FilmTile> others = other.list();
-    const bool is_cut_alike = has_same_rectangles(own, others);
-    std::vector<Tile> cut;
-    if (!is_cut_alike) {
-        const std::vector<Rectangle> cuts = common_cuts(TileMap(own), TileMap(others));
-        cut = cut_to(cuts);
-        other.tiles_ = other.cut_to(cuts);
-    }
-    std::vector<Tile> &tiles = is_cut_alike ? tiles_ : cut;
-    std::vector<FilmTile> sum = sum_of(tiles, other.tiles_);
+    const TileMap theirs(others);
+    require_disjoint(others, theirs);
+    cut_along(theirs);
+    std::vector<FilmTile> sum = list();
+    const TileMap own(sum);
+    std::vector<std::pair<std::size_t, std::size_t>> meetings; // an own tile, and that of the other with its pixels
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
+            meetings.push_back({i, span->tile});
+            sum[i].samples.add(others[span->tile].samples);
+        }
+    std::vector<Tile> added = outside(own, other.tiles_);
+    for (const Tile &tile : added)
+        sum.push_back({tile.pixels, tile.samples});
     FilmHeader header{header_.identity, canonical_tiles(sum), later_of(header_.round, other.header_.round)};
+    const Rectangle bounds = bounds_of(header.tiles);
+    tiles_.reserve(tiles_.size() + added.size());
     // From here on nothing can fail.
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        split_for(tiles[i].sums, tiles[i].samples, sum[i].samples);
-        split_for(other.tiles_[i].sums, other.tiles_[i].samples, sum[i].samples);
-        tiles[i].sums.add(other.tiles_[i].sums);
-        tiles[i].samples = std::move(sum[i].samples);
-    }
-    if (!is_cut_alike)
-        tiles_ = std::move(cut);
+    for (const auto &[tile, others_tile] : meetings)
+        add_to(tiles_[tile], other.tiles_[others_tile], std::move(sum[tile].samples));
+    std::ranges::move(added, std::back_inserter(tiles_));
     header_ = std::move(header);
-    bounds_ = bounds_of(header_.tiles);
-}
-
-// Tiles of equal rectangles with the samples of both. Throws PT_ERROR_INCOMPATIBLE if they have one in common.
-std::vector<FilmTile> Film::sum_of(const std::vector<Tile> &tiles, const std::vector<Tile> &others) {
-    std::vector<FilmTile> sum;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        const SampleSet &added = others[i].samples;
-        if (const auto overlap = added.overlap(tiles[i].samples))
-            refuse("samples", text_of(added) + where(tiles[i].pixels),
-                   text_of(*overlap) + " are in the film already that it is added to");
-        if (tiles[i].samples.count() + added.count() > UINT32_MAX)
-            refuse("samples", text_of(added), "a pixel holds at most 2^32 - 1");
-        sum.push_back({tiles[i].pixels, tiles[i].samples});
-        sum.back().samples.add(added);
-    }
-    return sum;
+    bounds_ = bounds;
 }
 
 void Film::write(std::span<std::byte> bytes) const {
-    FilmWriter writer(header_, bytes);
-    const TileMap written(header_.tiles);
-    for (const Tile &tile : tiles_)
-        write_tile(tile, written, writer);
-    writer.end();
+    stream([&](std::span<const std::byte> piece) {
+        std::ranges::copy(piece, bytes.begin());
+        bytes = bytes.subspan(piece.size());
+    });
 }
 
-// A row of it lies in one tile of those that are written, which are as wide as can be.
-void Film::write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const {
-    const Rectangle &pixels = tile.pixels;
-    const std::size_t first = written.find(pixels.x, pixels.y)->tile;
-    if (header_.tiles[first].pixels == pixels) {
-        writer.write(first, 0, tile.sums);
-        return;
+void Film::stream(const FilmStream::Receive &receive) const {
+    FilmStream stream(header_, receive);
+    const TileMap own(list());
+    for (const FilmTile &tile : header_.tiles) {
+        const std::vector<TileMap::Piece> pieces = own.cut(tile.pixels);
+        const PartCounts counts = part_counts(tile.samples);
+        for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
+            for (std::size_t plane = 0; plane < gpu::FILM_WORDS && counts[part] > 0; ++plane)
+                stream_plane(pieces, part, plane, stream);
     }
-    for (std::uint32_t y = pixels.y; y < pixels.y + pixels.height; ++y) {
-        const std::size_t to = written.find(pixels.x, y)->tile;
-        const Rectangle row{pixels.x, y, pixels.width, 1};
-        writer.write(to, index_in(header_.tiles[to].pixels, pixels.x, y), part_of(tile.sums, pixels, row));
+    stream.end();
+}
+
+// Of a tile whose pixels the pieces are, each in one tile of those in memory: row by row, as its bytes are.
+void Film::stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
+                        FilmStream &stream) const {
+    for (auto first = pieces.begin(); first != pieces.end();) {
+        const auto [x, top, width, height] = first->pixels;
+        const auto end =
+            std::find_if(first, pieces.end(), [y = top](const auto &piece) { return piece.pixels.y != y; });
+        for (std::uint32_t y = top; y < top + height; ++y)
+            for (auto piece = first; piece != end; ++piece) {
+                const Tile &tile = tiles_[*piece->tile];
+                stream.add(tile.sums.plane(part, plane)
+                               .subspan(index_in(tile.pixels, piece->pixels.x, y), piece->pixels.width));
+            }
+        first = end;
     }
 }
 
@@ -213,18 +267,22 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
     if (samples < min_estimate_samples)
         return unknown_error();
     const std::optional<TileSamples> tiles = tile_samples(header_.tiles, bounds_);
+    if (tiles && !tiles->even())
+        return uneven_error(*tiles, may_miss_lamps);
     ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps});
-    if (tiles && !tiles->even()) {
-        UnevenErrors errors;
-        const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) {
-            return rows(first_row, row_count);
-        };
-        for (const RegionErrors &region : errors.regions(*tiles, std::ldexp(1.0, facts_.unit_exponent), read_rows))
-            estimator.add(region);
-    } else {
-        read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
-    }
+    read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
+}
+
+// Region by region.
+ErrorEstimate Film::uneven_error(const TileSamples &samples, bool may_miss_lamps) const {
+    if (samples.least() < min_estimate_samples)
+        return unknown_error();
+    ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
+    const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
+    for (const RegionErrors &region : errors_.regions(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows))
+        estimator.add(region);
+    return hides_error(estimator.rejected(), samples.total()) ? unknown_error() : estimator.result();
 }
 
 TileSamples Film::samples_by_tile() const {
@@ -237,19 +295,12 @@ TileSamples Film::samples_by_tile() const {
 // Region by region, also where all tiles have the same samples, as a context looks that may tell them apart.
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                    bool may_miss_lamps) {
-    const double unit = std::ldexp(1.0, facts_.unit_exponent);
-    UnevenErrors errors;
     const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
-    const auto look_at_tiles = [&] { return errors.tile_squares(samples, unit, read_rows); };
+    const auto look_at_tiles = [&] {
+        return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows);
+    };
     const auto look = [&]() -> AdaptivePlan::Error {
-        ErrorEstimate error = unknown_error();
-        if (samples.least() >= min_estimate_samples) {
-            ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
-            for (const RegionErrors &region : errors.regions(samples, unit, read_rows))
-                estimator.add(region);
-            if (!hides_error(estimator.rejected(), samples.total()))
-                error = estimator.result();
-        }
+        const ErrorEstimate error = uneven_error(samples, may_miss_lamps);
         return {error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
     };
     return AdaptivePlan(target_error, most, look, look_at_tiles).next(samples, header_.round);

@@ -8,6 +8,7 @@
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_sums.h"
 #include "lib/film/tile_map.h"
+#include "lib/film/uneven_errors.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,12 +32,15 @@ public:
     // The smallest rectangle of the image with all of its pixels.
     const Rectangle &bounds() const { return bounds_; }
 
-    // Adds the samples of another. Throws PT_ERROR_INCOMPATIBLE if it is of another picture or a pixel has a sample in
-    // both; then, and where memory is lacking, nothing has changed.
+    // Adds the samples of another, in place: besides the other it takes little memory. Throws PT_ERROR_INCOMPATIBLE if
+    // it is of another picture or a pixel has a sample in both; then, and where memory is lacking, nothing has changed.
     void add(Film other);
 
     // Of the layout's size of header().
     void write(std::span<std::byte> bytes) const;
+
+    // The same bytes, piece by piece.
+    void stream(const FilmStream::Receive &receive) const;
 
     // The fewest samples of a pixel within the bounds: 0 if there is one without any.
     std::uint64_t sample_count() const;
@@ -67,6 +71,9 @@ public:
     std::optional<TileStep> plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                  bool may_miss_lamps);
 
+    // Squares of tiles over its bounds, as samples_by_tile() has them.
+    std::size_t tile_count() const { return TileGrid{bounds_.width, bounds_.height}.count(); }
+
 private:
     struct Tile {
         Rectangle pixels;
@@ -74,16 +81,21 @@ private:
         PixelSums sums;
     };
 
+    ErrorEstimate uneven_error(const TileSamples &samples, bool may_miss_lamps) const;
     PixelSums rows(std::uint32_t first_row, std::uint32_t row_count) const; // of the bounds
     std::vector<FilmTile> list() const;
-    std::vector<Tile> cut_to(const std::vector<Rectangle> &cuts) const;
-    static std::vector<FilmTile> sum_of(const std::vector<Tile> &tiles, const std::vector<Tile> &others);
-    void write_tile(const Tile &tile, const TileMap &written, FilmWriter &writer) const;
+    void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
+    void cut_along(const TileMap &map);
+    static std::vector<Tile> outside(const TileMap &map, std::vector<Tile> tiles);
+    static void add_to(Tile &tile, const Tile &other, SampleSet samples) noexcept;
+    void stream_plane(const std::vector<TileMap::Piece> &pieces, std::uint32_t part, std::size_t plane,
+                      FilmStream &stream) const;
 
     FilmFacts facts_;
     std::vector<Tile> tiles_;
     FilmHeader header_; // of them
     Rectangle bounds_;
+    mutable UnevenErrors errors_; // of looks before, so that the next is at what has changed
 };
 
 } // namespace pt

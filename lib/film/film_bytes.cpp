@@ -1,12 +1,12 @@
 #include "lib/film/film_bytes.h"
 
-#include "lib/base/digest.h"
 #include "lib/base/error.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace pt {
 
@@ -14,6 +14,8 @@ namespace {
 
 // Words are copied as they are in memory.
 static_assert(std::endian::native == std::endian::little, "the bytes of a film are little-endian");
+
+constexpr std::size_t most_piece_bytes = 1U << 20;
 
 constexpr std::uint64_t checksum_bytes = sizeof(std::uint64_t);
 
@@ -77,6 +79,34 @@ void FilmWriter::write(std::size_t tile, std::uint64_t first_pixel, const PixelS
 void FilmWriter::end() {
     const std::uint64_t value = checksum(bytes_.first(layout_.size_bytes() - checksum_bytes));
     std::memcpy(bytes_.subspan(layout_.size_bytes() - checksum_bytes).data(), &value, checksum_bytes);
+}
+
+FilmStream::FilmStream(const FilmHeader &header, Receive receive) : receive_(std::move(receive)) {
+    piece_.reserve(most_piece_bytes);
+    const std::string text = text_of(header);
+    add(std::as_bytes(std::span(text)));
+}
+
+void FilmStream::add(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const auto taken = bytes.first(std::min(bytes.size(), most_piece_bytes - piece_.size()));
+        piece_.insert(piece_.end(), taken.begin(), taken.end());
+        bytes = bytes.subspan(taken.size());
+        if (piece_.size() == most_piece_bytes)
+            hand_on();
+    }
+}
+
+void FilmStream::hand_on() {
+    checksum_.add(piece_);
+    receive_(piece_);
+    piece_.clear();
+}
+
+void FilmStream::end() {
+    hand_on();
+    const std::uint64_t value = checksum_.value();
+    receive_(std::as_bytes(std::span(&value, 1)));
 }
 
 FilmReader::FilmReader(std::span<const std::byte> bytes) :

@@ -1,11 +1,13 @@
 // A film as bytes: header, exact sums, checksum. FORMAT.md describes them.
 #pragma once
 
+#include "lib/base/digest.h"
 #include "lib/film/film_header.h"
 #include "lib/film/pixel_sums.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,6 +51,26 @@ public:
 private:
     FilmLayout layout_;
     std::span<std::byte> bytes_;
+};
+
+// Hands on a film's bytes from the first to the last, in pieces of no more than a megabyte: the words of each plane of
+// each part that has samples, tile by tile, then end().
+class FilmStream {
+public:
+    using Receive = std::function<void(std::span<const std::byte>)>; // may throw
+
+    FilmStream(const FilmHeader &header, Receive receive);
+
+    void add(std::span<const std::uint32_t> words) { add(std::as_bytes(words)); }
+    void end();
+
+private:
+    void add(std::span<const std::byte> bytes);
+    void hand_on();
+
+    Receive receive_;
+    RunningChecksum checksum_;
+    std::vector<std::byte> piece_;
 };
 
 // Reads a film from bytes, which must outlive it.

@@ -12,15 +12,15 @@ Rectangle shifted(const Rectangle &pixels, const Rectangle &origin) {
 
 // The samples that all pixels of a rectangle have, none where no tile has them; nothing if they differ.
 std::optional<SampleSet> samples_of(const TileMap &map, const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
-    const auto samples_at = [&](std::uint32_t x, std::uint32_t y) {
-        const TileMap::Span *const span = map.find(x, y);
-        return span ? tiles[span->tile].samples : SampleSet();
+    const SampleSet none;
+    const auto samples_in = [&](const TileMap::Piece &piece) -> const SampleSet & {
+        return piece.tile ? tiles[*piece.tile].samples : none;
     };
-    const SampleSet first = samples_at(pixels.x, pixels.y);
-    for (std::uint32_t y = pixels.y; y < pixels.y + pixels.height; ++y)
-        for (std::uint32_t x = pixels.x; x < pixels.x + pixels.width; ++x)
-            if (samples_at(x, y) != first)
-                return std::nullopt;
+    const std::vector<TileMap::Piece> pieces = map.cut(pixels);
+    const SampleSet &first = samples_in(pieces.front());
+    for (const TileMap::Piece &piece : pieces)
+        if (samples_in(piece) != first)
+            return std::nullopt;
     return first;
 }
 

@@ -40,25 +40,6 @@ private:
 // Pixels whose carries are kept at a time: in the fastest cache, and in no memory that might be lacking.
 constexpr std::size_t carry_block = 1024;
 
-// Adds the words of one part to those of another, plane by plane: a sum's carries go from each word to the next.
-void add_part(PixelSums &to, std::uint32_t to_part, const PixelSums &from, std::uint32_t from_part) noexcept {
-    std::array<std::uint32_t, carry_block> carries;
-    for (std::size_t first = 0; first < to.pixel_count(); first += carry_block) {
-        const std::size_t count = std::min(carry_block, to.pixel_count() - first);
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-            if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
-                carries.fill(0);
-            const std::span<std::uint32_t> words = to.plane(to_part, plane).subspan(first, count);
-            const std::span<const std::uint32_t> others = from.plane(from_part, plane).subspan(first, count);
-            for (std::size_t pixel = 0; pixel < count; ++pixel) {
-                const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];
-                words[pixel] = static_cast<std::uint32_t>(sum);
-                carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
-            }
-        }
-    }
-}
-
 } // namespace
 
 std::span<std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) {
@@ -71,11 +52,31 @@ std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t 
 
 void PixelSums::add(const PixelSums &other) noexcept {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
-        add_part(*this, part, other, part);
+        add_part(part, 0, other, part, 0, pixel_count_);
+}
+
+// Plane by plane: a sum's carries go from each word to the next.
+void PixelSums::add_part(std::uint32_t part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
+                         std::size_t first, std::size_t count) noexcept {
+    std::array<std::uint32_t, carry_block> carries;
+    for (std::size_t done = 0; done < count; done += carry_block) {
+        const std::size_t block = std::min(carry_block, count - done);
+        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
+            if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
+                std::ranges::fill_n(carries.begin(), static_cast<std::ptrdiff_t>(block), 0U);
+            const std::span<std::uint32_t> words = this->plane(part, plane).subspan(to_first + done, block);
+            const std::span<const std::uint32_t> others = from.plane(from_part, plane).subspan(first + done, block);
+            for (std::size_t pixel = 0; pixel < block; ++pixel) {
+                const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];
+                words[pixel] = static_cast<std::uint32_t>(sum);
+                carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
+            }
+        }
+    }
 }
 
 void PixelSums::fold_into(std::uint32_t part) noexcept {
-    add_part(*this, part, *this, 1 - part);
+    add_part(part, 0, *this, 1 - part, 0, pixel_count_);
     for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
         std::ranges::fill(plane(1 - part, i), 0U);
 }

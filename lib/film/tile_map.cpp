@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace pt {
@@ -56,12 +58,29 @@ std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<
     return runs;
 }
 
-// Adds the rectangles between the cuts of a band's rows [first, end), where either list has pixels.
-void cut_band(const TileMap &a, const TileMap &b, std::uint32_t first, std::uint32_t end,
-              const std::vector<std::uint32_t> &columns, std::vector<Rectangle> &cuts) {
-    for (std::size_t i = 0; i + 1 < columns.size(); ++i)
-        if (a.find(columns[i], first) || b.find(columns[i], first))
-            cuts.push_back({columns[i], first, columns[i + 1] - columns[i], end - first});
+// Those of rows that meet the same tiles, from left to right.
+std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, const Rectangle &rows) {
+    std::vector<TileMap::Piece> pieces;
+    std::uint32_t x = rows.x;
+    const auto add_up_to = [&](std::uint32_t end, std::optional<std::size_t> tile) {
+        if (x < end)
+            pieces.push_back({{x, rows.y, end - x, rows.height}, tile});
+        x = std::max(x, end);
+    };
+    auto span = std::ranges::upper_bound(spans, x, {}, &TileMap::Span::end);
+    for (; span != spans.end() && span->first < right_of(rows); ++span) {
+        add_up_to(span->first, std::nullopt);
+        add_up_to(std::min(span->end, right_of(rows)), span->tile);
+    }
+    add_up_to(right_of(rows), std::nullopt);
+    return pieces;
+}
+
+// Whether pieces lie below others in the same columns and tiles; both rows are as wide.
+bool continue_below(std::span<const TileMap::Piece> pieces, std::span<const TileMap::Piece> below) {
+    return std::ranges::equal(pieces, below, [](const TileMap::Piece &a, const TileMap::Piece &b) {
+        return a.pixels.x == b.pixels.x && a.tile == b.tile;
+    });
 }
 
 } // namespace
@@ -99,6 +118,30 @@ const TileMap::Span *TileMap::find(std::uint32_t x, std::uint32_t y) const {
     return span == band->spans.end() || span->first > x ? nullptr : &*span;
 }
 
+std::vector<TileMap::Piece> TileMap::cut(const Rectangle &pixels) const {
+    std::vector<Piece> pieces;
+    std::size_t above = 0; // the first piece of the rows above
+    auto band = std::ranges::upper_bound(bands_, pixels.y, {}, &Band::end);
+    for (std::uint32_t y = pixels.y; y < bottom_of(pixels);) {
+        const bool is_free = band == bands_.end() || band->first > y;
+        const std::uint32_t next = band == bands_.end() ? bottom_of(pixels) : is_free ? band->first : band->end;
+        const std::uint32_t end = std::min(next, bottom_of(pixels));
+        const std::vector<Piece> rows =
+            cut_rows(is_free ? std::vector<Span>() : band->spans, {pixels.x, y, pixels.width, end - y});
+        if (continue_below(std::span(pieces).subspan(above), rows)) {
+            for (Piece &piece : std::span(pieces).subspan(above))
+                piece.pixels.height += end - y;
+        } else {
+            above = pieces.size();
+            pieces.insert(pieces.end(), rows.begin(), rows.end());
+        }
+        if (!is_free)
+            ++band;
+        y = end;
+    }
+    return pieces;
+}
+
 Rectangle bounds_of(const std::vector<FilmTile> &tiles) {
     Rectangle bounds = tiles.front().pixels;
     for (const FilmTile &tile : tiles) {
@@ -110,35 +153,6 @@ Rectangle bounds_of(const std::vector<FilmTile> &tiles) {
         bounds.height = bottom - bounds.y;
     }
     return bounds;
-}
-
-bool has_same_rectangles(const std::vector<FilmTile> &a, const std::vector<FilmTile> &b) {
-    return std::ranges::equal(a, b, {}, &FilmTile::pixels, &FilmTile::pixels);
-}
-
-std::vector<Rectangle> common_cuts(const TileMap &a, const TileMap &b) {
-    std::vector<std::uint32_t> rows;
-    for (const TileMap *map : {&a, &b})
-        for (const TileMap::Band &band : map->bands())
-            rows.insert(rows.end(), {band.first, band.end});
-    rows = distinct(std::move(rows));
-    std::vector<Rectangle> cuts;
-    auto in_a = a.bands().begin();
-    auto in_b = b.bands().begin();
-    for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
-        std::vector<std::uint32_t> columns;
-        const auto add_columns = [&](auto &band, auto end) {
-            while (band != end && band->end <= rows[i])
-                ++band;
-            if (band != end && band->first <= rows[i])
-                for (const TileMap::Span &span : band->spans)
-                    columns.insert(columns.end(), {span.first, span.end});
-        };
-        add_columns(in_a, a.bands().end());
-        add_columns(in_b, b.bands().end());
-        cut_band(a, b, rows[i], rows[i + 1], distinct(std::move(columns)), cuts);
-    }
-    return cuts;
 }
 
 std::vector<FilmTile> canonical_tiles(const std::vector<FilmTile> &tiles) {

@@ -1,4 +1,4 @@
-// Which tile of a film each pixel lies in, by rows: how tile lists are checked, compared, cut along each other and
+// Which tile of a film each pixel lies in, by rows: how tile lists are checked, cut along each other and
 // brought to the one form in which films are written.
 #pragma once
 
@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pt {
@@ -26,6 +27,12 @@ public:
         std::vector<Span> spans;
     };
 
+    // Pixels that lie in one tile, or in none.
+    struct Piece {
+        Rectangle pixels;
+        std::optional<std::size_t> tile;
+    };
+
     // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in no more bands than it has rows, so that a map takes
     // no more memory than its film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
@@ -36,18 +43,15 @@ public:
     // The span with a pixel; NULL if no tile has it.
     const Span *find(std::uint32_t x, std::uint32_t y) const;
 
+    // The pieces into which the tiles cut a rectangle: one where they do not.
+    std::vector<Piece> cut(const Rectangle &pixels) const;
+
 private:
     std::vector<Band> bands_;
 };
 
 // The smallest rectangle with all tiles, of which there is at least one.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
-
-bool has_same_rectangles(const std::vector<FilmTile> &a, const std::vector<FilmTile> &b);
-
-// The rectangles into which two tile lists cut each other: each lies in one tile of each list or in none, and all
-// together they have the pixels of both.
-std::vector<Rectangle> common_cuts(const TileMap &a, const TileMap &b);
 
 // The one list of tiles with these samples of these pixels, however they were listed: neighbours in a row with equal
 // samples are together, and so are equal such runs in rows one below the other. From the top down, and from left to

@@ -13,6 +13,7 @@ import time
 import unittest
 import zlib
 
+import numpy as np
 import pt
 
 try:
@@ -25,8 +26,8 @@ except ImportError:
 from pt import farm
 from pt.farm import _coordinator, _task
 from pt.farm._crew import MOST_FAILURES
-from pt.farm._part import Part, missing_parts
-from pt.farm._sum import write_film
+from pt.farm._part import Part, cells_of, further_parts, has_only, missing_parts
+from pt.farm._sum import Sum, write_film
 
 LAMP = pt.Material(emission=(4, 3, 2))
 BALL = pt.Material(diffuse=(0.4, 0.1, 0.1), specular=0.4, glossiness=100)
@@ -189,9 +190,11 @@ class Farm(unittest.TestCase):
     def test_target_error(self):
         one = whole(4096, ERROR)
         self.assertGreater(len(one.tiles), 1)  # or nothing is told
-        found = self.farm(4096, target_error=ERROR, task=render_part)
+        options = dataclasses.replace(QUICK, patience=60.0)
+        found = self.farm(4096, target_error=ERROR, task=render_part, options=options)
         self.assertEqual(found.progress.ended_by, "error")
         self.assertEqual(found.film, one)
+        self.assert_accounts(found.progress)
 
     def test_the_coordinator_is_killed(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -208,6 +211,20 @@ class Farm(unittest.TestCase):
             found = self.farm(options=options, task=render_part)
             self.assertEqual(found.film, self.whole)
             self.assertEqual(pt.Film.load(path), self.whole)
+
+    def test_goes_on_from_tiles_that_are_ahead(self):
+        with tempfile.TemporaryDirectory() as folder, pt.Context() as context:
+            path = os.path.join(folder, "kept.ptfilm")
+            context.set_scene(SCENE)
+            context.set_camera(CAMERA)
+            context.set_render(SETTINGS)
+            counts = np.zeros((13, 17), np.uint32)
+            counts[4:6, 3:9] = 100
+            context.accumulate_tiles(counts)
+            context.film().save(path)
+            found = self.farm(options=dataclasses.replace(QUICK, checkpoint=path))
+        self.assertEqual(found.film, self.whole)
+        self.assertEqual(found.progress.forgotten, 0)
 
     def test_the_scheduler_dies(self):
         """What came back is kept, and another cluster goes on from it."""
@@ -244,6 +261,38 @@ class Farm(unittest.TestCase):
             self.assertRegex(told, "the checkpoint could not be written.*No space left")
             self.assertEqual(pt.Film.load(path), self.whole)
 
+    def assert_accounts(self, seen):
+        """Of a rendering in which nothing failed: every part was rendered once, and none was lost on the way."""
+        self.assertEqual(seen.forgotten, 0, seen.messages)
+        self.assertEqual((seen.repeated, seen.dropped, seen.lost, seen.failed), (0, 0, 0, 0))
+        self.assertEqual(seen.issued, seen.parts)
+
+    def test_accounts_of_parts(self):
+        """Those of an error are looked at in test_target_error. A coordinator that drops a part says so, though its
+        film is whole in the end."""
+        options = dataclasses.replace(QUICK, patience=60.0)
+        found = self.farm(task=render_part, options=options)
+        self.assertGreater(found.progress.parts, 4)
+        self.assert_accounts(found.progress)
+        dropped = []
+
+        def forgetful(self, part, size, models):
+            if not dropped:
+                dropped.append(sum(tile.width * tile.height * len(*tile.samples) for tile in part.tiles))
+            else:
+                add(self, part, size, models)
+        add, Sum.add = Sum.add, forgetful
+        try:
+            found = self.farm(task=render_part, options=options)
+        finally:
+            Sum.add = add
+        self.assertLessEqual(dropped[0], 64 * found.progress.forgotten)  # tiles at the edges have fewer pixels
+        self.assertGreater(found.progress.forgotten, 0)
+        told, = found.progress.messages
+        self.assertEqual(told, f"the coordinator has lost {found.progress.forgotten} samples of tiles, which are taken "
+                         "again")
+        self.assertEqual(found.film, self.whole)
+
     def test_broken_scenes_are_told_once(self):
         broken = farm.Job(pt.Scene([pt.Sphere((0, 1, 0), -1, BALL)]), CAMERA, SETTINGS)
         with self.assertRaisesRegex(farm.FarmError, r"spheres\[0\].radius = -1: must be > 0"):
@@ -254,9 +303,8 @@ class Parts(unittest.TestCase):
     """Without workers: what is missing, and how it is cut."""
 
     def test_what_is_missing(self):
-        import numpy as np
         goals = np.full((13, 17), 24, np.uint32)
-        one = missing_parts(None, 8, goals)
+        one = missing_parts(cells_of(None, goals.shape), 8, goals)
         self.assertEqual([(part.first, part.end, len(part.tiles)) for part in one], [(8, 32, 221)])
         with pt.Context() as context:
             context.set_scene(SCENE)
@@ -266,13 +314,28 @@ class Parts(unittest.TestCase):
             counts[12, 3:] = 5  # the last row, of 4 pixels, and not its first tiles
             context.accumulate_tiles(counts)
             film = context.film()
-        left = missing_parts(film, 8, goals)
+        left = missing_parts(cells_of(film, goals.shape), 8, goals)
         self.assertEqual(sum(part.work for part in left), 221 * 24 - 14 * 5)
         self.assertEqual([(part.first, part.end, len(part.tiles)) for part in left],
                          [(8, 10, 14), (8, 32, 207), (15, 32, 14)])
 
+    def test_what_goes_on(self):
+        """Tiles that have what they were to have, and are to have more: against what the film lacks."""
+        random = np.random.default_rng(1)
+        before = random.integers(1, 4, (13, 17), np.uint32) * 8
+        after = before + random.integers(0, 3, (13, 17), np.uint32) * 8
+        cells = [((range(5, 5 + have),), np.flatnonzero(before == have).astype(np.uint32)) for have in (8, 16, 24)]
+        self.assertTrue(has_only(cells, 5, before))
+        self.assertFalse(has_only(cells, 4, before))
+        self.assertFalse(has_only(cells, 5, after))
+        self.assertFalse(has_only([((), cells[0][1]), *cells[1:]], 5, before))
+        expected = missing_parts(cells, 5, after)
+        found = further_parts(before, after, 5)
+        self.assertEqual([(part.first, part.end) for part in found], [(part.first, part.end) for part in expected])
+        for one, other in zip(found, expected):
+            self.assertTrue((one.tiles == other.tiles).all())
+
     def test_cuts(self):
-        import numpy as np
         part = Part(0, 100, np.arange(50, dtype=np.uint32))
         for work, least in ((1, 1), (700, 1), (700, 40), (99, 50), (10**9, 1)):
             pieces, rest = [], [part]

@@ -3,7 +3,7 @@
     PYTHONPATH=lib/python PT_LIBRARY=build/lib/libpt.so python3 tests/farm/measure.py WHAT --pt build/bin/pt
 
 costs      seconds and bytes of a part, on a worker and on the coordinator, by tiles (--json FILE for simulate.py)
-memory     of the coordinator, over a thousand parts of 1920x1080
+memory     of the coordinator, over about a thousand parts of 1920x1080
 overhead   processor seconds of two workers, coordinator and scheduler, and of one process for the same samples
 error      seconds to a target error, of two workers and of one process
 scheduler  bytes that a scheduler in a process of its own takes and sends"""
@@ -16,6 +16,7 @@ import re
 import resource
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -119,19 +120,17 @@ def add_all(whole, parts):
 
 
 def memory():
+    """Of a rendering that writes checkpoints, beside what the interpreter has taken before."""
     what = job("1920x1080")
-    with cluster() as here, Client(here) as client:
+    with cluster() as here, Client(here) as client, tempfile.TemporaryDirectory() as folder:
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        result = farm.render(client, what, 64, options=farm.Options(part_seconds=0.02), progress=thousand)
+        options = farm.Options(part_seconds=0.02, checkpoint=pathlib.Path(folder, "kept"), checkpoint_every=5.0)
+        result = farm.render(client, what, 20, options=options)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    film = len(result.film.to_bytes())
+    film = result.film.size
     print(f"{result.progress.parts} parts, {result.progress.part_bytes / 1e6:.0f} MB: {before / 1e3:.0f} MB before, "
           f"at the most {after / 1e3:.0f} MB; a film is {film / 1e6:.0f} MB, so "
           f"{(after - before) * 1024 / film:.2f} films")
-
-
-def thousand(progress, _):
-    return progress.parts >= 1000
 
 
 def overhead():
@@ -159,21 +158,25 @@ def overhead():
 
 
 def error():
-    what = job("640x480")
+    what = job(ARGUMENTS.size)
     one = context_of(what)
     with cluster() as here, Client(here) as client:
         farm.render(client, what, 16)
+        workers = [each.process.pid for each in here.workers.values()]
         for _ in range(ARGUMENTS.repeats):
             one.set_render(what.settings)
-            begun = time.monotonic()
+            start, begun = processor_seconds(os.getpid()), time.monotonic()
             one.accumulate(65536, target_error=ARGUMENTS.target)
-            single, begun = time.monotonic() - begun, time.monotonic()
+            single, single_wall = processor_seconds(os.getpid()) - start, time.monotonic() - begun
+            everyone = [os.getpid(), *workers]
+            start, begun = [processor_seconds(each) for each in everyone], time.monotonic()
             result = farm.render(client, what, 65536, target_error=ARGUMENTS.target)
             wall = time.monotonic() - begun
+            each = [processor_seconds(process) - first for process, first in zip(everyone, start)]
             assert result.film == one.film()
-            print(f"to {ARGUMENTS.target:.1%}: one process {single:.1f} s, farm {wall:.1f} s, "
-                  f"{result.progress.parts} parts, "
-                  f"{one.stats().mean_sample_count:.0f} spp", flush=True)
+            print(f"to {ARGUMENTS.target:.1%}: one process {single_wall:.1f} s ({single:.1f} s of processors), farm "
+                  f"{wall:.1f} s ({sum(each[1:]):.1f} s of workers, {each[0]:.1f} of coordinator and scheduler), "
+                  f"{result.progress.parts} parts, {one.stats().mean_sample_count:.0f} spp", flush=True)
 
 
 def scheduler():
@@ -212,6 +215,7 @@ if __name__ == "__main__":
     parser.add_argument("--json")
     parser.add_argument("--samples", type=int, default=512)
     parser.add_argument("--target", type=float, default=0.01)
+    parser.add_argument("--size", default="640x480")
     parser.add_argument("--repeats", type=int, default=3)
     ARGUMENTS = parser.parse_args()
     rows = globals()[ARGUMENTS.what]()

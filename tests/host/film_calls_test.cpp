@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -118,6 +119,42 @@ TEST(FilmCalls, TellWhichSamplesThereAre) {
     expect_refusal(pt_get_film_tile(film.get(), 2, &tile), PT_ERROR_INVALID_ARGUMENT, "tile = 2: must be below 2");
     expect_refusal(pt_get_film_ranges(film.get(), 7, ranges, &count), PT_ERROR_INVALID_ARGUMENT,
                    "tile = 7: must be below 2");
+}
+
+std::int32_t append(void *user, const void *data, std::uint64_t size) {
+    auto &bytes = *static_cast<film_maker::Bytes *>(user);
+    const auto *first = static_cast<const std::byte *>(data);
+    EXPECT_LE(size, 1U << 20);
+    bytes.insert(bytes.end(), first, first + size);
+    return bytes.size() > 2'000'000 ? 1 : 0;
+}
+
+// Of a film that its parts have cut, of more than a megabyte; ended in the midst of one of more than two.
+TEST(FilmCalls, HandOnTheBytes) {
+    for (const std::uint32_t width : {20'000U, 40'000U}) {
+        film_maker::Samples samples;
+        film_maker::Samples added;
+        for (std::uint32_t x = 0; x < width; ++x) {
+            samples[{0, x}] = {0, 1};
+            if (x % 1000 < 10)
+                added[{0, x}] = {2, 9};
+        }
+        const pt::FilmIdentity identity = film_maker::identity(width, 1);
+        const OpenedFilm film = opened(film_maker::film_of(identity, film_maker::tiles_of(samples), samples));
+        const film_maker::Bytes part = film_maker::film_of(identity, film_maker::tiles_of(added), added);
+        ASSERT_EQ(pt_merge_film(film.get(), part.data(), part.size()), PT_OK);
+        film_maker::Bytes streamed;
+        const bool is_ended = width == 40'000;
+        EXPECT_EQ(pt_stream_film(film.get(), append, &streamed), is_ended ? PT_CANCELLED : PT_OK);
+        for (auto &[pixel, indices] : added)
+            samples[pixel].merge(indices);
+        const film_maker::Bytes expected = film_maker::film_of(identity, film_maker::tiles_of(samples), samples);
+        EXPECT_EQ(streamed.size() < expected.size(), is_ended);
+        EXPECT_TRUE(std::equal(streamed.begin(), streamed.end(), expected.begin()));
+    }
+    const OpenedFilm film = opened(bytes_of(two_tiles()));
+    expect_refusal(pt_stream_film(film.get(), nullptr, nullptr), PT_ERROR_INVALID_ARGUMENT,
+                   "take = NULL: must not be NULL");
 }
 
 // A corner that no film has is black, and what is read does not depend on the rectangle it is read in.

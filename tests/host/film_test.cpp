@@ -93,8 +93,25 @@ TEST(Film, SumsHaveTheBytesOfTheirSamplesInAnyOrder) {
             for (std::size_t i = 1; i < parts.size(); ++i)
                 sum.add(pt::Film(parts[i].bytes));
             ASSERT_TRUE(bytes_of(sum) == expected) << "round " << round << ", order " << order;
+            EXPECT_EQ(sum.bounds(), pt::Film(expected).bounds());
         }
     }
+}
+
+// Rows so long that a film keeps each by itself, and a part that cuts them.
+TEST(Film, LongRowsAddUp) {
+    const pt::Rectangle pixels{0, 0, 40'000, 3};
+    const pt::Rectangle part{37'000, 1, 3'000, 2};
+    Samples samples;
+    Samples added;
+    give(samples, pixels, {0, 1, 2});
+    give(added, part, {3});
+    const pt::FilmIdentity identity = film_maker::identity(40'000, 3);
+    pt::Film film(film_maker::film_of(identity, {pixels}, samples));
+    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {pixels}, samples));
+    film.add(pt::Film(film_maker::film_of(identity, {part}, added)));
+    give(samples, part, {3});
+    EXPECT_TRUE(bytes_of(film) == film_maker::film_of(identity, {{0, 0, 40'000, 1}, {0, 1, 37'000, 2}, part}, samples));
 }
 
 // Halves of the samples that meet in every tile make one tile of all.
@@ -116,6 +133,29 @@ TEST(Film, EqualSamplesOfAllPixelsAreOneTile) {
     EXPECT_EQ(sum.header().tiles.size(), 1U);
     EXPECT_EQ(sum.sample_count(), 5U);
     EXPECT_TRUE(bytes_of(sum) == film_maker::film_of(identity, grid(image_width, image_height), all));
+}
+
+TEST(Film, KnowsItsSamplesBySquaresThatNoTileCuts) {
+    Samples samples;
+    std::uint32_t count = 0;
+    for (const pt::Rectangle &tile : grid(8, 8)) {
+        count = count % 3 + 1;
+        for (std::uint32_t i = 0; i < count; ++i)
+            give(samples, tile, {i});
+    }
+    const pt::TileSamples found = pt::Film(film_by_sample(samples)).samples_by_tile();
+    ASSERT_EQ(found.grid().count(), grid(8, 8).size());
+    for (std::size_t tile = 0; tile < found.grid().count(); ++tile)
+        EXPECT_EQ(found.of(tile).count(), tile % 3 + 1) << tile;
+    give(samples, {9, 3, 2, 1}, {7});
+    const pt::Film cut(film_by_sample(samples));
+    EXPECT_EQ(error_of([&] { (void)cut.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
+    samples.erase({2, 2}); // a square of which a part has none
+    Samples without = samples;
+    for (auto &[pixel, indices] : without)
+        indices.erase(7);
+    const pt::Film gap(film_by_sample(without));
+    EXPECT_EQ(error_of([&] { (void)gap.samples_by_tile(); }).code(), PT_ERROR_INCOMPATIBLE);
 }
 
 // What pixels show does not depend on how tiles are cut, and they know it by themselves: of exact sums one float is

@@ -6,8 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -38,32 +41,54 @@ bool holds(const pt::Rectangle &tile, std::uint32_t x, std::uint32_t y) {
     return x >= tile.x && x < tile.x + tile.width && y >= tile.y && y < tile.y + tile.height;
 }
 
-TEST(TileMap, FindsPixelsAndCuts) {
+TEST(TileMap, FindsPixels) {
     std::mt19937 random(1);
     for (int round = 0; round < 50; ++round) {
-        const std::vector<pt::FilmTile> a = random_tiles(random);
-        const std::vector<pt::FilmTile> b = random_tiles(random);
-        const pt::TileMap map(a);
-        const std::vector<pt::Rectangle> cuts = pt::common_cuts(map, pt::TileMap(b));
+        const std::vector<pt::FilmTile> tiles = random_tiles(random);
+        const pt::TileMap map(tiles);
         for (std::uint32_t y = 0; y < 24; ++y)
             for (std::uint32_t x = 0; x < 24; ++x) {
-                const auto has = [&](const pt::FilmTile &tile) { return holds(tile.pixels, x, y); };
-                const auto tile = std::ranges::find_if(a, has);
+                const auto tile =
+                    std::ranges::find_if(tiles, [&](const pt::FilmTile &each) { return holds(each.pixels, x, y); });
                 const pt::TileMap::Span *span = map.find(x, y);
-                ASSERT_EQ(span != nullptr, tile != a.end());
+                ASSERT_EQ(span != nullptr, tile != tiles.end());
                 if (span) {
-                    ASSERT_EQ(span->tile, static_cast<std::size_t>(tile - a.begin()));
+                    ASSERT_EQ(span->tile, static_cast<std::size_t>(tile - tiles.begin()));
                 }
-                const auto cut_count =
-                    std::ranges::count_if(cuts, [&](const pt::Rectangle &cut) { return holds(cut, x, y); });
-                ASSERT_EQ(cut_count, tile != a.end() || std::ranges::any_of(b, has) ? 1 : 0);
             }
-        for (const pt::Rectangle &cut : cuts) // within one tile, or without one
-            for (const std::vector<pt::FilmTile> *tiles : {&a, &b})
-                for (const pt::FilmTile &tile : *tiles)
-                    ASSERT_EQ(holds(tile.pixels, cut.x, cut.y),
-                              holds(tile.pixels, cut.x + cut.width - 1, cut.y + cut.height - 1));
     }
+}
+
+// Pieces have each pixel once, and all of one piece are in the tile that it says.
+TEST(TileMap, CutsRectangles) {
+    std::mt19937 random(3);
+    for (int round = 0; round < 200; ++round) {
+        const pt::TileMap map(random_tiles(random));
+        const pt::Rectangle pixels{static_cast<std::uint32_t>(random() % 20), static_cast<std::uint32_t>(random() % 20),
+                                   1 + static_cast<std::uint32_t>(random() % 10),
+                                   1 + static_cast<std::uint32_t>(random() % 10)};
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
+        for (const pt::TileMap::Piece &piece : map.cut(pixels))
+            for (std::uint32_t y = piece.pixels.y; y < piece.pixels.y + piece.pixels.height; ++y)
+                for (std::uint32_t x = piece.pixels.x; x < piece.pixels.x + piece.pixels.width; ++x) {
+                    ASSERT_TRUE(holds(pixels, x, y));
+                    seen.emplace_back(x, y);
+                    const pt::TileMap::Span *span = map.find(x, y);
+                    ASSERT_EQ(piece.tile, span ? std::optional(span->tile) : std::nullopt);
+                }
+        std::ranges::sort(seen);
+        EXPECT_EQ(std::ranges::adjacent_find(seen), seen.end());
+        EXPECT_EQ(seen.size(), pixels.pixel_count());
+    }
+}
+
+TEST(TileMap, CutsNothingThatLiesInOneTileOrBesideAll) {
+    const pt::SampleSet samples({0, 2});
+    const pt::TileMap map({{{8, 0, 8, 8}, samples}, {{8, 8, 4, 4}, samples}, {{12, 8, 4, 8}, samples}});
+    EXPECT_EQ(map.cut({8, 1, 8, 7}).size(), 1U);
+    EXPECT_EQ(map.cut({0, 0, 8, 24}).size(), 1U);
+    EXPECT_EQ(map.cut({12, 9, 4, 7}).size(), 1U);
+    EXPECT_EQ(map.cut({8, 0, 8, 9}).size(), 3U);
 }
 
 TEST(TileMap, CanonicalTilesAreThoseOfThePixels) {

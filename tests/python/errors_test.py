@@ -66,7 +66,7 @@ class Results(unittest.TestCase):
 
 class Functions(unittest.TestCase):
     KINDS = {"uint32_t": "c_uint", "uint64_t": "c_ulong", "double": "c_double", "pt_result": "c_int", "const char *": "c_char_p",
-             "void": "NoneType"}
+             "void": "NoneType", "pt_take_bytes_fn": "CFunctionType"}
 
     def declared(self):
         """Results and parameters of the functions in the headers."""

@@ -52,6 +52,22 @@ class Films(unittest.TestCase):
         self.assertEqual(copies, self.parts)
         self.assertEqual(sum(copies), self.whole)
 
+    def test_streams(self):
+        """In order and whole; an error in it comes out, and nothing is written after it."""
+        pieces = []
+        self.whole.stream(pieces.append)
+        self.assertEqual(b"".join(pieces), self.whole.to_bytes())
+        self.assertEqual(sum(map(len, pieces)), self.whole.size)
+        self.assertGreater(len(pieces), 1)
+        taken = []
+
+        def full(piece):
+            taken.append(piece)
+            raise OSError(28, "No space left on device")
+        with self.assertRaisesRegex(OSError, "No space left"):
+            self.whole.stream(full)
+        self.assertEqual(taken, pieces[:1])
+
     def test_files(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "kept.ptfilm")

@@ -98,10 +98,9 @@ PT_API void pt_close_film(pt_film *film);
 /** Adds the samples of a film that pt_save_film or pt_write_film has written, which may be of other pixels of the
  * image. In any order, films add up to the same bits.
  *
- * For the time of the call it takes as much memory as opening the other does; where the two have other tiles, so much
- * again for each. One thread at a time per film. PT_ERROR_INCOMPATIBLE: the bytes are no film, damaged, cut short, of
- * another picture, or have samples of some pixel that are in the film already; the message has a line for each
- * difference. */
+ * For the time of the call it takes as much memory as opening the other does, and a little. One thread at a time per
+ * film. PT_ERROR_INCOMPATIBLE: the bytes are no film, damaged, cut short, of another picture, or have samples of some
+ * pixel that are in the film already; the message has a line for each difference. */
 PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_bytes);
 
 /** Writes a film as bytes; data and *size_bytes are as with pt_save_film, and so are the bytes: a context that has
@@ -109,6 +108,17 @@ PT_API pt_result pt_merge_film(pt_film *film, const void *data, uint64_t size_by
  *
  * One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: size_bytes is too small; it stays as it was. */
 PT_API pt_result pt_write_film(const pt_film *film, void *data, uint64_t *size_bytes);
+
+/** Takes the next bytes of a film, which stay as they are until it returns. Called by the thread of the call that it
+ * was given to. Return 0 to go on; anything else ends that call. */
+typedef int32_t (*pt_take_bytes_fn)(void *user, const void *data, uint64_t size_bytes);
+
+/** Hands on the bytes that pt_write_film writes, from the first to the last in pieces of at most a megabyte: so a film
+ * is kept or sent without being in memory twice.
+ *
+ * take must not call anything with this film; user is for it. One thread at a time per film. PT_CANCELLED: take asked
+ * to end it. */
+PT_API pt_result pt_stream_film(const pt_film *film, pt_take_bytes_fn take, void *user);
 
 /** Writes mean radiance, its standard error or the counts of samples, like pt_readback: the same bits that the context
  * shows which took the samples.

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
+from pt._callbacks import CallbackGuard
 from pt._enums import Estimator, Format, Quantity, Result, Sampler
 from pt._errors import IncompatibleError
 from pt._files import Path, write_atomically
@@ -81,11 +82,33 @@ class Film:
 
     def save(self, path: Path) -> None:
         """Writes the bytes to a file, which is there whole or not at all; `pt merge` reads it too."""
-        write_atomically(path, self.to_bytes())
+        write_atomically(path, lambda file: self.stream(file.write))
+
+    def stream(self, write: Callable[[bytes], object]) -> None:
+        """Gives the bytes of to_bytes() to a function in pieces of at most a megabyte, so that a film is kept or sent
+        without being in memory twice. What it raises ends it."""
+        guard = CallbackGuard()
+
+        def take(_: object, data: int, size: int) -> int:
+            if guard.error is None:
+                write(ctypes.string_at(data, size))
+            return int(guard.error is not None)
+
+        guard.watch(take)
+        with guard:
+            self._call("pt_stream_film", structs.pt_take_bytes_fn(take), None)
+        guard.raise_caught()
 
     def to_bytes(self) -> bytes:
         """Equal samples of equal pictures are equal bytes. Their format: lib/film/FORMAT.md."""
         return bytes_from(lambda data, size: self._call("pt_write_film", data, size))
+
+    @property
+    def size(self) -> int:
+        """Of to_bytes()."""
+        size = ctypes.c_uint64()
+        self._call("pt_write_film", None, size)
+        return size.value
 
     def __add__(self, other: Film) -> Film:
         if not isinstance(other, Film):

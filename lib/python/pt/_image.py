@@ -85,7 +85,7 @@ class Image:
             data = buffer.getvalue()
         else:
             raise ValueError(f"{os.fspath(path)!r}: must end in .png or .npy")
-        write_atomically(path, data)
+        write_atomically(path, lambda file: file.write(data))
 
     def _repr_png_(self) -> bytes:
         """What notebooks show."""

@@ -41,6 +41,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_close_film": [c_void_p],
     "pt_merge_film": [c_void_p, c_char_p, c_uint64],
     "pt_write_film": [c_void_p, c_void_p, POINTER(c_uint64)],
+    "pt_stream_film": [c_void_p, structs.pt_take_bytes_fn, c_void_p],
     "pt_read_film": [c_void_p, POINTER(structs.pt_image)],
     "pt_get_film_info": [c_void_p, POINTER(structs.pt_film_info)],
     "pt_get_film_tile": [c_void_p, c_uint32, POINTER(structs.pt_film_tile)],

@@ -5,6 +5,7 @@ import ctypes
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
+pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
 pt_log_fn = ctypes.CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 pt_load_kernels_fn = ctypes.CFUNCTYPE(c_uint64, c_void_p, c_char_p, c_void_p, c_uint64)

@@ -8,6 +8,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from pt._errors import IncompatibleError
 from pt._film import Film
 from pt._stats import Stats
@@ -16,7 +18,7 @@ from pt.farm._crew import Crew
 from pt.farm._errors import FarmError
 from pt.farm._job import Job, name_of
 from pt.farm._options import Options, Result
-from pt.farm._part import Goals, Part, grid_shape, is_film_of, missing_parts
+from pt.farm._part import Cells, Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
 from pt.farm._progress import Progress
 from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
@@ -28,6 +30,7 @@ SLOTS = 2  # parts that a worker has at a time: it renders one while the other t
 # Of a CPU a sample of 16 tiles takes as long a tile as one of 1024 (measure.py costs); 64 let 16 cores have 4 each.
 # 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
 LEAST_TILES = {True: 64, False: 4096}
+LEAD = 0.05  # seconds: of the way to a worker and back, and of the coordinator's merging
 LATE = 3.0  # times the expected seconds
 LOOK_SHARE = 0.05  # of the time, for the error that is shown: looking takes as long as planning a round
 
@@ -53,29 +56,73 @@ class Coordinator:
         self._start = self._checkpoint_time = now()
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
+        self._goals: Goals = np.zeros(self._shape, np.uint32)
+        self._has_only = self._sum.film is None  # whether it had just the samples of the goals before these
+        self._cells: Cells | None = None  # of the film when so many parts were merged
+        self._cells_at = 0
+        self._asked_at = -1  # parts
+        self._ask_end = self._ask_cost = 0.0
         self._stopped = False
 
     # ---- the picture ----
 
-    def run(self, goals: Goals) -> bool:
-        """Until the film has these samples by tile; False if progress() asked to stop."""
-        self._progress.samples_wanted = float(goals.mean())
+    def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
+        """Until the film has these samples by tile; False if progress() asked to stop. more: is asked, when all has
+        been given out and some of it is back, what tiles with nothing under way are to have besides."""
+        first_sample, has_worked = self._job.settings.first_sample, False
+        self._goals = goals
         while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
-            missing = missing_parts(self._sum.film, self._job.settings.first_sample, goals)
+            if self._cells is None or self._cells_at != self._progress.parts:
+                self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
+            missing = missing_parts(self._cells, first_sample, self._goals)
             if not missing and self._crew.is_there:
+                self._has_only = has_only(self._cells, first_sample, self._goals)
                 return True
+            if has_worked:
+                self._forgot(missing)
             self._waiting.extend((None, part) for part in missing)
-            self._work()
+            self._progress.samples_wanted = float(self._goals.mean())
+            self._work(more)
+            has_worked = True
         return False
 
-    def _work(self) -> None:
+    def _work(self, more: Callable[[], Goals | None]) -> None:
         while (self._waiting or self._open or not self._crew.is_there) and not self._stopped:
             for lost in self._crew.look():
                 self._lose(lost, "its worker died")
             self._look_for_late()
             self._hand_out()
-            self._take_in()
+            self._take_in(min(TICK, max(self._seconds_to_ask(), 0.0)))
+            if self._seconds_to_ask() <= 0.0:
+                self._ask_for(more)
         self._sum.merge()
+
+    def _seconds_to_ask(self) -> float:
+        """Until shortly before a worker will have nothing to do, if a part has been merged since the last time; but the
+        later, the more tiles are back to be decided together. For no more than half of the time."""
+        if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
+            return float("inf")
+        idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
+        return max(idle - LEAD - self._ask_cost, self._ask_end + self._ask_cost) - now()
+
+    def _ask_for(self, more: Callable[[], Goals | None]) -> None:
+        start = now()
+        goals = more()
+        if goals is not None:
+            further = further_parts(self._goals, goals, self._job.settings.first_sample)
+            self._waiting.extend((None, part) for part in further)
+            self._goals = np.maximum(self._goals, goals)
+            self._progress.samples_wanted = float(self._goals.mean())
+        self._asked_at, self._ask_end = self._progress.parts, now()
+        self._ask_cost = self._ask_end - start
+
+    def _forgot(self, missing: list[Part]) -> None:
+        """Parts that nobody failed at and that are not in the film: the accounts are wrong, though the film will not
+        be."""
+        work = sum(part.work for part in missing)
+        if work:
+            self._progress.forgotten += work
+            self._progress.messages.append(f"the coordinator has lost {work} samples of tiles, which are taken again")
 
     @property
     def film(self) -> Film:
@@ -217,8 +264,8 @@ class Coordinator:
         except (ValueError, IncompatibleError) as error:
             return outcome, f"its film is not taken: {error}", None, 0
 
-    def _take_in(self) -> None:
-        event = self._next_event(TICK)
+    def _take_in(self, patience: float) -> None:
+        event = self._next_event(patience)
         while event is not None:
             self._take(*event)
             event = self._next_event(0.0)

@@ -25,6 +25,19 @@ def pack(data: bytes, codecs: frozenset[str]) -> bytes:
     return bytes(module.compress(data)) if module else zlib.compress(data, 1)
 
 
+def packer(size: int) -> Any:
+    """With compress(piece) and flush(), for a frame of zstd that tells the size of what is in it, as readers of films
+    ask; None if there is no module for it."""
+    module = zstd()
+    if module is None:
+        return None
+    if hasattr(module.ZstdCompressor, "compressobj"):  # of zstandard
+        return module.ZstdCompressor().compressobj(size=size)
+    compressor = module.ZstdCompressor()
+    compressor.set_pledged_input_size(size)
+    return compressor
+
+
 def unpack(data: bytes) -> bytes:
     """Of pack(). ValueError: damaged."""
     try:

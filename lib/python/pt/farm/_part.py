@@ -65,26 +65,57 @@ def grid_shape(width: int, height: int) -> tuple[int, int]:
     return -(-height // TILE_SIDE), -(-width // TILE_SIDE)
 
 
-def missing_parts(film: Film | None, first_sample: int, goals: Goals) -> list[Part]:
-    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells,
-    so that one from a checkpoint goes on like any other."""
-    columns = goals.shape[1]
-    cells: dict[tuple[range, ...], list[Indices]] = {}
-    seen = np.zeros(goals.shape, bool)
-    indices = np.arange(goals.size, dtype=np.uint32).reshape(goals.shape)
+Cells = list[tuple[tuple[range, ...], Indices]]  # samples, and the tiles that have them
+
+
+def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
+    """What the tiles of a film have; those that it lacks have nothing."""
+    found: dict[tuple[range, ...], list[Indices]] = {}
+    seen = np.zeros(shape, bool)
+    indices = np.arange(seen.size, dtype=np.uint32).reshape(shape)
     for tile in film.tiles if film else ():
         inside = _tiles_of(tile, indices)
         seen.ravel()[inside] = True
-        cells.setdefault(tile.samples, []).append(inside)
+        found.setdefault(tile.samples, []).append(inside)
     if not seen.all():
-        cells.setdefault((), []).append(indices[~seen])
+        found.setdefault((), []).append(indices[~seen])
+    return [(samples, np.unique(np.concatenate(pieces))) for samples, pieces in found.items()]
+
+
+def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
+    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells,
+    so that one from a checkpoint goes on like any other."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
-    for samples, pieces in cells.items():
-        tiles = np.unique(np.concatenate(pieces))
+    for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]
         for goal in np.unique(tile_goals):
             for first, end in _gaps(samples, first_sample, first_sample + int(goal)):
                 wanted.setdefault((first, end), []).append(tiles[tile_goals == goal])
+    return _joined(wanted)
+
+
+def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
+    """Whether a film has these samples and no others."""
+    for samples, tiles in cells:
+        present = sum(map(len, samples))
+        if (samples and samples != (range(first_sample, first_sample + present),)
+                or (goals.ravel()[tiles] != present).any()):
+            return False
+    return True
+
+
+def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
+    """Of tiles that have the one number of samples from first_sample on, and are to have the other."""
+    tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
+    wanted: dict[tuple[int, int], list[Indices]] = {}
+    steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])
+    for first, end in np.unique(steps, axis=1).T:
+        chosen = tiles[(steps[0] == first) & (steps[1] == end)]
+        wanted[first_sample + int(first), first_sample + int(end)] = [chosen]
+    return _joined(wanted)
+
+
+def _joined(wanted: dict[tuple[int, int], list[Indices]]) -> list[Part]:
     return [Part(first, end, np.sort(np.concatenate(tiles))) for (first, end), tiles in sorted(wanted.items())]
 
 

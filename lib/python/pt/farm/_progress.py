@@ -23,6 +23,7 @@ class Progress:
     dropped: int = 0  # duplicates that came second
     failed: int = 0  # tries, which were repeated elsewhere
     lost: int = 0  # tries whose worker died
+    forgotten: int = 0  # samples of tiles that the coordinator lost by mistakes of its own, and had taken again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
     last_result: int = Result.OK  # the library's, of the error that came last

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from pt.farm._coordinator import Coordinator
 from pt.farm._errors import FarmError
 from pt.farm._job import Job
 from pt.farm._options import Options, Result
-from pt.farm._part import grid_shape
+from pt.farm._part import Goals, grid_shape
 from pt.farm._progress import Progress
 
 FIRST_LOOK = 16  # samples a pixel, from which on there is an error to see
@@ -53,17 +53,32 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
 def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
     """By and by, so that the picture so far is one of all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
-    goal = FIRST_LOOK
-    while goal < samples and coordinator.run(np.full(shape, goal, np.uint32)):
-        goal *= 4
-    ended = coordinator.run(np.full(shape, samples, np.uint32))
+    steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
+    ended = True
+    while steps and ended:
+        ended = coordinator.run(steps.pop(0), lambda: steps.pop(0) if steps else None)
     coordinator.look()
     return coordinator.finish("samples" if ended else "stopped")
 
 
+def _counts_to(samples: int) -> Iterator[int]:
+    count = FIRST_LOOK
+    while count < samples:
+        yield count
+        count *= 4
+    yield samples
+
+
 def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
+    def further() -> Goals | None:
+        """What tiles take that have come back while others have not: their own samples decide it, whatever those are
+        (lib/film/adaptive_plan.h)."""
+        result, planned = coordinator.film.plan(target_error, samples)
+        return planned if result == Outcome.PENDING else None
+
     goals = np.full(grid_shape(job.settings.width, job.settings.height), min(FIRST_LOOK, samples), np.uint32)
-    while coordinator.run(goals):
+    ended = coordinator.run(goals)
+    while ended:
         if sampling == Sampling.UNIFORM:
             stats = coordinator.look()
             count = int(goals.max())
@@ -72,12 +87,13 @@ def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: fl
             if count >= samples:
                 return coordinator.finish("limit")
             goals = np.full(goals.shape, min(library().pt_next_check(count), samples), np.uint32)
+            ended = coordinator.run(goals)
             continue
         result, goals = coordinator.film.plan(target_error, samples)
-        if result == Outcome.PENDING:
-            coordinator.glance()
-        else:
+        if result != Outcome.PENDING:
             coordinator.look()
             return coordinator.finish("error" if result == Outcome.TARGET_REACHED else "limit")
+        coordinator.glance()
+        ended = coordinator.run(goals, further)
     coordinator.look()
     return coordinator.finish("stopped")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 FIRST_GUESS = 2000.0  # samples of tiles a second: a slow core
 LEAST_SECONDS = 0.1  # of a part: a worker spends 0.03 s on the smallest of 1920x1080
+REMEMBERED = 5.0  # seconds of the parts before the last: as many as a part is to take
 BUSY_SHARE = 0.5  # of its time, that a coordinator may spend on adding
 
 
@@ -12,13 +13,14 @@ class Speed:
 
     def __init__(self) -> None:
         self.value = FIRST_GUESS
-        self._measured = False
+        self._work = self._seconds = 0.0
 
     def measure(self, work: int, seconds: float) -> None:
-        """The mean of the last few parts; the first counts alone."""
-        speed = work / max(seconds, 1e-6)
-        self.value = 0.5 * (self.value + speed) if self._measured else speed
-        self._measured = True
+        """Of the last parts, by their seconds: a small part takes little but what every part takes besides."""
+        kept = min(REMEMBERED / self._seconds, 1.0) if self._seconds else 0.0
+        self._work = kept * self._work + work
+        self._seconds = kept * self._seconds + max(seconds, 1e-6)
+        self.value = self._work / self._seconds
 
     def seconds(self, work: int) -> float:
         return work / self.value

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import pathlib
 from collections import deque
+from typing import BinaryIO
 
 from pt._errors import IncompatibleError
 from pt._film import Film
@@ -13,9 +16,10 @@ from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
 PIXEL_BYTES = 112
-# Adding to a film costs by its size and not by the part's, so that parts are first added to each other. With batches of
-# 1/2, 1/8 and 1/16 of a film, the whole took 5.9, 5.9 and 6.8 s of a processor, and 5.6, 3.7 and 3.4 films of memory.
-BATCH_SHARE = 1 / 8
+# Adding to a film costs by its tiles too, and not by the part's alone, so that parts are first added to each other.
+# With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
+# processor; 1/8 took 2.5 films of memory (measure.py memory), and 1/32 1.5.
+BATCH_SHARE = 1 / 32
 SHOW_SHARE = 0.02  # of the time, for adding less than that, so that the picture so far is recent
 
 
@@ -28,7 +32,7 @@ class Sum:
         self._mixed = mixed
         self._models = self.identity.models if self.identity else frozenset()
         self._parts: list[Film] = []
-        self._bytes = 0
+        self._bytes = self._freed = 0
         self._most_bytes = int(BATCH_SHARE * PIXEL_BYTES * width * height)
         self._merged, self._cost = now(), 0.0
         self.seconds = 0.0  # of all merging
@@ -55,6 +59,7 @@ class Sum:
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
+        self._freed += self._bytes
         self._parts, self._bytes = [], 0
         while len(sums) > 1:  # the shortest two, nearly
             film = sums.popleft()
@@ -64,17 +69,34 @@ class Sum:
             self.film = sums.pop()
         else:
             self.film += sums.pop()
+        if self._freed >= self._most_bytes:
+            _give_back()
+            self._freed = 0
         self._merged = now()
         self._cost = self._merged - start
         self.seconds += self._cost
 
 
+def _give_back() -> None:
+    """To the system, what freed parts have left: glibc keeps it for each thread that has taken some, more than a film
+    in all (measure.py memory)."""
+    with contextlib.suppress(AttributeError, OSError):  # not glibc
+        ctypes.CDLL(None).malloc_trim(0)
+
+
 def write_film(film: Film, path: Path) -> None:
     """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
     both."""
-    module = _packing.zstd()
-    data = film.to_bytes()
-    write_atomically(path, module.compress(data) if module else data)
+    packer = _packing.packer(film.size)
+    if packer is None:
+        film.save(path)
+        return
+
+    def write(file: BinaryIO) -> None:
+        film.stream(lambda piece: file.write(packer.compress(piece)))
+        file.write(packer.flush())
+
+    write_atomically(path, write)
 
 
 def read_film(path: Path) -> Film | None:

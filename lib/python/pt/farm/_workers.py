@@ -46,6 +46,11 @@ class Member:
     is_late: bool = False  # it gets nothing until it has given something back
     is_banned: bool = False
 
+    @property
+    def busy_until(self) -> float:
+        """As its speed lets expect."""
+        return max((each.issued + each.expected for each in self.tries.values()), default=0.0)
+
     def can_take(self, slots: int) -> bool:
         return self.facts is not None and not self.is_late and not self.is_banned and len(self.tries) < slots
 
