@@ -163,8 +163,9 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction may lead to a surface that emits, given what it meets first of those that are not in the tree. The last
-// direction of a path finds nothing but emission, and where a walk takes long, a few tests that spare it are worth it.
+// Whether a direction may lead to a surface that emits, given what it meets first of those that are not in the tree.
+// The last direction of a path finds nothing but emission, and where a walk takes long, a few tests that spare it are
+// worth it.
 bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;

@@ -85,10 +85,10 @@ struct Walk {
     bool done;
 };
 
-// Groups to be entered later. Not in Walk, since functions copy what they are given. Where an invocation ends each walk, as on
-// lavapipe, they are in registers, the last one first: an array is read and written there for one invocation after the
-// other where the places differ, which takes longer than to move all groups along, and wider vectors gain nothing by it.
-// Otherwise each is at its height.
+// Groups to be entered later. Not in Walk, since functions copy what they are given. Where an invocation ends each
+// walk, as on lavapipe, they are in registers, the last one first: an array is read and written there for one
+// invocation after the other where the places differ, which takes longer than to move all groups along, and the more
+// so the wider vectors are. Otherwise each is at its height.
 const bool MOVES_GROUPS = WALK_TRIPS == 0u;
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
@@ -157,6 +157,32 @@ uint keep_or_take(inout Walk walk, uint group, bool keeps, bool takes)
     return taken;
 }
 
+// Whether the sphere that a trip tests is of a node before, so that neither waits for the other: where instructions of
+// both are under way at a time.
+const bool TESTS_FIRST = WALK_TRIPS == 0u;
+
+// If no sphere waits to be tested, the nearest node of the group; the others are kept for later.
+void enter_next(inout Walk walk, GridRay ray, vec3 inverse, float before)
+{
+    uint others = 0u;
+    bool keeps = false;
+    if (walk.spheres == 0u && walk.group.count > 0u) {
+        uint node = walk.group.first_child + (walk.group.places & 3u);
+        walk.group.places >>= 2;
+        --walk.group.count;
+        others = packed_group(walk.group);
+        keeps = walk.group.count > 0u;
+        Entered entered = enter_node(node, ray, inverse, before);
+        walk.group = entered.inner;
+        walk.first_place = entered.first_place;
+        walk.spheres = entered.spheres;
+    }
+    bool takes = walk.group.count == 0u && (keeps || walk.height > 0);
+    uint taken = keep_or_take(walk, others, keeps, takes);
+    if (takes)
+        walk.group = unpacked_group(taken);
+}
+
 bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
 
 void test_sphere(inout Walk walk, uint place, GridRay ray, vec3 direction, bool in_shadow)
@@ -173,9 +199,8 @@ void test_sphere(inout Walk walk, uint place, GridRay ray, vec3 direction, bool 
     }
 }
 
-// Goes on with a walk until it is done, or for a number of trips: each takes a node and a sphere at the most. The sphere is
-// one of a node before, so that neither has to wait for the other. has_shadow: false where it is known that there is no
-// shadow ray.
+// Goes on with a walk until it is done, or for a number of trips: each takes a node and a sphere at the most.
+// has_shadow: false where it is known that there is no shadow ray.
 void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
@@ -193,32 +218,15 @@ void go_on(inout Walk walk, uint most_trips, bool has_shadow)
         }
         before -= ray.advance * ADVANCE_ROUNDED;
 
-        // The next sphere.
+        if (!TESTS_FIRST)
+            enter_next(walk, ray, inverse, before);
         bool tests = walk.spheres != 0u;
         uint place = walk.first_place + uint(findLSB(walk.spheres));
         walk.spheres &= walk.spheres - 1u;
-        bool enters = walk.spheres == 0u && walk.group.count > 0u;
         if (tests)
             test_sphere(walk, place, ray, direction, in_shadow);
-
-        // The nearest node of the group; the others are kept for later.
-        uint others = 0u;
-        bool keeps = false;
-        if (enters) {
-            uint node = walk.group.first_child + (walk.group.places & 3u);
-            walk.group.places >>= 2;
-            --walk.group.count;
-            others = packed_group(walk.group);
-            keeps = walk.group.count > 0u;
-            Entered entered = enter_node(node, ray, inverse, before);
-            walk.group = entered.inner;
-            walk.first_place = entered.first_place;
-            walk.spheres = entered.spheres;
-        }
-        bool takes = walk.group.count == 0u && (keeps || walk.height > 0);
-        uint taken = keep_or_take(walk, others, keeps, takes);
-        if (takes)
-            walk.group = unpacked_group(taken);
+        if (TESTS_FIRST)
+            enter_next(walk, ray, inverse, before);
 
         // What is left of this ray, or the other ray.
         bool ray_ends = walk.spheres == 0u && walk.group.count == 0u;
