@@ -29,7 +29,7 @@ bool meets_something(uvec2 pixel, uint sample_index)
     uint pixel_index = pixel.y * view.width + pixel.x;
     SampleKey key = SampleKey(view.seed, pixel_index, sample_index, sample_index - view.first_sample);
     Walk walk = walk_from_camera(camera_ray(camera_frame(), pixel, key));
-    finish(walk);
+    finish(walk, false);
     return walk.hit.surface != NO_SURFACE;
 }
 

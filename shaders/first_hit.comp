@@ -102,7 +102,7 @@ void main()
         uint pixel_index = view.first_pixel + row * view.width + column;
         CameraRay ray = ray_through(pixel_index, takes_mean ? lattice_point(ray_index) : vec3(0.5));
         Walk walk = walk_from_camera(ray);
-        finish(walk);
+        finish(walk, false);
         surface = walk.hit.surface;
         if (TREE == 1u && walk_was_cut)
             atomicAdd(findings.lost_pixels, 1u);

@@ -163,11 +163,14 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     }
 }
 
-// Whether a direction leads to a surface that emits, behind others or not. The last direction of a path finds nothing
-// but emission, and where a walk takes long, a few tests that spare it are worth it.
-bool may_meet_light(Start start, vec3 direction, float time)
+// Whether a direction may lead to a surface that emits, given what it meets first of those that are not in the tree.
+// The last direction of a path finds nothing but emission, and where a walk takes long, a few tests that spare it are
+// worth it.
+bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
 {
     const uint few_lamps = 16u;
+    if (TREE_LAMPS == 0u)
+        return hit.surface != NO_SURFACE && may_emit(hit.surface);
     if (PLANES_EMIT == 1u || SKY_COUNT > 0u || LAMP_COUNT > few_lamps)
         return true;
     bool met = false;
@@ -184,7 +187,7 @@ bool is_hidden(ShadowRay towards_lamp, Start start, float time)
         shadow = ended_as_met_in_tree(shadow, start, time);
     bool blocked = is_blocked(start, time, shadow);
     Walk walk = walk_from(start, shadow.direction, false, shadow, time, Hit(NO_HIT, NO_SURFACE), blocked);
-    finish(walk);
+    finish(walk, true);
     return walk.blocked;
 }
 
@@ -195,12 +198,15 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
     ShadowRay shadow = ended_as_met(departure.lamp.shadow, start, time);
     if (TREE == 1u) {
         shadow = ended_as_met_in_tree(shadow, start, time);
-        if (path.vertex_count + 1u == MAX_PATH_LENGTH)
-            departure.carries_light = departure.carries_light && may_meet_light(start, departure.direction, time);
     }
     bool blocked;
     Hit hit = closest_hit_and_shadow(start, time, departure.direction, shadow, blocked);
-    return walk_from(start, departure.direction, departure.carries_light, shadow, time, hit, blocked);
+    bool is_last = path.vertex_count + 1u == MAX_PATH_LENGTH;
+    if (TREE == 1u && is_last)
+        departure.carries_light = departure.carries_light && may_meet_light(start, departure.direction, hit, time);
+    Walk walk = walk_from(start, departure.direction, departure.carries_light, shadow, time, hit, blocked);
+    walk.seeks_light = is_last;
+    return walk;
 }
 
 // Takes the path from a vertex to the next in one of the directions in which it is left.
@@ -209,7 +215,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
 {
     Departure departure = depart(path, vertex, material, lamp, every_lamp, numbers, directions);
     Walk walk = walk_onwards(vertex, path, departure, time);
-    finish(walk);
+    finish(walk, SAMPLE_LAMPS);
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
@@ -344,7 +350,7 @@ vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
 {
     CameraRay ray = camera_ray(frame, pixel, key);
     Walk walk = walk_from_camera(ray);
-    finish(walk);
+    finish(walk, false);
     Hit hit = walk.hit;
     if (hit.surface == NO_SURFACE)
         return vec3(0.0);

@@ -78,7 +78,7 @@ vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint 
                 begins = false;
             }
         }
-        go_on(walk, WALK_TRIPS);
+        go_on(walk, WALK_TRIPS, true);
     } while (done < end);
     return value;
 }

@@ -19,6 +19,16 @@ struct Start {
     bool inside;
 };
 
+// Distance along the unit vector direction to a sphere that no path gets inside of, or NO_HIT: see sphere_distance.
+float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool leaving)
+{
+    float b = dot(to_centre, direction);
+    vec3 across = to_centre - b * direction;
+    float squared_half_chord = radius * radius - dot(across, across);
+    float nearer = b - sqrt(squared_half_chord); // any value, where there is no root
+    return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
+}
+
 // Distance along the unit vector direction to a sphere, or NO_HIT. to_centre = centre - origin; leaving: the ray
 // starts on it. With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+
 // sqrt(r^2 - l^2). Taking l by subtraction of vectors, not of squares, keeps small far spheres in place (Haines et
@@ -31,13 +41,11 @@ struct Start {
 // If the camera is outside all spheres, no path ever gets inside. outside: of this one, for rays that start elsewhere.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
+    if (INSIDE == 0)
+        return distance_from_outside(to_centre, radius, direction, leaving);
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    if (INSIDE == 0) {
-        float nearer = b - sqrt(squared_half_chord); // any value, where there is no root
-        return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
-    }
     float half_chord = sqrt(max(squared_half_chord, 0.0));
     float distance = outside ? b - half_chord : b + half_chord;
     bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);

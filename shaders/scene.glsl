@@ -36,6 +36,8 @@ layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_TREE) const uint TREE = 0;
 layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;
 layout(constant_id = ID_TREE_COLORS) const uint TREE_COLORS = 0;
+layout(constant_id = ID_TREE_LEVELS) const uint TREE_LEVELS = 0;
+layout(constant_id = ID_TREE_INSIDE) const uint TREE_INSIDE = 1;
 layout(constant_id = ID_POINT_BLOCKS) const uint POINT_BLOCKS = 1024;
 layout(constant_id = ID_WALK_TRIPS) const uint WALK_TRIPS = 0;
 layout(constant_id = ID_SPOT_COUNT) const uint SPOT_COUNT = 0;

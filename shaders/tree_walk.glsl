@@ -32,9 +32,11 @@ void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, ui
 // Distance along a direction to a sphere of the tree, or NO_HIT, and the sphere as the ray's start sees it.
 float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, vec4 ball, float time)
 {
+    bool leaving = surface == start.surface;
+    if (TREE_INSIDE == 0)
+        return ray.advance + distance_from_outside(ball.xyz, ball.w, direction, leaving);
     vec3 from_side = KNOWN_SIDES == 1 ? tree_sphere(surface - SURFACE_COUNT, time).xyz : ball.xyz;
     bool outside = dot(from_side, from_side) > ball.w * ball.w;
-    bool leaving = surface == start.surface;
     return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
 }
 
@@ -74,6 +76,7 @@ struct Walk {
     vec3 path_inverse;
     vec3 shadow_inverse;
     bool follows_path;
+    bool seeks_light; // and nothing else: where no lamp is in the tree, it ends at any sphere of it
     bool in_shadow;
     Group group;      // nodes to enter next
     uint first_place; // of the spheres of the node that was entered last, and as bits those to be tested
@@ -82,8 +85,13 @@ struct Walk {
     bool done;
 };
 
-// Groups to be entered later. Not in Walk, since functions copy what they are given.
-uint walk_stack[TREE_STACK_SIZE];
+// Groups to be entered later. Not in Walk, since functions copy what they are given. Where an invocation ends each
+// walk, as on lavapipe, they are in registers, the last one first: an array is read and written there for one
+// invocation after the other where the places differ, which takes longer than to move all groups along, and the more
+// so the wider vectors are. Otherwise each is at its height.
+const bool MOVES_GROUPS = WALK_TRIPS == 0u;
+const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
+uint walk_stack[STACK_SIZE];
 
 // The height of a walk that is done. That it is can also be told by done, but what compilers know of done after a loop need
 // not be so where a driver has ended it.
@@ -102,6 +110,7 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     walk.time = time;
     walk.hit = hit;
     walk.blocked = blocked;
+    walk.seeks_light = false;
     walk.done = true;
     if (TREE == 0u)
         return walk;
@@ -120,53 +129,113 @@ Walk walk_from(Start start, vec3 direction, bool is_followed, ShadowRay shadow, 
     return walk;
 }
 
+// Keeps a group for later, takes the one that was kept last, or both.
+uint keep_or_take(inout Walk walk, uint group, bool keeps, bool takes)
+{
+    bool adds = keeps && !takes;
+    bool removes = takes && !keeps;
+    uint taken;
+    if (MOVES_GROUPS) {
+        taken = keeps ? group : walk_stack[0];
+        uint above = group;
+        uint i = 0u;
+        [[unroll]] do {
+            uint own = walk_stack[i];
+            uint below = i + 1u < STACK_SIZE ? walk_stack[min(i + 1u, STACK_SIZE - 1u)] : own;
+            walk_stack[i] = adds ? above : removes ? below : own;
+            above = own;
+            ++i;
+        } while (i < STACK_SIZE);
+    } else {
+        if (adds)
+            walk_stack[walk.height] = group;
+        taken = group;
+        if (removes)
+            taken = walk_stack[walk.height - 1];
+    }
+    walk.height += (adds ? 1 : 0) - (removes ? 1 : 0);
+    return taken;
+}
+
+// Whether the sphere that a trip tests is of a node before, so that neither waits for the other: where instructions of
+// both are under way at a time.
+const bool TESTS_FIRST = WALK_TRIPS == 0u;
+
+// If no sphere waits to be tested, the nearest node of the group; the others are kept for later.
+void enter_next(inout Walk walk, GridRay ray, vec3 inverse, float before)
+{
+    uint others = 0u;
+    bool keeps = false;
+    if (walk.spheres == 0u && walk.group.count > 0u) {
+        uint node = walk.group.first_child + (walk.group.places & 3u);
+        walk.group.places >>= 2;
+        --walk.group.count;
+        others = packed_group(walk.group);
+        keeps = walk.group.count > 0u;
+        Entered entered = enter_node(node, ray, inverse, before);
+        walk.group = entered.inner;
+        walk.first_place = entered.first_place;
+        walk.spheres = entered.spheres;
+    }
+    bool takes = walk.group.count == 0u && (keeps || walk.height > 0);
+    uint taken = keep_or_take(walk, others, keeps, takes);
+    if (takes)
+        walk.group = unpacked_group(taken);
+}
+
+bool is_in_tree(uint surface) { return surface >= SURFACE_COUNT && surface != NO_SURFACE; }
+
+void test_sphere(inout Walk walk, uint place, GridRay ray, vec3 direction, bool in_shadow)
+{
+    uint surface = SURFACE_COUNT + place;
+    uvec4 word = tree_sphere_word(place);
+    vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
+    if (in_shadow) {
+        ShadowRay shadow = ShadowRay(direction, walk.shadow.distance, walk.shadow.lamp);
+        walk.blocked = blocks_in_tree(walk.start, ray, shadow, surface, ball, walk.time);
+    } else {
+        float distance = distance_in_tree(walk.start, ray, direction, surface, ball, walk.time);
+        keep_closer_of_tree(walk.hit, walk.hit_word, distance, surface, word);
+    }
+}
+
 // Goes on with a walk until it is done, or for a number of trips: each takes a node and a sphere at the most.
-void go_on(inout Walk walk, uint most_trips)
+// has_shadow: false where it is known that there is no shadow ray.
+void go_on(inout Walk walk, uint most_trips, bool has_shadow)
 {
     uint trips = 0u;
     do {
+        bool in_shadow = has_shadow && walk.in_shadow;
         GridRay ray = walk.path_ray;
-        if (walk.in_shadow)
+        vec3 inverse = walk.path_inverse;
+        vec3 direction = walk.direction;
+        float before = walk.hit.distance;
+        if (in_shadow) {
             ray = walk.shadow_ray;
-
-        // The nearest node of the group; the others are kept for later.
-        if (walk.spheres == 0u && walk.group.count > 0u) {
-            uint node = walk.group.first_child + (walk.group.places & 3u);
-            walk.group.places >>= 2;
-            --walk.group.count;
-            walk_stack[walk.height] = packed_group(walk.group);
-            walk.height += walk.group.count > 0u ? 1 : 0;
-            vec3 inverse = walk.in_shadow ? walk.shadow_inverse : walk.path_inverse;
-            float before = walk.in_shadow ? walk.shadow.distance : walk.hit.distance;
-            Entered entered = enter_node(node, ray, inverse, before - ray.advance * ADVANCE_ROUNDED);
-            walk.group = entered.inner;
-            walk.first_place = entered.first_place;
-            walk.spheres = entered.spheres;
+            inverse = walk.shadow_inverse;
+            direction = walk.shadow.direction;
+            before = walk.shadow.distance;
         }
+        before -= ray.advance * ADVANCE_ROUNDED;
 
-        // The next sphere.
-        if (walk.spheres != 0u) {
-            uint place = walk.first_place + uint(findLSB(walk.spheres));
-            walk.spheres &= walk.spheres - 1u;
-            uint surface = SURFACE_COUNT + place;
-            uvec4 word = tree_sphere_word(place);
-            vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
-            if (walk.in_shadow)
-                walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, ball, walk.time);
-            else
-                keep_closer_of_tree(walk.hit, walk.hit_word,
-                                    distance_in_tree(walk.start, ray, walk.direction, surface, ball, walk.time),
-                                    surface, word);
-        }
+        if (!TESTS_FIRST)
+            enter_next(walk, ray, inverse, before);
+        bool tests = walk.spheres != 0u;
+        uint place = walk.first_place + uint(findLSB(walk.spheres));
+        walk.spheres &= walk.spheres - 1u;
+        if (tests)
+            test_sphere(walk, place, ray, direction, in_shadow);
+        if (TESTS_FIRST)
+            enter_next(walk, ray, inverse, before);
 
         // What is left of this ray, or the other ray.
-        bool is_empty = walk.spheres == 0u && walk.group.count == 0u;
-        bool ray_ends = (is_empty && walk.height <= 0) || (walk.in_shadow && walk.blocked);
-        walk.height -= is_empty && walk.height > 0 ? 1 : 0;
-        if (is_empty)
-            walk.group = unpacked_group(walk_stack[max(walk.height, 0)]);
+        bool ray_ends = walk.spheres == 0u && walk.group.count == 0u;
+        if (in_shadow)
+            ray_ends = ray_ends || walk.blocked;
+        else if (TREE_LAMPS == 0u)
+            ray_ends = ray_ends || (walk.seeks_light && is_in_tree(walk.hit.surface));
         if (ray_ends) {
-            walk.done = walk.done || !walk.in_shadow || !walk.follows_path;
+            walk.done = walk.done || !in_shadow || !walk.follows_path;
             walk.in_shadow = false;
             walk.group = walk.done ? NO_GROUP : ROOT;
             walk.spheres = 0u;
@@ -179,11 +248,11 @@ void go_on(inout Walk walk, uint most_trips)
 // Set where a driver has stopped a walk before its end (some end loops after so many trips): the sample is lost.
 bool walk_was_cut = false;
 
-void finish(inout Walk walk)
+void finish(inout Walk walk, bool has_shadow)
 {
     if (TREE == 0u)
         return;
-    go_on(walk, 0xffffffffu);
+    go_on(walk, 0xffffffffu, has_shadow);
     walk_was_cut = walk_was_cut || walk.height != ENDED;
 }
 

@@ -65,6 +65,11 @@ bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
 }
 
+std::uint32_t rounded_up(std::uint32_t levels) {
+    constexpr std::uint32_t step = 4;
+    return (levels + step - 1) / step * step;
+}
+
 bool samples_lamps(const RenderSettings &render) {
     return (render.estimator == PT_ESTIMATOR_MIS || render.estimator == PT_ESTIMATOR_LIGHT) &&
            render.max_path_length > 1;
@@ -155,8 +160,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.sky_count = surfaces.sky_count;
     features.hidden = surfaces.hidden;
     features.curvature = surfaces.planes.size() > distinct.seen.planes.size();
-    features.inside = std::ranges::any_of(surfaces.spheres, may_hold_paths) ||
-                      (tree && (tree->may_hold(camera) || tree->divides_start(camera)));
+    features.tree_levels = tree ? rounded_up(tree->depth()) : 0;
+    features.tree_inside = tree && (tree->may_hold(camera) || tree->divides_start(camera));
+    features.inside = features.tree_inside || std::ranges::any_of(surfaces.spheres, may_hold_paths);
     features.planes_emit = std::ranges::any_of(surfaces.planes, glows);
     features.planes_move = std::ranges::any_of(surfaces.planes, moves);
     // Planes with curvature may bulge towards the camera.
@@ -269,6 +275,8 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_HIDDEN_OTHERS] = features.hidden.others;
     constants[gpu::ID_HIDDEN_PLANES] = features.hidden.planes;
     constants[gpu::ID_TREE] = features.tree ? 1 : 0;
+    constants[gpu::ID_TREE_LEVELS] = features.tree_levels;
+    constants[gpu::ID_TREE_INSIDE] = features.tree_inside ? 1 : 0;
     constants[gpu::ID_TREE_COLORS] = features.tree_colors ? 1 : 0;
     constants[gpu::ID_TREE_LAMPS] = features.tree_lamps;
     if (features.lamp_tree) {

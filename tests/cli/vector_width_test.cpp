@@ -44,11 +44,13 @@ TEST(VectorWidth, IsTheUsersChoice) {
     }
 }
 
-// Five words a surface at most, 64 words in constants.
-TEST(VectorWidth, IsLeftAloneForLargeScenes) {
+// Five words a surface at most, 64 words in constants; and walks through a tree that is large enough.
+TEST(VectorWidth, IsLeftAloneForScenesOfMediumSize) {
     EXPECT_EQ(wide_vectors(home, 12).size(), 2);
     EXPECT_EQ(wide_vectors(home, 13), Environment());
-    EXPECT_EQ(wide_vectors(home, 100'000), Environment());
+    EXPECT_EQ(wide_vectors(home, 255), Environment());
+    EXPECT_EQ(wide_vectors(home, 256).size(), 2);
+    EXPECT_EQ(wide_vectors(home, 100'000).size(), 2);
 }
 
 } // namespace

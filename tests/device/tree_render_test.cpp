@@ -1,5 +1,5 @@
 // Pictures of spheres in a tree against those of the kernel without one, through pt.h: colours, lamps, motion, a camera
-// within a sphere and one far away.
+// within a sphere and one far away, a sky.
 #include "tests/support/context_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
@@ -169,6 +169,24 @@ TEST_F(TreeRender, IsSeenFromWithinASphereAndFromFarAway) {
     const Difference far = difference_of(scene, camera_at(0, 4e5, 4e6, 1.2e-6));
     EXPECT_LT(far.share, 0.02);
     EXPECT_LT(far.mean, 1e-3);
+}
+
+// No lamp is in the tree, so that the last direction of a path ends at any sphere of it, and the camera is in no sphere
+// but the sky.
+TEST_F(TreeRender, IsLitByASkyAndByALampBesideTheTree) {
+    Balls balls;
+    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0});
+    balls.spheres[30] = {{0, 0, 0}, 500, {0, 0, 0}, 2, 0};
+    balls.spheres[60].material = 0;
+    for (const bool has_lamp : {false, true}) {
+        if (has_lamp)
+            balls.spheres[60] = {{40, 60, 20}, 20, {0, 0, 0}, 1, 0};
+        for (const std::uint32_t length : {2U, 4U}) {
+            const Difference found = difference_of(balls.scene(), camera_at(0, 1, 6), length);
+            EXPECT_LT(found.share, 0.02) << length;
+            EXPECT_LT(found.mean, 1e-3) << length;
+        }
+    }
 }
 
 // Independent samples: means of 24 pictures each, by their standard errors. One false alarm in a million.

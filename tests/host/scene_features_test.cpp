@@ -56,6 +56,29 @@ bool inside(const std::vector<pt::Sphere> &spheres, const Shutter &shutter = {0,
     return features_of(spheres, {}, shutter).inside;
 }
 
+// A sky about a tree does not matter to the tree's spheres.
+TEST(FeatureTreeInside, IsWhetherTheCameraIsInASphereOfTheTree) {
+    pt::Scene scene;
+    scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}, {glm::vec3(0), glm::vec3(0), glm::vec3(1), 0}};
+    std::vector<pt_sphere> spheres;
+    for (int i = 0; i < 100; ++i)
+        spheres.push_back({{3.0 * (i % 10), 3.0 * (i / 10.0), -9}, 1, {0, 0, 0}, dark, 0});
+    spheres.push_back({{0, 0, 0}, 1000, {0, 0, 0}, shining, 0});
+    const pt::PreparedScene prepared({scene.materials, {spheres, {}}, {}}, 50);
+    ASSERT_TRUE(prepared.tree);
+    for (const double z : {0.0, -9.0}) {
+        const pt::Camera camera{{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 0.5, 0, 1};
+        const pt::Features features =
+            pt::gpu_scene(prepared, camera, {4, 4, 2, 0, 0, PT_ESTIMATOR_MIS, PT_SAMPLER_RANDOM, 0, 4}).features;
+        EXPECT_TRUE(features.inside);
+        EXPECT_EQ(features.tree_inside, z == -9.0);
+        const auto constants = pt::specialization_constants(features);
+        EXPECT_EQ(constants[pt::gpu::ID_TREE_INSIDE], z == -9.0 ? 1U : 0U);
+        EXPECT_GE(constants[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth());
+        EXPECT_LT(constants[pt::gpu::ID_TREE_LEVELS], prepared.tree->depth() + 4);
+    }
+}
+
 TEST(FeatureInside, IsWhetherTheCameraIsInASphere) {
     EXPECT_FALSE(inside({}));
     for (const std::uint32_t material : {dark, shining}) {
