@@ -14,8 +14,9 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
-// Of a film whose tiles have different numbers of samples: those in the older and in the newer part of each tile, and what
-// its samples alone say of the sum of its values' relative errors squared, and of that of light that none of them met.
+// Of a film whose tiles have different numbers of samples: those in the older and in the newer part of each tile, and
+// what its samples alone say of the sum of its values' relative errors squared, and of that of light that none of them
+// met.
 layout(constant_id = 0) const uint UNEVEN = 0u;
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_errors;

@@ -1,5 +1,5 @@
-// Adds a part of the film to the one that the frame names and empties it: one invocation per pixel of the strip, or of the
-// tiles of a list.
+// Adds a part of the film to the one that the frame names and empties it: one invocation per pixel of the strip, or of
+// the tiles of a list.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

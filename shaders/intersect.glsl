@@ -64,8 +64,8 @@ void meet_plane(inout Hit hit, inout bool blocked, Start start, vec3 direction, 
         shade_plane(blocked, start, shadow, plane, level, time);
 }
 
-// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the shadow
-// ray is blocked.
+// One walk over the scene for the two rays that leave a vertex: what the next path ray meets first, and whether the
+// shadow ray is blocked.
 Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay shadow, out bool blocked)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);

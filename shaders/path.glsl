@@ -228,8 +228,8 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the number
-// of the vertex, or of that as which it is left.
+// Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the
+// number of the vertex, or of that as which it is left.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);
@@ -245,8 +245,8 @@ void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float ti
     leave(path, vertex, material, lamp, lamps, false, time, numbers, 1.0);
 }
 
-// Light that reaches the first vertex over one more, in the direction of a spot: weighted against the branches, which find
-// it too (Veach 1997, chapter 9). The path ends there; what comes over more vertices is the branches' alone.
+// Light that reaches the first vertex over one more, in the direction of a spot: weighted against the branches, which
+// find it too (Veach 1997, chapter 9). The path ends there; what comes over more vertices is the branches' alone.
 vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleKey key, float time)
 {
     vec3 numbers = spot_numbers(key);

@@ -1,6 +1,6 @@
-// The path tracer's kernel: each invocation takes samples of a slice in one pixel; SHARERS of them, along y, share those of
-// a pixel. Without a number of sharers (0) a workgroup has the pixels of a tile that a list names, and the dispatch says
-// how many share them.
+// The path tracer's kernel: each invocation takes samples of a slice in one pixel; SHARERS of them, along y, share
+// those of a pixel. Without a number of sharers (0) a workgroup has the pixels of a tile that a list names, and the
+// dispatch says how many share them.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

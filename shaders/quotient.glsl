@@ -9,8 +9,8 @@
 // A whole number of up to 160 bits, least significant word first.
 const uint NUMBER_WORDS = 5u;
 
-// Its leading bits: (high * 2^32 + low) * 2^exponent, or more by less than 2^exponent if that is inexact. The top bit of
-// high is set, unless the number is 0.
+// Its leading bits: (high * 2^32 + low) * 2^exponent, or more by less than 2^exponent if that is inexact. The top bit
+// of high is set, unless the number is 0.
 struct LeadingBits {
     uint high;
     uint low;

@@ -57,8 +57,8 @@ const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 const uint NO_SURFACE = 0xffffffffu;
 
 // Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled: lavapipe
-// reads what is at constant places once for all invocations, which made 40 spheres 1.6 times as fast. Each index costs it 9
-// milliseconds of compilation; from about as many spheres on a tree takes their place.
+// reads what is at constant places once for all invocations, which made 40 spheres 1.6 times as fast. Each index costs
+// it 9 milliseconds of compilation; from about as many spheres on a tree takes their place.
 const uint UNROLL_LIMIT = 48u;
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \

@@ -1,6 +1,6 @@
 // Spots: what is far brighter than its surroundings, and small. A glow is where a lamp is close to a plane, an image is
-// where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them in a scene. The first vertex sends
-// one ray more in the direction of a spot (path.glsl). Derivations: README.md, section 7.
+// where a polished sphere or plane mirrors a lamp; lib/kernel/light_spots.h finds them in a scene. The first vertex
+// sends one ray more in the direction of a spot (path.glsl). Derivations: README.md, section 7.
 #ifndef SPOTS_GLSL
 #define SPOTS_GLSL
 
@@ -79,8 +79,9 @@ MirrorPoint mirror_point_of_plane(Vertex vertex, vec4 lamp, uint surface)
 }
 
 // Alhazen's problem: the normal halves the angle between the ways to the vertex, a, and to the lamp, b. It is found by
-// iteration, begun by what holds for far points, the half of the angle, and for near ones, the ratio of the heights. What
-// error is left costs variance, as the lobe is then about another direction; the density is that of the lobe as it is.
+// iteration, begun by what holds for far points, the half of the angle, and for near ones, the ratio of the heights.
+// What error is left costs variance, as the lobe is then about another direction; the density is that of the lobe as it
+// is.
 MirrorPoint mirror_point_of_sphere(Vertex vertex, vec4 lamp, uint surface, float time)
 {
     vec4 sphere = sphere_of(surface, time);

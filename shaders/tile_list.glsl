@@ -5,8 +5,8 @@
 // The first pixel of each tile, in the strip.
 layout(set = 0, binding = BINDING_TILES) readonly buffer Tiles { uint first_pixels[]; } tiles;
 
-// Whether this invocation has a pixel: the last workgroup of a range, and tiles at the image's edges, have fewer than there
-// are invocations.
+// Whether this invocation has a pixel: the last workgroup of a range, and tiles at the image's edges, have fewer than
+// there are invocations.
 bool has_pixel(bool of_list, out uint pixel_in_strip)
 {
     if (!of_list) {

@@ -28,8 +28,8 @@ float tree_shutter_time() { return scene_storage.words[TREE_FRAME + 4u].x; }
 // The place of a sphere's centre on the grid, and the bits of its radius.
 uvec4 tree_sphere_word(uint place) { return tree_word(place); }
 
-// Centre and radius of the sphere at a place, which has this word, at a time: as seen from a place of the grid and so many
-// steps from there.
+// Centre and radius of the sphere at a place, which has this word, at a time: as seen from a place of the grid and so
+// many steps from there.
 vec4 tree_sphere_of(uvec4 word, ivec3 base, vec3 rest, uint place, float time)
 {
     vec3 centre = (vec3(ivec3(word.xyz) - base) - rest) * tree_step();

@@ -4,8 +4,8 @@
 
 #include "scene.glsl"
 
-// A ray on the grid: of which differences from places are exact, so that what is computed of a sphere is as precise as it
-// is near, wherever the camera is.
+// A ray on the grid: of which differences from places are exact, so that what is computed of a sphere is as precise as
+// it is near, wherever the camera is.
 struct GridRay {
     ivec3 base;    // the place next to the ray's start
     vec3 rest;     // from there to the start, in steps
@@ -14,12 +14,11 @@ struct GridRay {
     bool is_near;  // whether the ray may come near the tree at all
 };
 
-// A ray that comes from far away starts where it comes to the ball about the grid: the rounding there, of 2^-24 of the way,
-// is that of a ray which is a little different, but the same for all spheres. Otherwise each sphere, and the box of each
-// node, would have to be taken for as much larger.
-// Boxes hold the spheres exactly, but a hit is computed with rounding: as if the centre were elsewhere by at most 2^-21 of
-// its distance, which sums a rounding of the distance and four of the dot products; for the sides of boxes it is less.
-// Four times that is the margin.
+// A ray that comes from far away starts where it comes to the ball about the grid: the rounding there, of 2^-24 of the
+// way, is that of a ray which is a little different, but the same for all spheres. Otherwise each sphere, and the box
+// of each node, would have to be taken for as much larger. Boxes hold the spheres exactly, but a hit is computed with
+// rounding: as if the centre were elsewhere by at most 2^-21 of its distance, which sums a rounding of the distance and
+// four of the dot products; for the sides of boxes it is less. Four times that is the margin.
 GridRay grid_ray(vec3 origin, vec3 direction)
 {
     const float reach = float(TREE_REACH);

@@ -1,9 +1,9 @@
-// Paths among the spheres of a tree, step by step. Walks differ in length, and where invocations run in step the longest keeps
-// all of them waiting. So here an invocation does not end one walk after the other: all go on for some trips, then those
-// whose walk has ended take their paths to the next, be it of another branch or sample (Aila and Laine, "Understanding the
-// Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is that of path.glsl.
-// On an H200 paths of six vertices were 1.3 to 1.5 times as fast so. lavapipe, where what one invocation does takes all
-// of them the time, lost a third, and ends each walk.
+// Paths among the spheres of a tree, step by step. Walks differ in length, and where invocations run in step the
+// longest keeps all of them waiting. So here an invocation does not end one walk after the other: all go on for some
+// trips, then those whose walk has ended take their paths to the next, be it of another branch or sample (Aila and
+// Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009, section 3.3). A sample's value is that of
+// path.glsl. On an H200 paths of six vertices were 1.3 to 1.5 times as fast so. lavapipe, where what one invocation
+// does takes all of them the time, lost a third, and ends each walk.
 #ifndef TREE_PATH_GLSL
 #define TREE_PATH_GLSL
 
@@ -20,8 +20,8 @@ struct TreeSample {
     Path path;
 };
 
-// As many as there are branches, or lamps where the first vertex sends a ray to each: those beyond the branches bring the
-// light of their lamp and nothing else, and come first.
+// As many as there are branches, or lamps where the first vertex sends a ray to each: those beyond the branches bring
+// the light of their lamp and nothing else, and come first.
 const uint FIRST_DEPARTURES = SAMPLE_EVERY_LAMP && LAMP_COUNT > BRANCH_COUNT ? LAMP_COUNT : BRANCH_COUNT;
 const uint FIRST_BRANCH = FIRST_DEPARTURES > BRANCH_COUNT ? BRANCH_COUNT : 0u;
 

@@ -1,13 +1,14 @@
 // Rays against the spheres of a tree. A walk finds what testing every sphere would find, whatever the tree: which of
-// spheres at equal distances is seen depends on nothing but the spheres, and no box that may hold a nearer one is passed by.
+// spheres at equal distances is seen depends on nothing but the spheres, and no box that may hold a nearer one is
+// passed by.
 #ifndef TREE_WALK_GLSL
 #define TREE_WALK_GLSL
 
 #include "ray_tests.glsl"
 #include "tree_node.glsl"
 
-// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and may be
-// what is seen: boxes are entered up to 2^-22 of the advance later.
+// Distances that include an advance are rounded by 2^-24 of it, so that what is a little farther may be as far, and may
+// be what is seen: boxes are entered up to 2^-22 of the advance later.
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
 // Of what is no sphere of the tree: it goes before all of them.
@@ -60,9 +61,9 @@ ShadowRay ended_as_met_in_tree(ShadowRay shadow, Start start, float time)
     return shadow;
 }
 
-// The two rays that leave a vertex, on their way through the tree: the shadow ray, if there is one, and then the other, if it
-// is followed. In one walk, as invocations run in step: those whose shadow ray ends early go on with the other, which made
-// walks half as fast again as one after the other.
+// The two rays that leave a vertex, on their way through the tree: the shadow ray, if there is one, and then the other,
+// if it is followed. In one walk, as invocations run in step: those whose shadow ray ends early go on with the other,
+// which made walks half as fast again as one after the other.
 struct Walk {
     Start start;
     vec3 direction;
@@ -93,8 +94,8 @@ const bool MOVES_GROUPS = WALK_TRIPS == 0u;
 const uint STACK_SIZE = TREE_LEVELS > 0u ? TREE_LEVELS : 1u;
 uint walk_stack[STACK_SIZE];
 
-// The height of a walk that is done. That it is can also be told by done, but what compilers know of done after a loop need
-// not be so where a driver has ended it.
+// The height of a walk that is done. That it is can also be told by done, but what compilers know of done after a loop
+// need not be so where a driver has ended it.
 const int ENDED = -1;
 
 const Group ROOT = Group(0u, 0u, 1u);
