@@ -79,10 +79,10 @@ uint[NUMBER_WORDS] weighted_difference(uvec4 sum_a, uint a, uvec4 sum_b, uint b,
     return words;
 }
 
-// The bits of the standard error of the mean of both parts, each of one sample at least: s = |A / a - B / b| sqrt(a b)
-// / (a + b) = |A b - B a| / ((a + b) sqrt(a b)), times 2^exponent (README.md, section 11). The numerator is exact; the
-// root is cut to 32 bits and so is the denominator, each by less than a 2^31th: the rounded result is within .52 of its
-// last place.
+// The bits of the standard error of the mean of both parts, each of one sample at least:
+// s = |A / a - B / b| sqrt(a b) / (a + b) = |A b - B a| / ((a + b) sqrt(a b)), times 2^exponent
+// (README.md, section 11). The numerator is exact; the root is cut to 32 bits and so is the denominator, each by less
+// than a 2^31th: the rounded result is within .52 of its last place.
 uint standard_error_bits(uvec4 sum_a, uint a, uvec4 sum_b, uint b, int exponent)
 {
     bool unused;
