@@ -101,6 +101,7 @@ void Film::cut_along(const TileMap &map) {
         if (pieces.size() == 1)
             continue;
         std::vector<Tile> cut;
+        cut.reserve(pieces.size());
         for (const TileMap::Piece &piece : pieces)
             cut.push_back({piece.pixels, tiles_[i].samples, part_of(tiles_[i].sums, tiles_[i].pixels, piece.pixels)});
         tiles_.insert(tiles_.end(), std::move_iterator(cut.begin() + 1), std::move_iterator(cut.end()));
@@ -154,7 +155,7 @@ void Film::add(Film other) {
     std::vector<std::pair<std::size_t, std::size_t>> meetings; // an own tile, and that of the other with its pixels
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         if (const TileMap::Span *const span = theirs.find(tiles_[i].pixels.x, tiles_[i].pixels.y)) {
-            meetings.push_back({i, span->tile});
+            meetings.emplace_back(i, span->tile);
             sum[i].samples.add(others[span->tile].samples);
         }
     std::vector<Tile> added = outside(own, other.tiles_);

@@ -56,7 +56,7 @@ void PixelSums::add(const PixelSums &other) noexcept {
 }
 
 // Plane by plane: a sum's carries go from each word to the next.
-void PixelSums::add_part(std::uint32_t part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
+void PixelSums::add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                          std::size_t first, std::size_t count) noexcept {
     std::array<std::uint32_t, carry_block> carries;
     for (std::size_t done = 0; done < count; done += carry_block) {
@@ -64,7 +64,7 @@ void PixelSums::add_part(std::uint32_t part, std::size_t to_first, const PixelSu
         for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
             if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
                 std::ranges::fill_n(carries.begin(), static_cast<std::ptrdiff_t>(block), 0U);
-            const std::span<std::uint32_t> words = this->plane(part, plane).subspan(to_first + done, block);
+            const std::span<std::uint32_t> words = this->plane(to_part, plane).subspan(to_first + done, block);
             const std::span<const std::uint32_t> others = from.plane(from_part, plane).subspan(first + done, block);
             for (std::size_t pixel = 0; pixel < block; ++pixel) {
                 const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];

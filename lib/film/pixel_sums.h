@@ -40,7 +40,7 @@ public:
     void add(const PixelSums &other) noexcept;
 
     // Adds a part of consecutive pixels of others to a part of as many from to_first on.
-    void add_part(std::uint32_t part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
+    void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
     // Adds the one part to the other and empties it.

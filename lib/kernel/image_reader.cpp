@@ -67,22 +67,22 @@ void ImageReader::read(const ImageQuery &query, const std::function<void(std::sp
 // In one submission, since the host has nothing to do meanwhile.
 std::span<std::byte> ImageReader::map(const ImageQuery &query) {
     const Pieces pieces(query);
-    const std::uint64_t bytes = pieces.total * pieces.bytes_of_pixel;
+    const std::uint64_t image_bytes = pieces.total * pieces.bytes_of_pixel;
     const Slot &slot = this->slot(0, pieces.most * pieces.bytes_of_pixel, query.format);
-    if (!mapped_ || mapped_->size() < bytes + findings_bytes) {
+    if (!mapped_ || mapped_->size() < image_bytes + findings_bytes) {
         mapped_.reset(); // before the new one takes memory
-        mapped_.emplace(device_, vulkan::BufferUse::HostRead, bytes + findings_bytes, "mapped image");
+        mapped_.emplace(device_, vulkan::BufferUse::HostRead, image_bytes + findings_bytes, "mapped image");
     }
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         slot.findings.clear(commands, 0, findings_bytes);
         for (std::uint64_t piece = 0; piece < pieces.count(); ++piece)
             record(commands, slot, query.format, constants_of(query, pieces, piece), *mapped_,
                    piece * pieces.most * pieces.bytes_of_pixel);
-        mapped_->copy(commands, slot.findings, findings_bytes, bytes);
+        mapped_->copy(commands, slot.findings, findings_bytes, image_bytes);
     });
     const std::span<std::byte> memory = mapped_->host_memory();
-    require_no_loss(memory.subspan(bytes));
-    return memory.first(bytes);
+    require_no_loss(memory.subspan(image_bytes));
+    return memory.first(image_bytes);
 }
 
 ImageReader::Slot &ImageReader::slot(std::size_t index, std::uint64_t bytes, std::uint32_t format) {
