@@ -52,7 +52,8 @@ shared ValueSet column_sets[ESTIMATE_WORKGROUP_SIZE];
 shared ValueSet tile_sets[TILES_IN_REGION];
 shared Errors errors[ESTIMATE_WORKGROUP_SIZE]; // of columns, and then of tiles
 
-// Pixels whose sums are asked of memory before the first of them is waited for.
+// Pixels whose sums are asked of memory before the first of them is waited for. By measuring on an H200: of 1024x512
+// pixels an error took 89 us with 1, 84 with 2 and 83 with 4, of twice as many 151, 147 and 134.
 const uint PIXELS_ASKED_FOR = 4u;
 
 // A number of up to 160 bits that counts 2^-60ths.
