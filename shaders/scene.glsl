@@ -45,6 +45,7 @@ layout(constant_id = ID_HIDDEN_LAMPS) const uint HIDDEN_LAMPS = 0;
 layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
 layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
 layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
+layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
     vec4 words[UNIFORM_SCENE_WORDS];
@@ -56,14 +57,12 @@ const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 // A surface is its index: spheres first, then planes, then with TREE the spheres of the tree.
 const uint NO_SURFACE = 0xffffffffu;
 
-// Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled: lavapipe
-// reads what is at constant places once for all invocations, which made 40 spheres 1.6 times as fast. Each index costs
-// it 9 milliseconds of compilation; from about as many spheres on a tree takes their place.
-const uint UNROLL_LIMIT = 48u;
+// Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled
+// (DevicePolicy::unrolled).
 #define FOR_EACH(index, first, end, statement)                                                                         \
     if ((end) > (first)) {                                                                                             \
         uint index = (first);                                                                                          \
-        if ((end) - (first) <= UNROLL_LIMIT) {                                                                         \
+        if ((end) - (first) <= UNROLLED) {                                                                             \
             [[unroll]] do {                                                                                            \
                 statement;                                                                                             \
                 ++index;                                                                                               \

@@ -83,7 +83,7 @@ void print_json(const std::vector<pt_device_info> &devices) {
 } // namespace
 
 int run_devices(bool as_json) {
-    choose_vector_width(0); // it is part of llvmpipe's name
+    choose_vector_width(); // it is part of llvmpipe's name
     const std::vector<pt_device_info> devices = list_devices();
     if (as_json) {
         print_json(devices);

@@ -17,20 +17,6 @@ constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
 constexpr std::array choices{width_name, cache_name, "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
                              "MESA_GLSL_CACHE_DISABLE"};
 
-// The kernel of a scene of up to 64 words holds it in constants, and gains a quarter to a half from vectors of 512
-// bits. A surface takes at most five words: four, and one for its motion or curvature. Kernels that read the scene
-// from a buffer do not gain reliably: measured from 0.83 to 1.18 times the speed.
-constexpr std::size_t most_surfaces = 64 / 5;
-
-// Walks through a tree gain with its size: clouds of 60 / 200 / 400 / 1,000 / 10,000 / 100,000 spheres over a floor
-// have 1.05 / 1.06 / 1.10 / 1.07 / 1.14 / 1.11 times the speed at path length 3, and 0.88 / 0.99 / 1.03 / 1.03 / 1.08
-// / 1.11 at 6.
-constexpr std::size_t least_surfaces_of_tree = 256;
-
-bool gains_by_width(std::size_t surface_count) {
-    return surface_count <= most_surfaces || surface_count >= least_surfaces_of_tree;
-}
-
 bool has_avx512() {
 #if defined(__x86_64__)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
@@ -44,21 +30,21 @@ bool has_avx512() {
 
 // A folder of compiled shaders for this width alone: Mesa's key of a shader does not tell its width (seen with 22.3.6
 // and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512.
-Environment wide_vectors(const Environment &environment, std::size_t surface_count) {
+Environment wide_vectors(const Environment &environment) {
     const bool chosen =
         std::any_of(choices.begin(), choices.end(), [&](const char *name) { return environment.contains(name); });
     const std::filesystem::path cache = user_cache(environment);
-    if (chosen || cache.empty() || !gains_by_width(surface_count)) {
+    if (chosen || cache.empty()) {
         return {};
     }
     return {{width_name, "512"}, {cache_name, (cache / "shaders-512").string()}};
 }
 
-void choose_vector_width(std::size_t surface_count) {
+void choose_vector_width() {
     if (!has_avx512()) {
         return;
     }
-    const Environment wide = wide_vectors(own_environment(), surface_count);
+    const Environment wide = wide_vectors(own_environment());
     if (wide.empty()) {
         return;
     }

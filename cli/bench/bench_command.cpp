@@ -133,7 +133,7 @@ int run_bench(const BenchOptions &options) {
     require_distinct_files({{"the scene", options.scene}, {"--reference", options.reference}},
                            {{"--csv", options.csv}, {"--json", options.json}});
     const SceneFile file = read_scene_file(options.scene, options.size);
-    choose_vector_width(file.surface_count()); // before the module that reads images starts threads
+    choose_vector_width(); // before the module that reads images starts threads
     const RenderSettings settings = bench_settings(options, file);
     require_host_memory(settings, file.path, 2); // the reference, and the one compared with it
     check_report_file(options.csv);

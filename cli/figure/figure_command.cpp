@@ -140,7 +140,7 @@ int draw(const FigureOptions &options, SceneFile &scene, const FigureLayout &lay
         check_image_target(image_target(path, options.format), settings.window);
     }
     catch_interrupts();
-    choose_vector_width(scene.surface_count());
+    choose_vector_width();
     const Context context(create_info(options));
 
     RenderReport report{};

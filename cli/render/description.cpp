@@ -80,8 +80,8 @@ Json planes_of(const SceneFile &file) {
 }
 
 // Of the driver's variables, those that the program would set or the user has set.
-Json environment_of(const SceneFile &file) {
-    choose_vector_width(file.surface_count());
+Json environment_of() {
+    choose_vector_width();
     Json variables = Json::object();
     for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR"}) {
         if (const char *value = std::getenv(name)) {
@@ -128,7 +128,7 @@ Json description_of(const SceneFile &file, const RenderSettings &settings, std::
          {{"exposure", stops ? Json(*stops) : Json("auto")},
           {"tonemap", tone_curve_names.at(static_cast<std::size_t>(settings.tone_curve))},
           {"gamma", settings.gamma ? Json(*settings.gamma) : Json(nullptr)}}},
-        {"environment", environment_of(file)},
+        {"environment", environment_of()},
     };
 }
 

@@ -126,7 +126,7 @@ private:
         if (!context_) {
             catch_interrupts();
             catch_picture_requests(); // which nothing answers, but which are not to end it
-            choose_vector_width(file.surface_count());
+            choose_vector_width();
             context_ = std::make_unique<Context>(render_create_info(options_, log_));
         }
         return render_picture(

@@ -36,7 +36,7 @@ int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *vie
     check_outputs(options, settings);
     catch_interrupts();
     catch_picture_requests();
-    choose_vector_width(file.surface_count());
+    choose_vector_width();
 
     times.create_start = std::chrono::steady_clock::now();
     const Context context(render_create_info(options, log));

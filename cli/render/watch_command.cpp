@@ -103,7 +103,7 @@ private:
         const RenderSettings settings = merge_settings(options_, file);
         check_outputs(options_, settings);
         times.create_start = std::chrono::steady_clock::now();
-        refresh_context(file);
+        refresh_context();
         if (is_up_to_date()) {
             print_unless_quiet("the same kernels and the same scene: nothing to render");
             outcome_ = rendered_outcome_;
@@ -119,9 +119,9 @@ private:
     }
 
     // One context for all pictures: another start would take longer than most edits are worth.
-    void refresh_context(const SceneFile &file) {
+    void refresh_context() {
         if (!context_) {
-            choose_vector_width(file.surface_count());
+            choose_vector_width();
             context_ = std::make_unique<Context>(render_create_info(options_, log_));
         } else if (!options_.shader_dir.empty()) {
             context_->require(pt_reload_shaders(context_->get()));

@@ -118,14 +118,6 @@ bool SceneFile::is_hidden(std::uint32_t material) const {
     return std::find(hidden_materials.begin(), hidden_materials.end(), material) != hidden_materials.end();
 }
 
-std::size_t SceneFile::surface_count() const {
-    std::size_t count = spheres.size() + planes.size();
-    for (const ParticleEntry &entry : particles) {
-        count += entry.count();
-    }
-    return count;
-}
-
 std::string SceneFile::explain(const BrokenRule &rule) const {
     return explain_rule(*this, read_again(*this), rule);
 }

@@ -67,8 +67,7 @@ struct SceneFile {
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::vector<std::uint32_t> material_flags() const; // empty: 0 for all
-    std::size_t surface_count() const;
-    bool is_hidden(std::uint32_t material) const; // from the camera
+    bool is_hidden(std::uint32_t material) const;      // from the camera
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
     // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".

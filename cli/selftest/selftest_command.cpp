@@ -27,7 +27,7 @@ void add_selftest_options(CLI::App &command, SelftestOptions &options) {
 
 int run_selftest(const SelftestOptions &options) {
     check_report_file(options.json);
-    choose_vector_width(0); // all its scenes are small
+    choose_vector_width();
     pt_create_info info{};
     info.struct_size = sizeof(pt_create_info);
     info.device = options.device.empty() ? nullptr : options.device.c_str();

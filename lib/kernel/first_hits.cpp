@@ -53,7 +53,9 @@ void FirstHits::show(const std::shared_ptr<const GpuScene> &scene, const vulkan:
     if (kernel_.shows(scene))
         return;
     slot_.reset(); // bound to the scene before
-    kernel_.show(scene, tree, specialization_constants(scene->features));
+    auto specialization = specialization_constants(scene->features);
+    specialization[gpu::ID_UNROLLED] = device_.policy().unrolled;
+    kernel_.show(scene, tree, specialization);
     constants_ = first_hit_constants(*scene);
 }
 

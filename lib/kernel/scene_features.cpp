@@ -261,6 +261,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
     constants[gpu::ID_SHARERS] = 1;
     constants[gpu::ID_OVERLAP] = 0;
+    constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // all for which words may be constants
     constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;
     constants[gpu::ID_PLANES_BLOCK] = features.planes_block ? 1 : 0;
     constants[gpu::ID_PLANES_EMIT] = features.planes_emit ? 1 : 0;

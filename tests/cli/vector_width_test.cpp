@@ -16,13 +16,13 @@ Environment with(Environment environment, const std::string &name, const std::st
 }
 
 TEST(VectorWidth, IsWideWithACacheOfItsOwn) {
-    EXPECT_EQ(wide_vectors(home, 8), (Environment{{"LP_NATIVE_VECTOR_WIDTH", "512"},
-                                                  {"MESA_SHADER_CACHE_DIR", "/home/someone/.cache/pt/shaders-512"}}));
+    EXPECT_EQ(wide_vectors(home), (Environment{{"LP_NATIVE_VECTOR_WIDTH", "512"},
+                                               {"MESA_SHADER_CACHE_DIR", "/home/someone/.cache/pt/shaders-512"}}));
 }
 
 TEST(VectorWidth, CacheIsWhereTheUserKeepsCaches) {
     const auto folder = [](const Environment &environment) {
-        return wide_vectors(environment, 8).at("MESA_SHADER_CACHE_DIR");
+        return wide_vectors(environment).at("MESA_SHADER_CACHE_DIR");
     };
     EXPECT_EQ(folder(with(home, "XDG_CACHE_HOME", "/var/x")), "/var/x/pt/shaders-512");
     EXPECT_EQ(folder({{"XDG_CACHE_HOME", "/var/x"}}), "/var/x/pt/shaders-512");
@@ -31,26 +31,17 @@ TEST(VectorWidth, CacheIsWhereTheUserKeepsCaches) {
 }
 
 TEST(VectorWidth, IsLeftAloneWithoutAPlaceForACache) {
-    EXPECT_EQ(wide_vectors({}, 8), Environment());
-    EXPECT_EQ(wide_vectors({{"HOME", ""}}, 8), Environment());
+    EXPECT_EQ(wide_vectors({}), Environment());
+    EXPECT_EQ(wide_vectors({{"HOME", ""}}), Environment());
 }
 
 TEST(VectorWidth, IsTheUsersChoice) {
     for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE",
                              "MESA_GLSL_CACHE_DIR", "MESA_GLSL_CACHE_DISABLE"}) {
         for (const char *value : {"256", "512", "true", ""}) {
-            EXPECT_EQ(wide_vectors(with(home, name, value), 8), Environment()) << name << '=' << value;
+            EXPECT_EQ(wide_vectors(with(home, name, value)), Environment()) << name << '=' << value;
         }
     }
-}
-
-// Five words a surface at most, 64 words in constants; and walks through a tree that is large enough.
-TEST(VectorWidth, IsLeftAloneForScenesOfMediumSize) {
-    EXPECT_EQ(wide_vectors(home, 12).size(), 2);
-    EXPECT_EQ(wide_vectors(home, 13), Environment());
-    EXPECT_EQ(wide_vectors(home, 255), Environment());
-    EXPECT_EQ(wide_vectors(home, 256).size(), 2);
-    EXPECT_EQ(wide_vectors(home, 100'000).size(), 2);
 }
 
 } // namespace

@@ -49,11 +49,6 @@ class RealDeviceWidth(CommandLineTest):
         self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DIR=self.path("mine")))
         self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DISABLE="true"))
 
-    def test_not_for_scenes_beyond_constants(self):
-        ball = {"center": [0, 0, -5], "radius": 1, "material": "m"}
-        self.write("s.json", json.dumps({"materials": {"m": {"diffuse": 0.5}}, "spheres": [ball] * 13}))
-        self.assertIn("256 bits", self.render("a.exr", scene="s.json"))
-
     def test_not_where_no_cache_can_be(self):
         self.write("file", "")
         self.expect(0, "devices", "--json", XDG_CACHE_HOME=self.path("file"))

@@ -6,7 +6,7 @@ import numpy as np
 import pt
 from pictures import LAMP, WHITE, cloud, radiance
 
-COUNT = 60  # from 49 spheres on they are in a tree
+COUNT = 120  # from 113 spheres on they are in a tree
 POSITIONS, COLORS = cloud(COUNT)
 RADII = np.linspace(0.05, 0.2, COUNT, dtype=np.float32)
 MATERIALS = [WHITE, pt.Material(diffuse=0.5, specular=0.4, glossiness=20)]
@@ -131,8 +131,8 @@ class Columns(unittest.TestCase):
 
     def test_what_does_not_fit_is_refused(self):
         for error, words, arguments in (
-                (ValueError, r"center.shape = \(60,\): must be \(n, 3\)", (RADII, RADII, 0)),
-                (ValueError, r"radius.shape = \(59,\): must be \(60,\) or \(\)", (POSITIONS, RADII[1:], 0)),
+                (ValueError, rf"center.shape = \({COUNT},\): must be \(n, 3\)", (RADII, RADII, 0)),
+                (ValueError, rf"radius.shape = \({COUNT - 1},\): must be \({COUNT},\) or \(\)", (POSITIONS, RADII[1:], 0)),
                 (ValueError, "indices of materials", (POSITIONS, RADII, -1)),
                 (ValueError, "indices of materials", (POSITIONS, RADII, 2**32)),
                 (TypeError, "must be of real numbers", (POSITIONS.astype(complex), RADII, 0)),
