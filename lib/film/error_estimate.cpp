@@ -121,19 +121,16 @@ void ErrorEstimator::finish_band() {
 }
 
 RegionPixels ErrorEstimator::region_of_band(std::size_t left, std::size_t width, std::size_t height) const {
-    RegionPixels region{width, height, {}, {}};
+    constexpr std::uint64_t rejected = 0; // which add() has counted
     const std::size_t tiles = ((width + tile_size - 1) / tile_size) * ((height + tile_size - 1) / tile_size);
-    region.sample_counts.assign(tiles, static_cast<double>(conditions_.sample_count));
-    const auto append = [&](std::vector<float> &to, const std::vector<float> &from, std::size_t row) {
-        const auto first = from.begin() + static_cast<std::ptrdiff_t>(3 * (row * conditions_.width + left));
-        to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(3 * width));
-    };
-    for (std::size_t y = 0; y < height; ++y) {
-        append(region.estimates.radiance, radiance_, y);
-        append(region.estimates.standard_error, standard_error_, y);
-        append(region.estimates.lesser, lesser_, y);
-    }
-    return region;
+    return {width,
+            height,
+            std::size_t{3} * conditions_.width,
+            &radiance_[3 * left],
+            &standard_error_[3 * left],
+            &lesser_[3 * left],
+            rejected,
+            std::vector(tiles, static_cast<double>(conditions_.sample_count))};
 }
 
 void ErrorEstimator::add(const RegionErrors &region) {

@@ -117,39 +117,46 @@ bool PixelSums::holds(const PartCounts &expected) const {
 }
 
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
-    const int exponent = std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
     PixelEstimates estimates;
-    estimates.radiance.reserve(3 * pixel_count_);
+    estimates.radiance.resize(3 * pixel_count_);
     for (auto *const values : {&estimates.standard_error, &estimates.lesser})
-        values->reserve(with_standard_error ? 3 * pixel_count_ : 0);
+        values->resize(with_standard_error ? 3 * pixel_count_ : 0);
+    estimates.rejected = estimate(0, unit, {estimates.radiance, estimates.standard_error, estimates.lesser});
+    return estimates;
+}
+
+std::uint64_t PixelSums::estimate(std::size_t first, double unit, const EstimateSpans &to) const {
+    const int exponent = std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
+    const bool with_standard_error = !to.standard_error.empty();
+    std::uint64_t rejected = 0;
     std::optional<PartWeights> weights; // of the pixel before: most have the same
-    for (std::size_t pixel = 0; pixel < pixel_count_; ++pixel) {
-        const PartPixel a(*this, older_part, pixel);
-        const PartPixel b(*this, newer_part, pixel);
+    for (std::size_t i = 0; i < to.radiance.size(); i += 3) {
+        const PartPixel a(*this, older_part, first + i / 3);
+        const PartPixel b(*this, newer_part, first + i / 3);
         const std::uint32_t accepted = a.accepted() + b.accepted();
         const bool knows_error =
             a.done() + b.done() >= gpu::FILM_MIN_ERROR_SAMPLES && a.accepted() > 0 && b.accepted() > 0;
-        estimates.rejected += a.done() + b.done() - accepted;
+        rejected += a.done() + b.done() - accepted;
         if (with_standard_error && knows_error && !(weights && weights->are_of(a.accepted(), b.accepted())))
             weights.emplace(a.accepted(), b.accepted());
         for (std::size_t channel = 0; channel < 3; ++channel) {
             const WideSum sum_a = a.sum(channel);
             const WideSum sum_b = b.sum(channel);
-            estimates.radiance.push_back(mean_of(sum_a + sum_b, accepted, exponent));
+            to.radiance[i + channel] = mean_of(sum_a + sum_b, accepted, exponent);
             if (!with_standard_error)
                 continue;
             if (!knows_error) {
-                estimates.standard_error.push_back(std::numeric_limits<float>::infinity());
-                estimates.lesser.push_back(0.0F);
+                to.standard_error[i + channel] = std::numeric_limits<float>::infinity();
+                to.lesser[i + channel] = 0.0F;
                 continue;
             }
             const PartDifference parts = weights->difference(sum_a, sum_b, exponent);
-            estimates.standard_error.push_back(parts.standard_error);
-            estimates.lesser.push_back(parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent)
-                                                           : mean_of(sum_b, b.accepted(), exponent));
+            to.standard_error[i + channel] = parts.standard_error;
+            to.lesser[i + channel] =
+                parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent) : mean_of(sum_b, b.accepted(), exponent);
         }
     }
-    return estimates;
+    return rejected;
 }
 
 std::vector<float> PixelSums::sample_counts() const {

@@ -21,6 +21,13 @@ struct PixelEstimates {
     std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
+// Where estimates of consecutive pixels go, R, G, B per pixel: the radiance alone, or all three.
+struct EstimateSpans {
+    std::span<float> radiance;
+    std::span<float> standard_error;
+    std::span<float> lesser;
+};
+
 class PixelSums {
 public:
     static constexpr std::size_t words_per_pixel = std::size_t{gpu::FILM_PARTS} * gpu::FILM_WORDS;
@@ -59,6 +66,9 @@ public:
 
     // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
+
+    // The same of some pixels, those from the first on; returns the samples left out of them.
+    std::uint64_t estimate(std::size_t first, double unit, const EstimateSpans &to) const;
 
     // Of all samples of each pixel, as R, G, B.
     std::vector<float> sample_counts() const;

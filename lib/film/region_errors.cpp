@@ -14,14 +14,15 @@ void add_tile(ErrorSquares &to, double square, double value_count) {
 
 RegionChannel channel_of(const RegionPixels &region, std::size_t channel) {
     RegionChannel values{region.width, region.height, {}, {}, {}};
-    const auto take = [&](std::vector<double> &to, const std::vector<float> &from) {
-        to.reserve(region.width * region.height);
-        for (std::size_t i = channel; i < from.size(); i += 3)
-            to.push_back(static_cast<double>(from[i]));
+    const auto take = [&](std::vector<double> &to, const float *from) {
+        to.resize(region.width * region.height);
+        for (std::size_t y = 0; y < region.height; ++y)
+            for (std::size_t x = 0; x < region.width; ++x)
+                to[y * region.width + x] = static_cast<double>(from[y * region.row_values + 3 * x + channel]);
     };
-    take(values.mean, region.estimates.radiance);
-    take(values.standard_error, region.estimates.standard_error);
-    take(values.lesser, region.estimates.lesser);
+    take(values.mean, region.radiance);
+    take(values.standard_error, region.standard_error);
+    take(values.lesser, region.lesser);
     return values;
 }
 
@@ -44,7 +45,7 @@ std::vector<ValueError> pixel_errors(const RegionPixels &region) {
 RegionErrors region_errors(const RegionPixels &region) {
     const std::vector<ValueError> pixels = pixel_errors(region);
     RegionErrors errors;
-    errors.rejected = region.estimates.rejected;
+    errors.rejected = region.rejected;
     for (std::size_t top = 0; top < region.height; top += tile_size)
         for (std::size_t first = 0; first < region.width; first += tile_size) {
             const std::size_t bottom = std::min(top + tile_size, region.height);

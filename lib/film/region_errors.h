@@ -29,11 +29,15 @@ struct RegionErrors {
     std::uint64_t rejected = 0;         // samples left out
 };
 
-// Of the pixels of a region, row by row.
+// The pixels of a region among the estimates of rows, R, G, B per pixel, with standard errors.
 struct RegionPixels {
     std::size_t width;
     std::size_t height;
-    PixelEstimates estimates;          // with standard errors
+    std::size_t row_values;            // from a row to the next
+    const float *radiance;             // of the first pixel
+    const float *standard_error;       // likewise
+    const float *lesser;               // likewise
+    std::uint64_t rejected;            // samples left out
     std::vector<double> sample_counts; // of a pixel, for each tile of the region, row by row
 };
 

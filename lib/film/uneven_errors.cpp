@@ -13,72 +13,95 @@ void for_each_tile(const TileGrid &grid, const Rectangle &pixels, const Function
             function(grid.tile_at(x, y));
 }
 
-// The squares of a band of rows, from left to right.
-std::vector<Rectangle> squares_of_band(const TileGrid &grid, std::uint32_t side, std::uint32_t top) {
-    std::vector<Rectangle> squares;
-    for (std::uint32_t left = 0; left < grid.width; left += side)
-        squares.push_back({left, top, std::min(side, grid.width - left), std::min(side, grid.height - top)});
-    return squares;
-}
-
 bool has_changed(const TileSamples &samples, const TileSamples &before, const Rectangle &pixels) {
     bool changed = false;
     for_each_tile(samples.grid(), pixels, [&](std::size_t tile) { changed |= samples.of(tile) != before.of(tile); });
     return changed;
 }
 
-// rows: those of the film that the pixels lie in, in their whole length.
-RegionPixels pixels_of(const TileSamples &samples, double unit, const Rectangle &pixels, const PixelSums &rows) {
-    PixelSums sums;
-    sums.resize(pixels.pixel_count());
-    for (std::size_t y = 0; y < pixels.height; ++y)
-        sums.copy(rows, y * samples.grid().width + pixels.x, pixels.width, y * pixels.width);
-    RegionPixels region{pixels.width, pixels.height, sums.estimates(unit, true), {}};
+} // namespace
+
+template <typename Fact, typename LookAt>
+void UnevenErrors::update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const LookAt &look_at) {
+    const TileGrid &grid = samples.grid();
+    const std::size_t columns = (grid.width + side - 1) / side;
+    const bool is_known = !known.facts.empty() && known.samples.grid() == grid;
+    if (!is_known) {
+        known.samples = {}; // until all of it has been looked at
+        known.facts.assign(columns * ((grid.height + side - 1) / side), {});
+    }
+    for (std::uint32_t y = 0; y < grid.height; y += side)
+        for (std::uint32_t x = 0; x < grid.width; x += side) {
+            const Rectangle pixels{x, y, std::min(side, grid.width - x), std::min(side, grid.height - y)};
+            if (!is_known || has_changed(samples, known.samples, pixels))
+                known.facts[y / side * columns + x / side] = look_at(pixels);
+        }
+    known.samples = samples;
+}
+
+// A row of tiles is read once one of them has changed.
+void UnevenErrors::estimate(const TileSamples &samples, double unit, const ReadRows &read) {
+    const std::size_t value_count = std::size_t{3} * samples.grid().width * samples.grid().height;
+    for (auto *const values : {&estimates_.radiance, &estimates_.standard_error, &estimates_.lesser})
+        values->resize(value_count);
+    PixelSums rows;
+    std::optional<std::uint32_t> first_row;
+    update(rejected_, gpu::TILE_SIZE, samples, [&](const Rectangle &tile) {
+        if (first_row != tile.y)
+            rows = read(tile.y, tile.height);
+        first_row = tile.y;
+        return estimate_tile(tile, samples.grid().width, unit, rows);
+    });
+}
+
+std::uint64_t UnevenErrors::estimate_tile(const Rectangle &tile, std::size_t width, double unit,
+                                          const PixelSums &rows) {
+    std::uint64_t rejected = 0;
+    for (std::size_t y = 0; y < tile.height; ++y) {
+        const auto in_row = [&](std::vector<float> &values) {
+            return std::span(values).subspan(3 * ((tile.y + y) * width + tile.x), std::size_t{3} * tile.width);
+        };
+        rejected +=
+            rows.estimate(y * width + tile.x, unit,
+                          {in_row(estimates_.radiance), in_row(estimates_.standard_error), in_row(estimates_.lesser)});
+    }
+    return rejected;
+}
+
+RegionPixels UnevenErrors::pixels_of(const TileSamples &samples, const Rectangle &pixels) const {
+    const std::size_t width = samples.grid().width;
+    const std::size_t first = 3 * (pixels.y * width + pixels.x);
+    RegionPixels region{pixels.width,
+                        pixels.height,
+                        3 * width,
+                        &estimates_.radiance[first],
+                        &estimates_.standard_error[first],
+                        &estimates_.lesser[first],
+                        0,
+                        {}};
     for_each_tile(samples.grid(), pixels, [&](std::size_t tile) {
+        region.rejected += rejected_.facts[tile];
         region.sample_counts.push_back(static_cast<double>(samples.of(tile).count()));
     });
     return region;
 }
 
-} // namespace
-
-template <typename Fact, typename LookAt>
-void UnevenErrors::update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const ReadRows &read,
-                          const LookAt &look_at) {
-    const TileGrid &grid = samples.grid();
-    const std::size_t columns = (grid.width + side - 1) / side;
-    const bool is_known = !known.facts.empty() && known.samples.grid() == grid;
-    if (!is_known)
-        known.facts.assign(columns * ((grid.height + side - 1) / side), {});
-    for (std::uint32_t top = 0; top < grid.height; top += side) {
-        std::vector<Rectangle> changed = squares_of_band(grid, side, top);
-        if (is_known)
-            std::erase_if(changed,
-                          [&](const Rectangle &pixels) { return !has_changed(samples, known.samples, pixels); });
-        if (changed.empty())
-            continue;
-        const PixelSums rows = read(top, changed.front().height);
-        for (const Rectangle &pixels : changed)
-            known.facts[top / side * columns + pixels.x / side] = look_at(pixels, rows);
-    }
-    known.samples = samples;
-}
-
 std::span<const double> UnevenErrors::tile_squares(const TileSamples &samples, double unit, const ReadRows &read) {
-    update(squares_, gpu::TILE_SIZE, samples, read, [&](const Rectangle &tile, const PixelSums &rows) {
-        return own_square_of(pixels_of(samples, unit, tile, rows));
-    });
+    estimate(samples, unit, read);
+    update(squares_, gpu::TILE_SIZE, samples,
+           [&](const Rectangle &tile) { return own_square_of(pixels_of(samples, tile)); });
     return squares_.facts;
 }
 
 std::span<const RegionErrors> UnevenErrors::regions(const TileSamples &samples, double unit, const ReadRows &read) {
-    update(regions_, gpu::REGION_SIZE, samples, read, [&](const Rectangle &region, const PixelSums &rows) {
-        return region_errors(pixels_of(samples, unit, region, rows));
-    });
+    estimate(samples, unit, read);
+    update(regions_, gpu::REGION_SIZE, samples,
+           [&](const Rectangle &region) { return region_errors(pixels_of(samples, region)); });
     return regions_.facts;
 }
 
 void UnevenErrors::forget() noexcept {
+    rejected_.facts.clear();
     squares_.facts.clear();
     regions_.facts.clear();
 }

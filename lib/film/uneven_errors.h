@@ -1,5 +1,6 @@
 // What tiles and regions of a film whose tiles have different samples say about its error, on the host. Kept from look
-// to look: a tile is looked at again when it has other samples than before, and a region when one of its tiles has.
+// to look, with the estimates of its pixels, 36 bytes each: a tile is looked at again when it has other samples than
+// before, and a region when one of its tiles has.
 #pragma once
 
 #include "lib/film/region_errors.h"
@@ -35,9 +36,14 @@ private:
     };
 
     template <typename Fact, typename LookAt>
-    static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const ReadRows &read,
-                       const LookAt &look_at);
+    static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const LookAt &look_at);
 
+    void estimate(const TileSamples &samples, double unit, const ReadRows &read);
+    std::uint64_t estimate_tile(const Rectangle &tile, std::size_t width, double unit, const PixelSums &rows);
+    RegionPixels pixels_of(const TileSamples &samples, const Rectangle &pixels) const;
+
+    PixelEstimates estimates_;      // of all of the film's pixels; but for their number of samples left out ...
+    Known<std::uint64_t> rejected_; // ... which is by tile
     Known<double> squares_;
     Known<RegionErrors> regions_;
 };
