@@ -31,10 +31,6 @@ constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 constexpr std::chrono::seconds gpu_patience{10};
 constexpr std::chrono::nanoseconds wait_step = std::chrono::milliseconds{100};
 
-// On an H200 as fast as testing each from 80 spheres on in the open with three vertices, from 100 with six, later in
-// closed rooms.
-constexpr std::uint32_t gpu_tree_from = 96;
-
 // Longer code waits to be fetched: unrolled, an H200 has 1.02 times the speed with 14 spheres, and with 20 / 28 / 38 /
 // 46 / 94 of them .95 / .68 / .59 / .48 / .24 times at path length 6.
 constexpr std::uint32_t gpu_unrolled = 16;
@@ -107,7 +103,6 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .polling = cpu ? std::chrono::nanoseconds{0} : gpu_polling,
             .tests_per_second = tests_per_second(info.kind),
             .unrolled = cpu ? DevicePolicy{}.unrolled : gpu_unrolled,
-            .tree_from = cpu ? DevicePolicy{}.tree_from : gpu_tree_from,
             .adaptive_from = cpu ? 0 : DevicePolicy{}.adaptive_from,
             .walk_trips = cpu ? 0 : gpu_walk_trips,
             .resolve_on_device = !cpu};
@@ -121,7 +116,6 @@ DevicePolicy gpu_like_policy() {
             .queue_depth = 2,
             .polling = gpu_polling,
             .unrolled = gpu_unrolled,
-            .tree_from = gpu_tree_from,
             .walk_trips = gpu_walk_trips,
             .resolve_on_device = true};
 }

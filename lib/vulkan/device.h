@@ -47,7 +47,9 @@ struct DevicePolicy {
     // of 512 bits, 1.3 times with 256, and 100 spheres 1.3 and 1.0 times at path length 3, 1.7 and 1.2 times at 6. Each
     // surface costs it 10 milliseconds of compilation, which is what limits it.
     std::uint32_t unrolled = 112;
-    std::uint32_t tree_from = 113; // spheres: with as many, a tree is as fast as testing each
+    // Spheres: with as many, all but a few are in a tree. On lavapipe that is where loops are no longer unrolled; on an
+    // H200 a tree is as fast as testing each from 160 spheres on with three vertices, from 115 with six.
+    std::uint32_t tree_from = 113;
     // Samples of a pixel: until there are as many, tiles are not told apart (lib/film/adaptive_rule.h). On GPUs, where
     // a look takes as long as some samples, pictures that need no more are done sooner without, and with paths of two
     // vertices four times as many. 0, or a power of two from 16 on.

@@ -16,9 +16,8 @@ enum {
     PT_FEATURE_GLOSS = 2,  /**< specular lobes */
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
     PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
-    /** so many spheres that they are in a tree: a ray tests those near its way. From 113 on, where the first of the
-     * context's devices is a GPU from 96 on. Centres are held to 2^-30 of the extent of those in the tree, colours of
-     * spheres to a thousandth. */
+    /** so many spheres that they are in a tree: a ray tests those near its way. From 113 on.
+     * Centres are held to 2^-30 of the extent of those in the tree, colours of spheres to a thousandth. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64        /**< surfaces that the camera does not see */
