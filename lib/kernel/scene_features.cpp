@@ -30,9 +30,10 @@ std::uint64_t loop_trips_per_walk(const Features &features) {
 
 namespace {
 
-// From so many on paths branch less. (Error and time of 4 branches against 2, on scenes of 60 to 30,000 spheres with
-// three and six vertices: what 4 win in error they cost in time with 60, and with 1000 or more they lose a third.)
-constexpr std::size_t least_many_spheres = 64;
+// From so many on paths branch less: those that a device puts into a tree, as DevicePolicy::tree_from has it, since
+// walks through a list cost less. (Error times CPU time of 4 branches over those of 2, 70 to 111 spheres in a list:
+// 0.79 to 0.98 with three vertices, 0.96 to 1.05 with six; with 1,000 or more, in a tree, they lose a third.)
+constexpr std::size_t least_many_spheres = 113;
 
 // Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
 // no plane comes between two points of it.
