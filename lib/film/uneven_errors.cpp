@@ -1,6 +1,8 @@
 #include "lib/film/uneven_errors.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 
 namespace pt {
 
