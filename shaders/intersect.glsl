@@ -79,7 +79,7 @@ Hit closest_hit_and_shadow(Start start, float time, vec3 direction, ShadowRay sh
 Hit ahead(Hit hit)
 {
     if (KNOWN_SIDES == 1 && PLANE_COUNT > 0u)
-        hit.distance = max(hit.distance, 0.0);
+        hit.distance = at_least(hit.distance, 0.0);
     return hit;
 }
 

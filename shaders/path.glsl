@@ -89,7 +89,7 @@ LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material
 // Of a branch the number that chooses the lobe is stratified over all of them; the sum may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
-    return min((number + float(branch)) / directions, LARGEST_NUMBER);
+    return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
 }
 
 // How a path leaves a vertex: in one of its directions, with the light of a lamp.
@@ -116,7 +116,7 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.density = onwards.density * directions;
     departure.directions = directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
-    departure.strongest = max(path.throughput.r, max(path.throughput.g, path.throughput.b));
+    departure.strongest = at_least(path.throughput.r, at_least(path.throughput.g, path.throughput.b));
     departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
     departure.survival = numbers.w;
     departure.lamp = lamp;
@@ -157,7 +157,7 @@ void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blo
     // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
     // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
     if (ROULETTE && path.vertex_count >= 4u) {
-        float survival = clamp(departure.strongest * float(BRANCH_COUNT), 0.05, 1.0);
+        float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
         path.alive = path.alive && departure.survival < survival;
         path.throughput /= survival;
     }

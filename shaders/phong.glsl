@@ -35,7 +35,7 @@ const float LAST_SPECULAR_PROBABILITY = 0.9;
 Material at_last_direction(Material material)
 {
     if (material.specular_probability > 0.0)
-        material.specular_probability = max(material.specular_probability, LAST_SPECULAR_PROBABILITY);
+        material.specular_probability = at_least(material.specular_probability, LAST_SPECULAR_PROBABILITY);
     return material;
 }
 
@@ -59,7 +59,7 @@ struct Reflection {
 
 Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
 {
-    float cosine = max(dot(vertex.normal, outgoing), 0.0);
+    float cosine = at_least(dot(vertex.normal, outgoing), 0.0);
     float p = material.specular_probability;
     vec3 f = material.diffuse;
     float density = (1.0 - p) / PI * cosine;

@@ -2,6 +2,7 @@
 #ifndef RAY_TESTS_GLSL
 #define RAY_TESTS_GLSL
 
+#include "maths.glsl"
 #include "scene.glsl"
 
 // Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
@@ -46,7 +47,7 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float half_chord = sqrt(max(squared_half_chord, 0.0));
+    float half_chord = sqrt(at_least(squared_half_chord, 0.0));
     float distance = outside ? b - half_chord : b + half_chord;
     bool met = !outside || (squared_half_chord >= 0.0 && b > 0.0);
     distance = leaving ? abs(2.0 * b) : distance;
@@ -60,7 +61,7 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 {
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
-    float beyond = max(b - distance, 0.0);
+    float beyond = at_least(b - distance, 0.0);
     bool met_before = dot(across, across) + beyond * beyond < radius * radius;
     return !at_end && b > 0.0 && met_before;
 }
@@ -91,7 +92,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
     float rise = 2.0 * level.curvature * height;
     vec3 across = level.gradient - slope * direction;
     float discriminant = rise > 1.0 ? 1.0 - dot(across, across) : slope * slope - rise;
-    float q = abs(slope) + sqrt(max(discriminant, 0.0));
+    float q = abs(slope) + sqrt(at_least(discriminant, 0.0));
     bool near = !leaving && discriminant >= 0.0 && below == (slope > 0.0);
     bool far = !near && below && level.curvature > 0.0;
     float distance = (far ? q : 2.0 * abs(height)) / (far ? level.curvature : q);
