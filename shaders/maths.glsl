@@ -62,7 +62,7 @@ float exp2_negative(float x)
 // r = x - k is exact; e / r is a polynomial of 1.1e-8 relative error.
 float one_minus_exp2(float x)
 {
-    x = max(x, EXP2_UNDERFLOW);
+    x = uintBitsToFloat(min(floatBitsToUint(x), floatBitsToUint(EXP2_UNDERFLOW))); // the greater of the two
     precise float biased = x + ROUNDING_BIAS;
     precise float r = x - (biased - ROUNDING_BIAS);
     float high_powers = 0.0555035743 + r * (0.00961823749 + r * (0.00133907355 + r * 0.000154035124));

@@ -165,7 +165,7 @@ bool may_emit(uint surface)
 vec4 emission_of(uint surface)
 {
     if (!HAS_TABLE)
-        return scene_word_among(EMISSION, SURFACE_COUNT, surface);
+        return scene_word_among(EMISSION, PLANES_EMIT == 1u ? SURFACE_COUNT : EMITTING_SPHERES, surface);
     if (TREE_LAMPS > 0u && (surface < WALKED_LAMPS || surface >= SURFACE_COUNT))
         return scene_word(EMISSION + lamp_of(surface));
     return scene_word(EMISSION + (surface < SPHERE_COUNT ? surface + TREE_LAMPS
