@@ -55,6 +55,7 @@ void FirstHits::show(const std::shared_ptr<const GpuScene> &scene, const vulkan:
     slot_.reset(); // bound to the scene before
     auto specialization = specialization_constants(scene->features);
     specialization[gpu::ID_UNROLLED] = device_.policy().unrolled;
+    specialization[gpu::ID_INTEGER_ORDER] = device_.policy().integer_order ? 1 : 0;
     kernel_.show(scene, tree, specialization);
     constants_ = first_hit_constants(*scene);
 }

@@ -27,6 +27,7 @@ std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, c
     result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
     result[gpu::ID_SHARERS] = sharers;
     result[gpu::ID_UNROLLED] = device.policy().unrolled;
+    result[gpu::ID_INTEGER_ORDER] = device.policy().integer_order ? 1 : 0;
     result[gpu::ID_WALK_TRIPS] = features.tree ? device.policy().walk_trips : 0;
     result[gpu::ID_OVERLAP] = device.policy().invocations > 0 ? 1 : 0;
     return result;

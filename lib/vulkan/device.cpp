@@ -105,6 +105,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .unrolled = cpu ? DevicePolicy{}.unrolled : gpu_unrolled,
             .adaptive_from = cpu ? 0 : DevicePolicy{}.adaptive_from,
             .walk_trips = cpu ? 0 : gpu_walk_trips,
+            .integer_order = cpu,
             .resolve_on_device = !cpu};
 }
 

@@ -55,6 +55,7 @@ struct DevicePolicy {
     // vertices four times as many. 0, or a power of two from 16 on.
     std::uint32_t adaptive_from = 256;
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
+    bool integer_order = false;     // kernels run faster where integers are compared, not floats (shaders/maths.glsl)
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 
