@@ -20,16 +20,16 @@ struct Siblings {
 Siblings siblings_of(uint group, Vertex vertex, float time)
 {
     uint word = LAMP_TREE + lamp_tree_group_words(MOTION) * group;
-    vec4 x = scene_storage.words[word];
-    vec4 y = scene_storage.words[word + 1u];
-    vec4 z = scene_storage.words[word + 2u];
+    vec4 x = stored_word(word);
+    vec4 y = stored_word(word + 1u);
+    vec4 z = stored_word(word + 2u);
     if (MOTION == 1) {
-        x += time * scene_storage.words[word + 5u];
-        y += time * scene_storage.words[word + 6u];
-        z += time * scene_storage.words[word + 7u];
+        x += time * stored_word(word + 5u);
+        y += time * stored_word(word + 6u);
+        z += time * stored_word(word + 7u);
     }
     return Siblings(x - vertex.position.x, y - vertex.position.y, z - vertex.position.z,
-                    scene_storage.words[word + 3u], scene_storage.words[word + 4u]);
+                    stored_word(word + 3u), stored_word(word + 4u));
 }
 
 // All that leads to a probability is precise, so that no compiler rounds it in one way where a lamp is chosen and in

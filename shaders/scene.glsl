@@ -45,6 +45,7 @@ layout(constant_id = ID_HIDDEN_LAMPS) const uint HIDDEN_LAMPS = 0;
 layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
 layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
 layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
+layout(constant_id = ID_UNIFORM_READS) const uint UNIFORM_READS = 0;
 layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {
@@ -75,12 +76,18 @@ const uint NO_SURFACE = 0xffffffffu;
         }                                                                                                              \
     }
 
+// Of an index that may differ between invocations, in a scene that is not only in constants.
+vec4 stored_word(uint index)
+{
+    return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];
+}
+
 // Of an index that is a constant, once loops are unrolled.
 vec4 scene_word(uint index)
 {
     if (SCENE_SOURCE == SCENE_IN_CONSTANTS)
         return scene_constants[index];
-    return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : scene_storage.words[index];
+    return SCENE_SOURCE == SCENE_IN_UNIFORM ? scene_uniform.words[index] : stored_word(index);
 }
 
 // The word first + index, with an index below count that may differ between invocations: constants have no addresses,
@@ -124,7 +131,7 @@ const uint TABLE = TREE_FRAME + 5u * TREE;
 // One of the indices of a block of the storage buffer, four to a word.
 uint stored_index(uint block, uint index)
 {
-    return floatBitsToUint(scene_storage.words[block + index / 4u][index % 4u]) - MATERIAL_INDEX_BITS;
+    return floatBitsToUint(stored_word(block + index / 4u)[index % 4u]) - MATERIAL_INDEX_BITS;
 }
 
 // Where the words of a surface's material begin in the storage buffer.

@@ -106,6 +106,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .adaptive_from = cpu ? 0 : DevicePolicy{}.adaptive_from,
             .walk_trips = cpu ? 0 : gpu_walk_trips,
             .integer_order = cpu,
+            .uniform_reads = cpu,
             .resolve_on_device = !cpu};
 }
 

@@ -30,7 +30,7 @@ class ShaderDir(WatchTest):
     def brighter(self, factor):
         """The kernel with every sample multiplied by it."""
         with open(os.path.join(SHADERS, "pathtrace.comp"), encoding="utf-8") as file:
-            return file.read().replace("* frame.film_scale", f"* ({factor} * frame.film_scale)")
+            return file.read().replace("* held.film_scale", f"* ({factor} * held.film_scale)")
 
     def expect_picture(self, radiance):
         self.assertEqual(read_png(self.path("a.png")), (3, 2, [[SRGB[radiance]] * 9] * 2))

@@ -76,7 +76,7 @@ protected:
 
     // The exact change: powers of two scale every sum without rounding.
     void double_the_radiance() const {
-        shaders_.replace("pathtrace.comp", "* frame.film_scale", "* (2.0 * frame.film_scale)");
+        shaders_.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     }
 
     ShaderFolder shaders_;

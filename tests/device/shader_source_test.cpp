@@ -58,7 +58,7 @@ TEST_F(ShaderSourceTest, CompilesToTheEmbeddedWords) {
 
 TEST_F(ShaderSourceTest, EachKernelCounts) {
     const KernelCode embedded = pt::embedded_code();
-    shaders.replace("pathtrace.comp", "* frame.film_scale", "* (2.0 * frame.film_scale)");
+    shaders.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     KernelCode code = compiled();
     EXPECT_FALSE(std::ranges::equal(code.pathtrace, embedded.pathtrace));
     EXPECT_TRUE(std::ranges::equal(code.commit, embedded.commit));
@@ -66,7 +66,7 @@ TEST_F(ShaderSourceTest, EachKernelCounts) {
     EXPECT_TRUE(std::ranges::equal(code.add, embedded.add));
     EXPECT_FALSE(code == embedded);
 
-    shaders.replace("pathtrace.comp", "* (2.0 * frame.film_scale)", "* frame.film_scale");
+    shaders.replace("pathtrace.comp", "* (2.0 * held.film_scale)", "* held.film_scale");
     shaders.replace("commit.comp", "vec4(0.0)", "vec4(0.5)");
     code = compiled();
     EXPECT_FALSE(std::ranges::equal(code.commit, embedded.commit));
