@@ -21,11 +21,12 @@ struct PixelEstimates {
     std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
-// Where estimates of consecutive pixels go, R, G, B per pixel: the radiance alone, or all three.
-struct EstimateSpans {
-    std::span<float> radiance;
-    std::span<float> standard_error;
-    std::span<float> lesser;
+// Where estimates of consecutive pixels go, in planes: R of all pixels, then G, then B.
+struct EstimatePlanes {
+    float *radiance;       // of the first pixel
+    float *standard_error; // likewise; nullptr: neither this nor the lesser
+    float *lesser;         // likewise
+    std::size_t stride;    // from a plane to the next
 };
 
 class PixelSums {
@@ -67,8 +68,8 @@ public:
     // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
-    // The same of some pixels, those from the first on; returns the samples left out of them.
-    std::uint64_t estimate(std::size_t first, double unit, const EstimateSpans &to) const;
+    // The same of consecutive pixels; returns the samples left out of them.
+    std::uint64_t estimate(std::size_t first, std::size_t count, double unit, const EstimatePlanes &to) const;
 
     // Of all samples of each pixel, as R, G, B.
     std::vector<float> sample_counts() const;
