@@ -33,13 +33,12 @@ struct Limit {
 Limit limit_of(double standard_error, double mean, double lesser, double around) {
     const double square = less_of(squared(mean), squared(more_of(lesser, around))) + relative_offset;
     const double known = squared(lesser) + relative_offset;
-    constexpr double e_squared = 7.39; // where the logarithm passes 1
-    const double beyond = square - e_squared * known;
-    const double bright_around = around >= mean ? beyond : 0.0;
     // With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)),
     // which is 1 for halves, but for the roundings of the three to float.
-    const double most_are_dark = standard_error >= 0.99 * (mean - lesser) ? bright_around : 0.0;
-    return {square, known, most_are_dark};
+    const double most_are_dark = standard_error >= 0.99 * (mean - lesser) ? 1.0 : 0.0;
+    const double bright_around = around >= mean ? 1.0 : 0.0;
+    constexpr double e_squared = 7.39; // where the logarithm passes 1
+    return {square, known, most_are_dark * bright_around * (square - e_squared * known)};
 }
 
 // Light of the mean M in a pixel beside may be in a share p of this one's samples too. None of N had it if their mean
@@ -95,23 +94,29 @@ struct RowErrors {
     TileRow unseen;
 };
 
+// The largest of a row's numbers.
+double largest_of(const TileRow &row) {
+    std::array<double, 4> largest;
+    for (std::size_t i = 0; i < 4; ++i)
+        largest[i] = more_of(row[i], row[i + 4]);
+    return more_of(more_of(largest[0], largest[1]), more_of(largest[2], largest[3]));
+}
+
 // Few values need a logarithm.
 void find_row_errors(const RowValues &row, const TileRow &around, const float *largest_beside, double sample_count,
                      RowErrors &to) {
-    std::array<std::uint64_t, tile_size> needs_logarithm;
-    std::uint64_t any = 0;
+    TileRow logarithms; // > 0 where one is needed
     for (std::size_t i = 0; i < tile_size; ++i) {
         const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
+        const double beside = brighter_beside(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
         to.relative_square[i] = squared(row.standard_error[i]) / limit.square;
         to.unseen[i] = 0.0;
-        const double beside = brighter_beside(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
-        needs_logarithm[i] = more_of(limit.light_beyond, beside) > 0.0 ? 1 : 0;
-        any |= needs_logarithm[i];
+        logarithms[i] = more_of(limit.light_beyond, beside);
     }
-    if (any == 0)
+    if (!(largest_of(logarithms) > 0.0))
         return;
     for (std::size_t i = 0; i < tile_size; ++i) {
-        if (needs_logarithm[i] == 0)
+        if (!(logarithms[i] > 0.0))
             continue;
         const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
         if (limit.light_beyond > 0.0)
@@ -122,16 +127,15 @@ void find_row_errors(const RowValues &row, const TileRow &around, const float *l
 
 // The mean about each pixel, of its tile or, where one pixel of that has most of the light, of its region.
 void find_levels(const TileRow &mean, ValueSet tile, ValueSet region, TileRow &level) {
-    std::uint64_t any = 0;
-    std::array<std::uint64_t, tile_size> is_of_region;
+    TileRow lacking; // > 0 where the tile does not tell
     for (std::size_t i = 0; i < tile_size; ++i) {
         level[i] = tile.mean_besides_and_without_largest(mean[i]);
-        is_of_region[i] = level[i] >= 0.5 * tile.mean_besides(mean[i]) ? 0 : 1;
-        any |= is_of_region[i];
+        lacking[i] = 0.5 * tile.mean_besides(mean[i]) - level[i];
     }
-    if (any != 0)
-        for (std::size_t i = 0; i < tile_size; ++i)
-            level[i] = is_of_region[i] != 0 ? region.mean_besides_and_without_largest(mean[i]) : level[i];
+    if (!(largest_of(lacking) > 0.0))
+        return;
+    for (std::size_t i = 0; i < tile_size; ++i)
+        level[i] = lacking[i] > 0.0 ? region.mean_besides_and_without_largest(mean[i]) : level[i];
 }
 
 // The means of the channels.
