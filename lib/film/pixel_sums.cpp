@@ -150,6 +150,10 @@ std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t 
     return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
 }
 
+void PixelSums::clear() noexcept {
+    std::ranges::fill(words_, 0U);
+}
+
 void PixelSums::add(const PixelSums &other) noexcept {
     for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part)
         add_part(part, 0, other, part, 0, pixel_count_);

@@ -41,6 +41,8 @@ public:
         pixel_count_ = pixel_count;
     }
 
+    void clear() noexcept;
+
     // One word of every pixel: a plane of a part, as in gpu_layout.h.
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index);
     std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const;

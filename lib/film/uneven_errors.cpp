@@ -49,8 +49,10 @@ void UnevenErrors::estimate(const TileSamples &samples, double unit, const ReadR
     PixelSums rows;
     std::optional<std::uint32_t> first_row;
     update(rejected_, gpu::TILE_SIZE, samples, [&](const Rectangle &tile) {
-        if (first_row != tile.y)
-            rows = read(tile.y, tile.height);
+        if (first_row != tile.y) {
+            rows.resize(std::size_t{samples.grid().width} * tile.height);
+            read(tile.y, rows);
+        }
         first_row = tile.y;
         return estimate_tile(tile, samples.grid(), unit, rows);
     });

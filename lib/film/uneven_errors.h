@@ -16,8 +16,8 @@ namespace pt {
 
 class UnevenErrors {
 public:
-    // Gives the sums of consecutive rows of the film.
-    using ReadRows = std::function<PixelSums(std::uint32_t first_row, std::uint32_t row_count)>;
+    // Sets the sums of as many pixels, which are whole rows of the film from this one on.
+    using ReadRows = std::function<void(std::uint32_t first_row, PixelSums &rows)>;
 
     // Of a film of this unit that has these samples, by tile (own_square_of in region_errors.h).
     std::span<const double> tile_squares(const TileSamples &samples, double unit, const ReadRows &read);
