@@ -153,23 +153,32 @@ std::size_t tile_columns(const RegionValues &region) {
 // The channels side by side, since each sum waits for the one before.
 SetsOfRegion sets_of(const RegionValues &region) {
     SetsOfRegion sets;
+    std::array<double, channel_count> sums{};
     const std::size_t columns = tile_columns(region);
-    for (std::size_t y = 0; y < region.height; ++y)
-        for (std::size_t column = 0; column < columns; ++column) {
-            ValueSets tile = sets.tiles[y / tile_size * columns + column];
-            const std::size_t end = std::min((column + 1) * tile_size, region.width);
-            for (std::size_t x = column * tile_size; x < end; ++x)
-                for (std::size_t channel = 0; channel < channel_count; ++channel) {
-                    const auto mean =
-                        static_cast<double>(region.mean[channel * region.plane_stride + y * region.row_stride + x]);
-                    tile[channel].add(mean);
-                    sets.region[channel].add_all_but_largest(mean);
-                }
-            sets.tiles[y / tile_size * columns + column] = tile;
-        }
-    for (const ValueSets &tile : sets.tiles)
-        for (std::size_t channel = 0; channel < channel_count; ++channel)
-            sets.region[channel].add_largest_of(tile[channel]);
+    for (std::size_t top = 0; top < region.height; top += tile_size)
+        for (std::size_t y = top; y < std::min(top + tile_size, region.height); ++y)
+            for (std::size_t left = 0; left < region.width; left += tile_size) {
+                ValueSets &of_tile = sets.tiles[top / tile_size * columns + left / tile_size];
+                ValueSets tile = of_tile;
+                const std::size_t right = std::min(left + tile_size, region.width);
+                for (std::size_t x = left; x < right; ++x)
+                    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+                        const float *const plane = region.mean + channel * region.plane_stride;
+                        const auto mean = static_cast<double>(plane[y * region.row_stride + x]);
+                        tile[channel].add(mean);
+                        sums[channel] += mean;
+                    }
+                of_tile = tile;
+            }
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        sets.region[channel] = ValueSet(sums[channel], region.width * region.height);
+        for (std::size_t top = 0; top < region.height; top += tile_size)
+            for (std::size_t left = 0; left < region.width; left += tile_size) {
+                ValueSet &tile = sets.tiles[top / tile_size * columns + left / tile_size][channel];
+                tile.set_count(std::min(tile_size, region.width - left) * std::min(tile_size, region.height - top));
+                sets.region[channel].add_largest_of(tile);
+            }
+    }
     return sets;
 }
 

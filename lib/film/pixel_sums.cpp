@@ -38,7 +38,7 @@ private:
     std::size_t pixel_;
 };
 
-// Of consecutive pixels, in blocks.
+// Of pixels next to each other, in blocks.
 class Estimation {
 public:
     Estimation(const PixelSums &sums, double unit, const EstimatePlanes &to) :
@@ -224,14 +224,15 @@ bool PixelSums::holds(const PartCounts &expected) const {
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
     constexpr std::size_t most = 256;
     std::array<float, 9 * most> planes;
-    const EstimatePlanes to{planes.data(), with_standard_error ? &planes[3 * most] : nullptr, &planes[6 * most], most};
+    const EstimatePlanes to{planes.data(), with_standard_error ? &planes[3 * most] : nullptr, &planes[6 * most], most,
+                            most};
     PixelEstimates estimates;
     estimates.radiance.resize(3 * pixel_count_);
     for (auto *const values : {&estimates.standard_error, &estimates.lesser})
         values->resize(with_standard_error ? 3 * pixel_count_ : 0);
     for (std::size_t first = 0; first < pixel_count_; first += most) {
         const std::size_t count = std::min(most, pixel_count_ - first);
-        estimates.rejected += estimate(first, count, unit, to);
+        estimates.rejected += estimate({first, count, 1, count}, unit, to);
         const auto interleave = [&](const float *from, std::vector<float> &values) {
             for (std::size_t i = 0; i < count && !values.empty(); ++i)
                 for (std::size_t channel = 0; channel < 3; ++channel)
@@ -244,10 +245,12 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
     return estimates;
 }
 
-std::uint64_t PixelSums::estimate(std::size_t first, std::size_t count, double unit, const EstimatePlanes &to) const {
+std::uint64_t PixelSums::estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const {
     Estimation estimation(*this, unit, to);
-    for (std::size_t done = 0; done < count; done += block_pixels)
-        estimation.estimate(first + done, std::min(block_pixels, count - done), done);
+    for (std::size_t y = 0; y < pixels.height; ++y)
+        for (std::size_t x = 0; x < pixels.width; x += block_pixels)
+            estimation.estimate(pixels.first + y * pixels.stride + x, std::min(block_pixels, pixels.width - x),
+                                y * to.row_stride + x);
     return estimation.rejected();
 }
 

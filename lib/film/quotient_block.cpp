@@ -76,9 +76,11 @@ BlockQuotients::BlockQuotients(std::uint32_t a, std::uint32_t b, int exponent) :
         mean_a_ = scale_of(unit / a);
         mean_b_ = scale_of(unit / b);
         const std::uint32_t factor = std::gcd(a, b);
-        weight_a_ = b / factor;
-        weight_b_ = a / factor;
-        most = std::max(a, b) / factor;
+        const std::uint32_t part_of_a = a / factor;
+        const std::uint32_t part_of_b = b / factor;
+        weight_a_ = part_of_b;
+        weight_b_ = part_of_a;
+        most = std::max(part_of_a, part_of_b);
         error_ = scale_of(unit * PartWeights(a, b).scale() * factor);
     }
     const auto is_usual = [](const Scale &scale) { return scale.factor > 0.0; };

@@ -61,13 +61,9 @@ void UnevenErrors::estimate(const TileSamples &samples, double unit, const ReadR
 std::uint64_t UnevenErrors::estimate_tile(const Rectangle &tile, const TileGrid &grid, double unit,
                                           const PixelSums &rows) {
     const std::size_t width = grid.width;
-    std::uint64_t rejected = 0;
-    for (std::size_t y = 0; y < tile.height; ++y) {
-        const std::size_t first = (tile.y + y) * width + tile.x;
-        rejected += rows.estimate(y * width + tile.x, tile.width, unit,
-                                  {&radiance_[first], &standard_error_[first], &lesser_[first], width * grid.height});
-    }
-    return rejected;
+    const std::size_t first = tile.y * width + tile.x;
+    return rows.estimate({tile.x, tile.width, tile.height, width}, unit,
+                         {&radiance_[first], &standard_error_[first], &lesser_[first], width * grid.height, width});
 }
 
 RegionPixels UnevenErrors::pixels_of(const TileSamples &samples, const Rectangle &pixels) const {

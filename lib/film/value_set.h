@@ -3,25 +3,29 @@
 
 #include "lib/film/min_max.h"
 
+#include <cstddef>
+
 namespace pt {
 
 class ValueSet {
 public:
+    ValueSet() = default;
+
+    // Of values of which the largest ones are added afterwards.
+    ValueSet(double sum, std::size_t count) : sum_(sum), count_(static_cast<double>(count)) {}
+
+    // One after the other, since the last bits depend on their order.
     void add(double value) {
         sum_ += value;
-        count_ += 1.0;
         add_to_largest(value);
     }
 
-    // Adds values one after the other, since the last bits depend on their order; then their largest ones at once.
-    void add_all_but_largest(double value) {
-        sum_ += value;
-        count_ += 1.0;
-    }
     void add_largest_of(const ValueSet &values) {
         add_to_largest(values.largest_);
         add_to_largest(values.second_);
     }
+
+    void set_count(std::size_t count) { count_ = static_cast<double>(count); }
 
     double mean_besides(double value) const { return more_of(sum_ - value, 0.0) / more_of(count_ - 1.0, 1.0); }
 
