@@ -199,20 +199,50 @@ void for_each_piece(std::uint32_t pixel_count, std::uint32_t most_pixels,
 
 namespace {
 
-// Those of consecutive pixels of a film.
+// Of pixels next to each other, all of which are to hold the same.
+void require_all(const PixelSums &sums, std::size_t first, std::size_t count, const PartCounts &expected) {
+    std::uint64_t others = 0; // bits in which numbers of samples differ from these
+    for (std::uint32_t part = 0; part < gpu::FILM_PARTS; ++part) {
+        const std::uint32_t *const accepted = sums.plane(part, gpu::FILM_ACCEPTED).subspan(first).data();
+        const std::uint32_t *const rejected = sums.plane(part, gpu::FILM_REJECTED).subspan(first).data();
+        for (std::size_t i = 0; i < count; ++i)
+            others |= (std::uint64_t{accepted[i]} + rejected[i]) ^ expected[part];
+    }
+    for (std::size_t i = 0; i < count && others != 0; ++i)
+        require_samples(sums.samples_of(first + i), expected);
+}
+
+// Of consecutive pixels of a film; where tiles differ, from the edge of one to the next.
 void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSamples &samples) {
     std::vector<PartCounts> expected;
     for (const SampleSet &set : samples.sets())
         expected.push_back(part_counts(set));
     const TileGrid &grid = samples.grid();
-    for (std::uint32_t i = 0; i < sums.pixel_count(); ++i) {
-        const std::uint32_t pixel = first_pixel + i;
-        const std::size_t tile = samples.even() ? 0 : grid.tile_at(pixel % grid.width, pixel / grid.width);
-        require_samples(sums.samples_of(i), expected[samples.set_of(tile)]);
+    for (std::size_t done = 0; done < sums.pixel_count();) {
+        const std::uint32_t y = (first_pixel + static_cast<std::uint32_t>(done)) / grid.width;
+        const std::uint32_t x = (first_pixel + static_cast<std::uint32_t>(done)) % grid.width;
+        const std::size_t left = sums.pixel_count() - done;
+        const std::size_t count =
+            samples.even() ? left : std::min<std::size_t>({left, gpu::TILE_SIZE - x % gpu::TILE_SIZE, grid.width - x});
+        require_all(sums, done, count, expected[samples.set_of(samples.even() ? 0 : grid.tile_at(x, y))]);
+        done += count;
     }
 }
 
 } // namespace
+
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
+                PixelSums &sums) {
+    const std::uint64_t split = split_of(samples.hull());
+    films.front()->read(first_pixel, split, sums);
+    PixelSums others;
+    for (DeviceFilm *film : films.subspan(1)) {
+        others.resize(sums.pixel_count());
+        film->read(first_pixel, split, others);
+        sums.add(others);
+    }
+    require_all(sums, first_pixel, samples);
+}
 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
                 const std::function<void(const PixelSums &)> &receive) {
@@ -221,18 +251,10 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
-    const std::uint64_t split = split_of(samples.hull());
     PixelSums sums;
-    PixelSums others;
     for_each_piece(pixels.count, most_pixels, [&](std::uint32_t first, std::uint32_t count) {
         sums.resize(count);
-        films.front()->read(pixels.first + first, split, sums);
-        for (DeviceFilm *film : films.subspan(1)) {
-            others.resize(count);
-            film->read(pixels.first + first, split, others);
-            sums.add(others);
-        }
-        require_all(sums, pixels.first + first, samples);
+        read_films(films, samples, pixels.first + first, sums);
         receive(sums);
     });
 }

@@ -112,6 +112,10 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 
+// Likewise, sets the sums of as many consecutive pixels.
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
+                PixelSums &sums);
+
 // Pixels of the pieces in which films are read and written, so that a large image is not held twice. Were planes a
 // power of two apart, the words of a pixel would contend for one set of the processor's cache.
 inline constexpr std::uint32_t piece_pixels = 130'000;

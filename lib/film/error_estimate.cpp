@@ -95,42 +95,39 @@ double exaggeration(std::uint32_t sampler) {
 
 void ErrorEstimator::add(const PixelEstimates &pixels) {
     all_.rejected += pixels.rejected;
-    const std::size_t band_values = 3 * region_size * conditions_.width;
-    for (std::size_t first = 0; first < pixels.radiance.size();) {
-        const std::size_t count = std::min(band_values - radiance_.size(), pixels.radiance.size() - first);
-        const auto append = [&](std::vector<float> &to, const std::vector<float> &from) {
-            const std::span<const float> taken = std::span(from).subspan(first, count);
-            to.insert(to.end(), taken.begin(), taken.end());
+    for (std::size_t first = 0; first < pixels.radiance.size() / 3;) {
+        const std::size_t count = std::min(most_band_pixels() - band_pixels_, pixels.radiance.size() / 3 - first);
+        const auto take = [&](std::vector<float> &to, const std::vector<float> &from) {
+            to.resize(3 * most_band_pixels());
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                for (std::size_t i = 0; i < count; ++i)
+                    to[channel * most_band_pixels() + band_pixels_ + i] = from[3 * (first + i) + channel];
         };
-        append(radiance_, pixels.radiance);
-        append(standard_error_, pixels.standard_error);
-        append(lesser_, pixels.lesser);
+        take(radiance_, pixels.radiance);
+        take(standard_error_, pixels.standard_error);
+        take(lesser_, pixels.lesser);
         first += count;
-        if (radiance_.size() == band_values)
+        band_pixels_ += count;
+        if (band_pixels_ == most_band_pixels())
             finish_band();
     }
 }
 
 void ErrorEstimator::finish_band() {
-    const std::size_t height = radiance_.size() / (std::size_t{3} * conditions_.width);
+    const std::size_t height = band_pixels_ / conditions_.width;
     for (std::size_t left = 0; left < conditions_.width; left += region_size)
         add(region_errors(region_of_band(left, std::min<std::size_t>(region_size, conditions_.width - left), height)));
-    radiance_.clear();
-    standard_error_.clear();
-    lesser_.clear();
+    band_pixels_ = 0;
 }
 
 RegionPixels ErrorEstimator::region_of_band(std::size_t left, std::size_t width, std::size_t height) const {
     constexpr std::uint64_t rejected = 0; // which add() has counted
-    const std::size_t tiles = ((width + tile_size - 1) / tile_size) * ((height + tile_size - 1) / tile_size);
-    return {width,
-            height,
-            std::size_t{3} * conditions_.width,
-            &radiance_[3 * left],
-            &standard_error_[3 * left],
-            &lesser_[3 * left],
-            rejected,
-            std::vector(tiles, static_cast<double>(conditions_.sample_count))};
+    RegionPixels region{{width, height, conditions_.width, most_band_pixels(), &radiance_[left], &standard_error_[left],
+                         &lesser_[left]},
+                        rejected,
+                        {}};
+    region.sample_counts.fill(static_cast<double>(conditions_.sample_count));
+    return region;
 }
 
 void ErrorEstimator::add(const RegionErrors &region) {
@@ -162,7 +159,7 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
 }
 
 ErrorEstimate ErrorEstimator::result() {
-    if (!radiance_.empty())
+    if (band_pixels_ > 0)
         finish_band();
     std::uint32_t uncertain = 0;
     if (pixel_count(all_.square) < few_pixels)

@@ -2,6 +2,7 @@
 // film.
 #pragma once
 
+#include "lib/film/pixel_sums.h"
 #include "lib/film/region_errors.h"
 
 #include <pt/stats.h>
@@ -77,9 +78,11 @@ private:
 
     void finish_band();
     RegionPixels region_of_band(std::size_t left, std::size_t width, std::size_t height) const;
+    std::size_t most_band_pixels() const { return region_size * conditions_.width; }
 
     SampleConditions conditions_;
-    std::vector<float> radiance_; // of a band of regions that is not complete
+    std::size_t band_pixels_ = 0; // of a band of regions that is not complete, in planes:
+    std::vector<float> radiance_;
     std::vector<float> standard_error_;
     std::vector<float> lesser_;
     RegionErrors all_;

@@ -1,106 +1,18 @@
 #include "lib/film/error_region.h"
 
+#include "lib/film/min_max.h"
+#include "lib/film/value_set.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace pt {
 
 namespace {
 
-// Values of which one asks for the mean of the others.
-class ValueSet {
-public:
-    void add(double value) {
-        sum_ += value;
-        count_ += 1.0;
-        second_ = std::max(second_, std::min(value, largest_));
-        largest_ = std::max(largest_, value);
-    }
-
-    double mean_besides(double value) const { return std::max(sum_ - value, 0.0) / std::max(count_ - 1.0, 1.0); }
-
-    // The largest of the others may be a firefly too.
-    double mean_besides_and_without_largest(double value) const {
-        const double largest_of_others = value < largest_ ? largest_ : second_;
-        return std::max(sum_ - value - largest_of_others, 0.0) / std::max(count_ - 2.0, 1.0);
-    }
-
-private:
-    double sum_ = 0.0;
-    double count_ = 0.0;
-    double largest_ = 0.0;
-    double second_ = 0.0;
-};
-
-// The mean about a pixel, of its tile or, where one pixel of that has most of the light, of its region.
-double level_about(double mean, const ValueSet &tile, const ValueSet &region) {
-    const double level = tile.mean_besides_and_without_largest(mean);
-    return level >= 0.5 * tile.mean_besides(mean) ? level : region.mean_besides_and_without_largest(mean);
-}
-
-struct Neighbourhood {
-    double median;
-    double largest;
-};
-
-// Three values in ascending order.
-struct Sorted {
-    double low;
-    double middle;
-    double high;
-};
-
-Sorted sorted(double a, double b, double c) {
-    const double low = std::min(a, b);
-    const double high = std::max(a, b);
-    return {std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c)};
-}
-
-// Of nine values in three rows, each sorted: the median is the middle one of the largest of the low values, the middle
-// one of the middle values and the smallest of the high values (Paeth 1990, Median finding on a 3 x 3 grid).
-Neighbourhood neighbourhood_of_rows(const Sorted &a, const Sorted &b, const Sorted &c) {
-    return {sorted(sorted(a.low, b.low, c.low).high, sorted(a.middle, b.middle, c.middle).middle,
-                   sorted(a.high, b.high, c.high).low)
-                .middle,
-            std::max({a.high, b.high, c.high})};
-}
-
-// Where the region ends beside the pixel. Of an even number the median is the lower of the two in the middle, so that
-// of two pixels the brighter does not stand for itself; a pixel alone has no neighbours.
-Neighbourhood neighbourhood_at_edge(const RegionChannel &channel, std::size_t x, std::size_t y) {
-    std::array<double, 9> values{};
-    std::size_t count = 0;
-    for (std::size_t row = y - (y > 0 ? 1 : 0); row <= y + 1 && row < channel.height; ++row)
-        for (std::size_t column = x - (x > 0 ? 1 : 0); column <= x + 1 && column < channel.width; ++column)
-            values[count++] = channel.mean[row * channel.width + column];
-    if (count == 1)
-        return {0.0, values[0]};
-    const auto end = values.begin() + static_cast<std::ptrdiff_t>(count);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>((count - 1) / 2);
-    std::nth_element(values.begin(), middle, end);
-    return {*middle, *std::max_element(middle, end)};
-}
-
-// Of the pixels of the region that touch a pixel, and itself.
-Neighbourhood neighbourhood(const RegionChannel &channel, std::size_t x, std::size_t y) {
-    if (x == 0 || y == 0 || x + 1 == channel.width || y + 1 == channel.height)
-        return neighbourhood_at_edge(channel, x, y);
-    const auto row = [&](std::size_t index) {
-        const double *const values = &channel.mean[index * channel.width + x];
-        return sorted(values[-1], values[0], values[1]);
-    };
-    return neighbourhood_of_rows(row(y - 1), row(y), row(y + 1));
-}
-
-// Of the pixels of the channel that touch a pixel, and itself.
-double largest_beside(const RegionChannel &channel, std::size_t x, std::size_t y) {
-    double largest = 0.0;
-    for (std::size_t row = y - (y > 0 ? 1 : 0); row <= y + 1 && row < channel.height; ++row)
-        for (std::size_t column = x - (x > 0 ? 1 : 0); column <= x + 1 && column < channel.width; ++column)
-            largest = std::max(largest, channel.mean[row * channel.width + column]);
-    return largest;
-}
+constexpr std::size_t channel_count = 3;
 
 // The square of the pixel's limit that divides the square of its error must not come from a bright sample that made
 // that error, so it is no more than the squares of what is known without it: the darker part's mean, what most
@@ -112,16 +24,21 @@ double largest_beside(const RegionChannel &channel, std::size_t x, std::size_t y
 // e^-y now, and the limit is M p. The expectation of T^2 / (M^2 p^2 + k^2), with k^2 what the darker part knows and the
 // offset, is the integral of y e^-y / (y^2 + k^2 / T^2): ln(T / k), less a constant of about 1 that depends on what was
 // likely before; without it the stated error was right in the scenes that it was calibrated with.
-double relative_square(double standard_error, double mean, double lesser, double around) {
-    const double limit = std::min(squared(mean), squared(std::max(lesser, around))) + relative_offset;
+struct Limit {
+    double square;       // with the offset
+    double known;        // likewise, of the darker part
+    double light_beyond; // > 0: the pixel is at an edge, and the logarithm counts
+};
+
+Limit limit_of(double standard_error, double mean, double lesser, double around) {
+    const double square = less_of(squared(mean), squared(more_of(lesser, around))) + relative_offset;
     const double known = squared(lesser) + relative_offset;
     // With a share f of the samples in the darker part, standard_error / (mean - lesser) = sqrt(f / (1 - f)),
     // which is 1 for halves, but for the roundings of the three to float.
-    const bool most_are_dark = standard_error >= 0.99 * (mean - lesser);
-    const bool bright_around = around >= mean;
+    const double most_are_dark = standard_error >= 0.99 * (mean - lesser) ? 1.0 : 0.0;
+    const double bright_around = around >= mean ? 1.0 : 0.0;
     constexpr double e_squared = 7.39; // where the logarithm passes 1
-    const bool at_edge = most_are_dark && bright_around && limit > e_squared * known;
-    return squared(standard_error) / limit * (at_edge ? 0.5 * std::log(limit / known) : 1.0);
+    return {square, known, most_are_dark * bright_around * (square - e_squared * known)};
 }
 
 // Light of the mean M in a pixel beside may be in a share p of this one's samples too. None of N had it if their mean
@@ -135,51 +52,193 @@ double unseen_square(double mean, double largest_beside, double sample_count) {
     return 0.5 / sample_count * std::log1p(squared(brightest) / (squared(mean) + relative_offset));
 }
 
-} // namespace
-
-std::vector<ValueError> value_errors(const RegionChannel &channel, std::span<const double> sample_counts) {
-    const std::size_t tile_columns = (channel.width + tile_size - 1) / tile_size;
-    const std::size_t tile_rows = (channel.height + tile_size - 1) / tile_size;
-    const auto tile_of = [&](std::size_t x, std::size_t y) { return y / tile_size * tile_columns + x / tile_size; };
-    ValueSet region;
-    std::vector<ValueSet> tiles(tile_columns * tile_rows);
-    for (std::size_t y = 0; y < channel.height; ++y)
-        for (std::size_t x = 0; x < channel.width; ++x) {
-            const double mean = channel.mean[y * channel.width + x];
-            region.add(mean);
-            tiles[tile_of(x, y)].add(mean);
-        }
-
-    std::vector<ValueError> errors;
-    errors.reserve(channel.mean.size());
-    for (std::size_t y = 0; y < channel.height; ++y)
-        for (std::size_t x = 0; x < channel.width; ++x) {
-            const std::size_t i = y * channel.width + x;
-            const double mean = channel.mean[i];
-            const double square = squared(channel.standard_error[i]);
-            const auto [median, largest] = neighbourhood(channel, x, y);
-            const ValueSet &tile = tiles[tile_of(x, y)];
-            const double around = std::max(median, level_about(mean, tile, region));
-            errors.push_back({square, relative_square(channel.standard_error[i], mean, channel.lesser[i], around),
-                              unseen_square(mean, largest, sample_counts[tile_of(x, y)])});
-        }
-    return errors;
+// > 0 wherever there is any.
+double brighter_beside(double mean, double largest_beside, double sample_count) {
+    return largest_beside * (1.0 + 0x1p-40) - mean * sample_count;
 }
 
-double own_square(const RegionChannel &tile, double sample_count) {
-    ValueSet values;
-    for (const double mean : tile.mean)
-        values.add(mean);
-    double sum = 0.0;
-    for (std::size_t y = 0; y < tile.height; ++y)
-        for (std::size_t x = 0; x < tile.width; ++x) {
-            const std::size_t i = y * tile.width + x;
-            const double mean = tile.mean[i];
-            sum += relative_square(tile.standard_error[i], mean, tile.lesser[i],
-                                   values.mean_besides_and_without_largest(mean)) +
-                   unseen_square(mean, largest_beside(tile, x, y), sample_count);
+// Numbers of a row of a tile.
+struct TileRow {
+    std::array<double, tile_size> values;
+    double &operator[](std::size_t i) { return values.data()[i]; }
+    double operator[](std::size_t i) const { return values.data()[i]; }
+};
+
+// Those beyond the edge of an image are 0.
+void take(TileRow &to, const float *from, std::size_t count) {
+    if (count < tile_size) {
+        to.values.fill(0.0);
+        std::copy_n(from, count, to.values.begin());
+        return;
+    }
+    for (std::size_t i = 0; i < tile_size; ++i)
+        to[i] = static_cast<double>(from[i]);
+}
+
+struct RowValues {
+    TileRow mean;
+    TileRow standard_error;
+    TileRow lesser;
+
+    RowValues(const RegionValues &region, std::size_t channel, std::size_t x, std::size_t y) {
+        const std::size_t first = channel * region.plane_stride + y * region.row_stride + x;
+        const std::size_t count = std::min(tile_size, region.width - x);
+        take(mean, region.mean + first, count);
+        take(standard_error, region.standard_error + first, count);
+        take(lesser, region.lesser + first, count);
+    }
+};
+
+struct RowErrors {
+    TileRow relative_square;
+    TileRow unseen;
+};
+
+// The largest of a row's numbers.
+double largest_of(const TileRow &row) {
+    std::array<double, 4> largest;
+    for (std::size_t i = 0; i < 4; ++i)
+        largest[i] = more_of(row[i], row[i + 4]);
+    return more_of(more_of(largest[0], largest[1]), more_of(largest[2], largest[3]));
+}
+
+// Few values need a logarithm.
+void find_row_errors(const RowValues &row, const TileRow &around, const float *largest_beside, double sample_count,
+                     RowErrors &to) {
+    TileRow logarithms; // > 0 where one is needed
+    for (std::size_t i = 0; i < tile_size; ++i) {
+        const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
+        const double beside = brighter_beside(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
+        to.relative_square[i] = squared(row.standard_error[i]) / limit.square;
+        to.unseen[i] = 0.0;
+        logarithms[i] = more_of(limit.light_beyond, beside);
+    }
+    if (!(largest_of(logarithms) > 0.0))
+        return;
+    for (std::size_t i = 0; i < tile_size; ++i) {
+        if (!(logarithms[i] > 0.0))
+            continue;
+        const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
+        if (limit.light_beyond > 0.0)
+            to.relative_square[i] *= 0.5 * std::log(limit.square / limit.known);
+        to.unseen[i] = unseen_square(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
+    }
+}
+
+// The mean about each pixel, of its tile or, where one pixel of that has most of the light, of its region.
+void find_levels(const TileRow &mean, ValueSet tile, ValueSet region, TileRow &level) {
+    TileRow lacking; // > 0 where the tile does not tell
+    for (std::size_t i = 0; i < tile_size; ++i) {
+        level[i] = tile.mean_besides_and_without_largest(mean[i]);
+        lacking[i] = 0.5 * tile.mean_besides(mean[i]) - level[i];
+    }
+    if (!(largest_of(lacking) > 0.0))
+        return;
+    for (std::size_t i = 0; i < tile_size; ++i)
+        level[i] = lacking[i] > 0.0 ? region.mean_besides_and_without_largest(mean[i]) : level[i];
+}
+
+// The means of the channels.
+using ValueSets = std::array<ValueSet, channel_count>;
+
+struct SetsOfRegion {
+    ValueSets region;
+    std::array<ValueSets, (region_size / tile_size) * (region_size / tile_size)> tiles; // row by row
+};
+
+std::size_t tile_columns(const RegionValues &region) {
+    return (region.width + tile_size - 1) / tile_size;
+}
+
+// The channels side by side, since each sum waits for the one before.
+SetsOfRegion sets_of(const RegionValues &region) {
+    SetsOfRegion sets;
+    std::array<double, channel_count> sums{};
+    const std::size_t columns = tile_columns(region);
+    for (std::size_t top = 0; top < region.height; top += tile_size)
+        for (std::size_t y = top; y < std::min(top + tile_size, region.height); ++y)
+            for (std::size_t left = 0; left < region.width; left += tile_size) {
+                ValueSets &of_tile = sets.tiles[top / tile_size * columns + left / tile_size];
+                ValueSets tile = of_tile;
+                const std::size_t right = std::min(left + tile_size, region.width);
+                for (std::size_t x = left; x < right; ++x)
+                    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+                        const float *const plane = region.mean + channel * region.plane_stride;
+                        const auto mean = static_cast<double>(plane[y * region.row_stride + x]);
+                        tile[channel].add(mean);
+                        sums[channel] += mean;
+                    }
+                of_tile = tile;
+            }
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        sets.region[channel] = ValueSet(sums[channel], region.width * region.height);
+        for (std::size_t top = 0; top < region.height; top += tile_size)
+            for (std::size_t left = 0; left < region.width; left += tile_size) {
+                ValueSet &tile = sets.tiles[top / tile_size * columns + left / tile_size][channel];
+                tile.set_count(std::min(tile_size, region.width - left) * std::min(tile_size, region.height - top));
+                sets.region[channel].add_largest_of(tile);
+            }
+    }
+    return sets;
+}
+
+PixelPlane means_of(const RegionValues &region, std::size_t channel) {
+    return {region.width, region.height, region.row_stride, region.mean + channel * region.plane_stride};
+}
+
+} // namespace
+
+void find_pixel_errors(const RegionValues &region, std::span<const double> sample_counts, PixelErrors &to) {
+    const std::size_t columns = tile_columns(region);
+    const SetsOfRegion sets = sets_of(region);
+    for (auto *const numbers : {&to.square, &to.relative_square, &to.unseen})
+        numbers->fill(0.0);
+    Neighbourhoods near;
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        find_neighbourhoods(means_of(region, channel), near);
+        for (std::size_t y = 0; y < region.height; ++y)
+            for (std::size_t column = 0; column < columns; ++column) {
+                const std::size_t tile = y / tile_size * columns + column;
+                const std::size_t first = y * region_size + column * tile_size;
+                const RowValues row(region, channel, column * tile_size, y);
+                TileRow around;
+                find_levels(row.mean, sets.tiles[tile][channel], sets.region[channel], around);
+                for (std::size_t i = 0; i < tile_size; ++i)
+                    around[i] = more_of(static_cast<double>(near.median[first + i]), around[i]);
+                RowErrors errors;
+                find_row_errors(row, around, &near.largest[first], sample_counts[tile], errors);
+                for (std::size_t i = 0; i < tile_size; ++i) {
+                    to.square[first + i] += squared(row.standard_error[i]);
+                    to.relative_square[first + i] += errors.relative_square[i];
+                    to.unseen[first + i] += errors.unseen[i];
+                }
+            }
+    }
+}
+
+double own_square(const RegionValues &tile, double sample_count) {
+    const SetsOfRegion sets = sets_of(tile);
+    std::array<std::array<TileRow, channel_count>, tile_size> errors; // by row
+    for (std::size_t channel = 0; channel < channel_count; ++channel) {
+        const ValueSet &values = sets.tiles.front()[channel];
+        const auto largest = largest_in_tile(means_of(tile, channel));
+        for (std::size_t y = 0; y < tile.height; ++y) {
+            const RowValues row(tile, channel, 0, y);
+            TileRow around;
+            for (std::size_t i = 0; i < tile_size; ++i)
+                around[i] = values.mean_besides_and_without_largest(row.mean[i]);
+            RowErrors of_row;
+            find_row_errors(row, around, &largest[y * tile_size], sample_count, of_row);
+            for (std::size_t i = 0; i < tile_size; ++i)
+                errors[y][channel][i] = of_row.relative_square[i] + of_row.unseen[i];
         }
-    return sum;
+    }
+    std::array<double, channel_count> sums{};
+    for (std::size_t y = 0; y < tile.height; ++y)
+        for (std::size_t x = 0; x < tile.width; ++x)
+            for (std::size_t channel = 0; channel < channel_count; ++channel)
+                sums[channel] += errors[y][channel][x];
+    return sums[0] + sums[1] + sums[2];
 }
 
 } // namespace pt

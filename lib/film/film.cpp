@@ -249,16 +249,15 @@ void Film::read(const Rectangle &pixels, bool with_standard_error,
             }
 }
 
-PixelSums Film::rows(std::uint32_t first_row, std::uint32_t row_count) const {
-    PixelSums sums;
-    sums.resize(std::size_t{row_count} * bounds_.width);
-    const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width, row_count};
+void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
+    sums.clear(); // where no tile is
+    const Rectangle rows{bounds_.x, bounds_.y + first_row, bounds_.width,
+                         static_cast<std::uint32_t>(sums.pixel_count() / bounds_.width)};
     for (const Tile &tile : tiles_)
         for (std::uint32_t y = std::max(tile.pixels.y, rows.y);
              y < std::min(tile.pixels.y + tile.pixels.height, rows.y + rows.height); ++y)
             sums.copy(tile.sums, index_in(tile.pixels, tile.pixels.x, y), tile.pixels.width,
                       index_in(rows, tile.pixels.x, y));
-    return sums;
 }
 
 // As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the
@@ -280,7 +279,7 @@ ErrorEstimate Film::uneven_error(const TileSamples &samples, bool may_miss_lamps
     if (samples.least() < min_estimate_samples)
         return unknown_error();
     ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
-    const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
+    const auto read_rows = [&](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
     for (const RegionErrors &region : errors_.regions(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows))
         estimator.add(region);
     return hides_error(estimator.rejected(), samples.total()) ? unknown_error() : estimator.result();
@@ -296,7 +295,7 @@ TileSamples Film::samples_by_tile() const {
 // Region by region, also where all tiles have the same samples, as a context looks that may tell them apart.
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                    bool may_miss_lamps) {
-    const auto read_rows = [&](std::uint32_t first_row, std::uint32_t row_count) { return rows(first_row, row_count); };
+    const auto read_rows = [&](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
     const auto look_at_tiles = [&] {
         return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows);
     };

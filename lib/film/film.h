@@ -82,7 +82,7 @@ private:
     };
 
     ErrorEstimate uneven_error(const TileSamples &samples, bool may_miss_lamps) const;
-    PixelSums rows(std::uint32_t first_row, std::uint32_t row_count) const; // of the bounds
+    void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // as many as these are, of the bounds
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
     void cut_along(const TileMap &map);

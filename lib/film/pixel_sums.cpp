@@ -2,6 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/film/quotient.h"
+#include "lib/film/quotient_block.h"
 
 #include <algorithm>
 #include <array>
@@ -37,6 +38,105 @@ private:
     std::size_t pixel_;
 };
 
+// Of pixels next to each other, in blocks.
+class Estimation {
+public:
+    Estimation(const PixelSums &sums, double unit, const EstimatePlanes &to) :
+        sums_(sums),
+        exponent_(std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS)),
+        to_(to) {}
+
+    // Samples left out.
+    std::uint64_t rejected() const { return rejected_; }
+
+    // to_first: where the pixels go.
+    void estimate(std::size_t first, std::size_t count, std::size_t to_first) {
+        if (count == block_pixels && estimate_alike(first, to_first))
+            return;
+        for (std::size_t i = 0; i < count; ++i) {
+            const PartPixel a(sums_, older_part, first + i);
+            const PartPixel b(sums_, newer_part, first + i);
+            rejected_ += a.done() + b.done() - a.accepted() - b.accepted();
+            for (std::size_t channel = 0; channel < 3; ++channel)
+                estimate_one(first + i, to_first + i, channel);
+        }
+    }
+
+private:
+    const std::uint32_t *words(std::uint32_t part, std::size_t plane, std::size_t pixel) const {
+        return sums_.plane(part, plane).subspan(pixel).data();
+    }
+
+    // Of a block whose pixels have the same samples, none left out, as nearly all have.
+    bool estimate_alike(std::size_t first, std::size_t to_first) {
+        const std::uint32_t *const a = words(older_part, gpu::FILM_ACCEPTED, first);
+        const std::uint32_t *const b = words(newer_part, gpu::FILM_ACCEPTED, first);
+        const std::uint32_t *const rejected_a = words(older_part, gpu::FILM_REJECTED, first);
+        const std::uint32_t *const rejected_b = words(newer_part, gpu::FILM_REJECTED, first);
+        std::uint32_t others = 0;
+        for (std::size_t i = 0; i < block_pixels; ++i)
+            others |= (a[i] ^ a[0]) | (b[i] ^ b[0]) | rejected_a[i] | rejected_b[i];
+        const std::uint64_t samples = std::uint64_t{*a} + *b;
+        if (others != 0 || *a == 0 || *b == 0 || samples < gpu::FILM_MIN_ERROR_SAMPLES || samples > UINT32_MAX)
+            return false;
+        if (!quotients_ || !quotients_->are_of(*a, *b))
+            quotients_.emplace(*a, *b, exponent_);
+        for (std::size_t channel = 0; channel < 3; ++channel)
+            estimate_alike(first, to_first, channel);
+        return true;
+    }
+
+    void estimate_alike(std::size_t first, std::size_t to_first, std::size_t channel) {
+        const std::size_t plane = channel * gpu::FILM_SUM_WORDS;
+        const BlockSums a{words(older_part, plane, first), sums_.pixel_count()};
+        const BlockSums b{words(newer_part, plane, first), sums_.pixel_count()};
+        const std::size_t to = channel * to_.stride + to_first;
+        BlockEstimates found;
+        const bool with_error = to_.standard_error != nullptr;
+        const BlockDoubts doubts =
+            with_error ? quotients_->estimates(a, b, found) : quotients_->means(a, b, found.mean);
+        std::ranges::copy(found.mean, to_.radiance + to);
+        if (with_error) {
+            std::ranges::copy(found.standard_error, to_.standard_error + to);
+            std::ranges::copy(found.lesser, to_.lesser + to);
+        }
+        if (has_any(doubts))
+            for (std::size_t i = 0; i < block_pixels; ++i)
+                if (doubts[i] != 0)
+                    estimate_one(first + i, to_first + i, channel);
+    }
+
+    // Exactly.
+    void estimate_one(std::size_t pixel, std::size_t to, std::size_t channel) {
+        const PartPixel a(sums_, older_part, pixel);
+        const PartPixel b(sums_, newer_part, pixel);
+        const WideSum sum_a = a.sum(channel);
+        const WideSum sum_b = b.sum(channel);
+        to += channel * to_.stride;
+        to_.radiance[to] = mean_of(sum_a + sum_b, a.accepted() + b.accepted(), exponent_);
+        if (to_.standard_error == nullptr)
+            return;
+        if (a.done() + b.done() < gpu::FILM_MIN_ERROR_SAMPLES || a.accepted() == 0 || b.accepted() == 0) {
+            to_.standard_error[to] = std::numeric_limits<float>::infinity();
+            to_.lesser[to] = 0.0F;
+            return;
+        }
+        if (!weights_ || !weights_->are_of(a.accepted(), b.accepted()))
+            weights_.emplace(a.accepted(), b.accepted());
+        const PartDifference parts = weights_->difference(sum_a, sum_b, exponent_);
+        to_.standard_error[to] = parts.standard_error;
+        to_.lesser[to] =
+            parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent_) : mean_of(sum_b, b.accepted(), exponent_);
+    }
+
+    const PixelSums &sums_;
+    int exponent_;
+    EstimatePlanes to_;
+    std::uint64_t rejected_ = 0;
+    std::optional<BlockQuotients> quotients_; // of the block before: most have the same samples
+    std::optional<PartWeights> weights_;      // likewise of the pixel before
+};
+
 // Pixels whose carries are kept at a time: in the fastest cache, and in no memory that might be lacking.
 constexpr std::size_t carry_block = 1024;
 
@@ -48,6 +148,10 @@ std::span<std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index)
 
 std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) const {
     return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+}
+
+void PixelSums::clear() noexcept {
+    std::ranges::fill(words_, 0U);
 }
 
 void PixelSums::add(const PixelSums &other) noexcept {
@@ -116,47 +220,38 @@ bool PixelSums::holds(const PartCounts &expected) const {
     return true;
 }
 
+// By blocks whose planes stay in the fastest cache.
 PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const {
+    constexpr std::size_t most = 256;
+    std::array<float, 9 * most> planes;
+    const EstimatePlanes to{planes.data(), with_standard_error ? &planes[3 * most] : nullptr, &planes[6 * most], most,
+                            most};
     PixelEstimates estimates;
     estimates.radiance.resize(3 * pixel_count_);
     for (auto *const values : {&estimates.standard_error, &estimates.lesser})
         values->resize(with_standard_error ? 3 * pixel_count_ : 0);
-    estimates.rejected = estimate(0, unit, {estimates.radiance, estimates.standard_error, estimates.lesser});
+    for (std::size_t first = 0; first < pixel_count_; first += most) {
+        const std::size_t count = std::min(most, pixel_count_ - first);
+        estimates.rejected += estimate({first, count, 1, count}, unit, to);
+        const auto interleave = [&](const float *from, std::vector<float> &values) {
+            for (std::size_t i = 0; i < count && !values.empty(); ++i)
+                for (std::size_t channel = 0; channel < 3; ++channel)
+                    values[3 * (first + i) + channel] = from[channel * most + i];
+        };
+        interleave(to.radiance, estimates.radiance);
+        interleave(to.standard_error, estimates.standard_error);
+        interleave(to.lesser, estimates.lesser);
+    }
     return estimates;
 }
 
-std::uint64_t PixelSums::estimate(std::size_t first, double unit, const EstimateSpans &to) const {
-    const int exponent = std::ilogb(unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
-    const bool with_standard_error = !to.standard_error.empty();
-    std::uint64_t rejected = 0;
-    std::optional<PartWeights> weights; // of the pixel before: most have the same
-    for (std::size_t i = 0; i < to.radiance.size(); i += 3) {
-        const PartPixel a(*this, older_part, first + i / 3);
-        const PartPixel b(*this, newer_part, first + i / 3);
-        const std::uint32_t accepted = a.accepted() + b.accepted();
-        const bool knows_error =
-            a.done() + b.done() >= gpu::FILM_MIN_ERROR_SAMPLES && a.accepted() > 0 && b.accepted() > 0;
-        rejected += a.done() + b.done() - accepted;
-        if (with_standard_error && knows_error && !(weights && weights->are_of(a.accepted(), b.accepted())))
-            weights.emplace(a.accepted(), b.accepted());
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const WideSum sum_a = a.sum(channel);
-            const WideSum sum_b = b.sum(channel);
-            to.radiance[i + channel] = mean_of(sum_a + sum_b, accepted, exponent);
-            if (!with_standard_error)
-                continue;
-            if (!knows_error) {
-                to.standard_error[i + channel] = std::numeric_limits<float>::infinity();
-                to.lesser[i + channel] = 0.0F;
-                continue;
-            }
-            const PartDifference parts = weights->difference(sum_a, sum_b, exponent);
-            to.standard_error[i + channel] = parts.standard_error;
-            to.lesser[i + channel] =
-                parts.first_is_less ? mean_of(sum_a, a.accepted(), exponent) : mean_of(sum_b, b.accepted(), exponent);
-        }
-    }
-    return rejected;
+std::uint64_t PixelSums::estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const {
+    Estimation estimation(*this, unit, to);
+    for (std::size_t y = 0; y < pixels.height; ++y)
+        for (std::size_t x = 0; x < pixels.width; x += block_pixels)
+            estimation.estimate(pixels.first + y * pixels.stride + x, std::min(block_pixels, pixels.width - x),
+                                y * to.row_stride + x);
+    return estimation.rejected();
 }
 
 std::vector<float> PixelSums::sample_counts() const {

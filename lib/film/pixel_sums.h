@@ -21,11 +21,21 @@ struct PixelEstimates {
     std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
-// Where estimates of consecutive pixels go, R, G, B per pixel: the radiance alone, or all three.
-struct EstimateSpans {
-    std::span<float> radiance;
-    std::span<float> standard_error;
-    std::span<float> lesser;
+// Rows of some of consecutive pixels.
+struct PixelRows {
+    std::size_t first;
+    std::size_t width;
+    std::size_t height;
+    std::size_t stride; // from a row to the next
+};
+
+// Where estimates of pixels go, in planes: R of all pixels, then G, then B.
+struct EstimatePlanes {
+    float *radiance;       // of the first pixel
+    float *standard_error; // likewise; nullptr: neither this nor the lesser
+    float *lesser;         // likewise
+    std::size_t stride;    // from a plane to the next
+    std::size_t row_stride;
 };
 
 class PixelSums {
@@ -39,6 +49,8 @@ public:
         words_.resize(pixel_count * words_per_pixel);
         pixel_count_ = pixel_count;
     }
+
+    void clear() noexcept;
 
     // One word of every pixel: a plane of a part, as in gpu_layout.h.
     std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index);
@@ -67,8 +79,8 @@ public:
     // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
-    // The same of some pixels, those from the first on; returns the samples left out of them.
-    std::uint64_t estimate(std::size_t first, double unit, const EstimateSpans &to) const;
+    // The same of some pixels; returns the samples left out of them.
+    std::uint64_t estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const;
 
     // Of all samples of each pixel, as R, G, B.
     std::vector<float> sample_counts() const;

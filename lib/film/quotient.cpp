@@ -146,6 +146,10 @@ PartWeights::PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b) {
     exponent_ = shift - dropped;
 }
 
+double PartWeights::scale() const {
+    return power_of_two(exponent_) / divisor_;
+}
+
 // The numerator |A b - B a| is exact. Of sums below 2^96 the products have 128 bits, and the quotient is found in
 // double as a rule; a power of two that a double has not is left to whole numbers.
 PartDifference PartWeights::difference(WideSum sum_a, WideSum sum_b, int exponent) const {

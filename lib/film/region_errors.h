@@ -3,11 +3,10 @@
 #pragma once
 
 #include "lib/film/error_region.h"
-#include "lib/film/pixel_sums.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace pt {
 
@@ -29,16 +28,13 @@ struct RegionErrors {
     std::uint64_t rejected = 0;         // samples left out
 };
 
-// The pixels of a region among the estimates of rows, R, G, B per pixel, with standard errors.
+// The pixels of a region, with what is known of its samples.
 struct RegionPixels {
-    std::size_t width;
-    std::size_t height;
-    std::size_t row_values;            // from a row to the next
-    const float *radiance;             // of the first pixel
-    const float *standard_error;       // likewise
-    const float *lesser;               // likewise
-    std::uint64_t rejected;            // samples left out
-    std::vector<double> sample_counts; // of a pixel, for each tile of the region, row by row
+    static constexpr std::size_t most_tiles = (region_size / tile_size) * (region_size / tile_size);
+
+    RegionValues values;
+    std::uint64_t rejected;                         // samples left out
+    std::array<double, most_tiles> sample_counts{}; // of a pixel, for each tile of the region, row by row
 };
 
 RegionErrors region_errors(const RegionPixels &region);

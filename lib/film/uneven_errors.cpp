@@ -44,46 +44,40 @@ void UnevenErrors::update(Known<Fact> &known, std::uint32_t side, const TileSamp
 // A row of tiles is read once one of them has changed.
 void UnevenErrors::estimate(const TileSamples &samples, double unit, const ReadRows &read) {
     const std::size_t value_count = std::size_t{3} * samples.grid().width * samples.grid().height;
-    for (auto *const values : {&estimates_.radiance, &estimates_.standard_error, &estimates_.lesser})
+    for (auto *const values : {&radiance_, &standard_error_, &lesser_})
         values->resize(value_count);
     PixelSums rows;
     std::optional<std::uint32_t> first_row;
     update(rejected_, gpu::TILE_SIZE, samples, [&](const Rectangle &tile) {
-        if (first_row != tile.y)
-            rows = read(tile.y, tile.height);
+        if (first_row != tile.y) {
+            rows.resize(std::size_t{samples.grid().width} * tile.height);
+            read(tile.y, rows);
+        }
         first_row = tile.y;
-        return estimate_tile(tile, samples.grid().width, unit, rows);
+        return estimate_tile(tile, samples.grid(), unit, rows);
     });
 }
 
-std::uint64_t UnevenErrors::estimate_tile(const Rectangle &tile, std::size_t width, double unit,
+std::uint64_t UnevenErrors::estimate_tile(const Rectangle &tile, const TileGrid &grid, double unit,
                                           const PixelSums &rows) {
-    std::uint64_t rejected = 0;
-    for (std::size_t y = 0; y < tile.height; ++y) {
-        const auto in_row = [&](std::vector<float> &values) {
-            return std::span(values).subspan(3 * ((tile.y + y) * width + tile.x), std::size_t{3} * tile.width);
-        };
-        rejected +=
-            rows.estimate(y * width + tile.x, unit,
-                          {in_row(estimates_.radiance), in_row(estimates_.standard_error), in_row(estimates_.lesser)});
-    }
-    return rejected;
+    const std::size_t width = grid.width;
+    const std::size_t first = tile.y * width + tile.x;
+    return rows.estimate({tile.x, tile.width, tile.height, width}, unit,
+                         {&radiance_[first], &standard_error_[first], &lesser_[first], width * grid.height, width});
 }
 
 RegionPixels UnevenErrors::pixels_of(const TileSamples &samples, const Rectangle &pixels) const {
-    const std::size_t width = samples.grid().width;
-    const std::size_t first = 3 * (pixels.y * width + pixels.x);
-    RegionPixels region{pixels.width,
-                        pixels.height,
-                        3 * width,
-                        &estimates_.radiance[first],
-                        &estimates_.standard_error[first],
-                        &estimates_.lesser[first],
+    const TileGrid &grid = samples.grid();
+    const std::size_t width = grid.width;
+    const std::size_t first = pixels.y * width + pixels.x;
+    RegionPixels region{{pixels.width, pixels.height, width, width * grid.height, &radiance_[first],
+                         &standard_error_[first], &lesser_[first]},
                         0,
                         {}};
+    std::size_t place = 0;
     for_each_tile(samples.grid(), pixels, [&](std::size_t tile) {
         region.rejected += rejected_.facts[tile];
-        region.sample_counts.push_back(static_cast<double>(samples.of(tile).count()));
+        region.sample_counts[place++] = static_cast<double>(samples.of(tile).count());
     });
     return region;
 }

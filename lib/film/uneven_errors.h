@@ -3,6 +3,7 @@
 // before, and a region when one of its tiles has.
 #pragma once
 
+#include "lib/film/pixel_sums.h"
 #include "lib/film/region_errors.h"
 #include "lib/film/tile_samples.h"
 
@@ -15,8 +16,8 @@ namespace pt {
 
 class UnevenErrors {
 public:
-    // Gives the sums of consecutive rows of the film.
-    using ReadRows = std::function<PixelSums(std::uint32_t first_row, std::uint32_t row_count)>;
+    // Sets the sums of as many pixels, which are whole rows of the film from this one on.
+    using ReadRows = std::function<void(std::uint32_t first_row, PixelSums &rows)>;
 
     // Of a film of this unit that has these samples, by tile (own_square_of in region_errors.h).
     std::span<const double> tile_squares(const TileSamples &samples, double unit, const ReadRows &read);
@@ -39,11 +40,13 @@ private:
     static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const LookAt &look_at);
 
     void estimate(const TileSamples &samples, double unit, const ReadRows &read);
-    std::uint64_t estimate_tile(const Rectangle &tile, std::size_t width, double unit, const PixelSums &rows);
+    std::uint64_t estimate_tile(const Rectangle &tile, const TileGrid &grid, double unit, const PixelSums &rows);
     RegionPixels pixels_of(const TileSamples &samples, const Rectangle &pixels) const;
 
-    PixelEstimates estimates_;      // of all of the film's pixels; but for their number of samples left out ...
-    Known<std::uint64_t> rejected_; // ... which is by tile
+    std::vector<float> radiance_; // of all of the film's pixels, in planes
+    std::vector<float> standard_error_;
+    std::vector<float> lesser_;
+    Known<std::uint64_t> rejected_; // by tile
     Known<double> squares_;
     Known<RegionErrors> regions_;
 };

@@ -154,12 +154,8 @@ std::span<const double> FilmView::tile_squares(double unit, const TileSamples &s
 }
 
 UnevenErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
-    return [this, &samples](std::uint32_t first_row, std::uint32_t row_count) {
-        const std::uint32_t width = samples.grid().width;
-        PixelSums rows;
-        read_films(films(devices_), samples, {first_row * width, row_count * width}, row_count * width,
-                   [&](const PixelSums &sums) { rows = sums; });
-        return rows;
+    return [this, &samples](std::uint32_t first_row, PixelSums &rows) {
+        read_films(films(devices_), samples, first_row * samples.grid().width, rows);
     };
 }
 

@@ -1,5 +1,6 @@
 // The estimate of an image's error from the device, against that of the host in double.
 #include "lib/base/error.h"
+#include "lib/film/device_film.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/quotient.h"
 #include "lib/film/uneven_errors.h"
@@ -178,11 +179,8 @@ TEST_F(Estimate, OfTilesIsThatOfTheHost) {
             EXPECT_NEAR(estimator.result().relative_rmse.estimate, expected_error, 1e-5 * expected_error);
 
             pt::UnevenErrors host;
-            const auto read = [&](std::uint32_t first_row, std::uint32_t row_count) {
-                pt::PixelSums rows;
-                rows.resize(std::size_t{size.width} * row_count);
+            const auto read = [&](std::uint32_t first_row, pt::PixelSums &rows) {
                 rows.copy(sums, std::size_t{first_row} * size.width, rows.pixel_count(), 0);
-                return rows;
             };
             const std::span<const double> expected = host.tile_squares(samples, unit, read);
             for (std::size_t tile = 0; tile < squares.size(); ++tile) {
@@ -210,6 +208,37 @@ TEST_F(Estimate, SamplesThatATileLostAreAnError) {
     EXPECT_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}), pt::Error);
     samples.set(7, pt::SampleSet({0, 2 * part_samples}));
     EXPECT_NO_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}));
+}
+
+// So they are where the host reads the film, from any pixel on: one that is missing in any pixel, and one too many.
+TEST_F(Estimate, SamplesThatAPixelLostAreAnErrorOnTheHost) {
+    Films films;
+    pt::PixelSums sums = films.film(45, 21);
+    pt::DeviceFilm film(device(), 45, 21, 45 * 21);
+    pt::DeviceFilm *const all[] = {&film};
+    pt::PartUse parts;
+    parts.extend({0, 2 * part_samples});
+    const pt::TileSamples even({45, 21}, pt::SampleSet({0, 2 * part_samples}));
+    pt::TileSamples uneven = even;
+    uneven.set(4, pt::SampleSet({0, part_samples + part_samples / 2}));
+    constexpr std::uint32_t first = 50;
+    pt::PixelSums read;
+    read.resize(45 * 21 - first);
+    for (const pt::TileSamples &samples : {even, uneven}) {
+        for (std::uint32_t y = 0; y < 8; ++y)
+            for (std::uint32_t x = 32; x < 40; ++x)
+                sums.plane(pt::newer_part, pt::gpu::FILM_ACCEPTED)[y * 45 + x] =
+                    samples.even() ? part_samples : part_samples / 2;
+        film.write(sums, parts);
+        EXPECT_NO_THROW(pt::read_films(all, samples, first, read));
+        for (const std::size_t pixel : {50, 71, 77, 80, 84, 85, 100, 944})
+            for (const std::uint32_t change : {1U, UINT32_MAX}) {
+                pt::PixelSums damaged = sums;
+                damaged.plane(pt::older_part, pt::gpu::FILM_REJECTED)[pixel] += change;
+                film.write(damaged, parts);
+                EXPECT_THROW(pt::read_films(all, samples, first, read), pt::Error) << pixel;
+            }
+    }
 }
 
 } // namespace

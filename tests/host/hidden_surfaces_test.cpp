@@ -5,10 +5,13 @@
 #include "lib/scene/scene_digest.h"
 
 #include <gtest/gtest.h>
+#include <pt/stats.h>
 
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+namespace hidden_surfaces {
 
 namespace {
 
@@ -152,3 +155,5 @@ TEST(HiddenSurfaces, MakeAnotherScene) {
 }
 
 } // namespace
+
+} // namespace hidden_surfaces

@@ -1,0 +1,36 @@
+// What the pixels about each pixel of a region show in one channel: of those of the region that touch it, and itself.
+#pragma once
+
+#include "shaders/gpu_layout.h"
+
+#include <array>
+#include <cstddef>
+
+namespace pt {
+
+inline constexpr std::size_t region_size = gpu::REGION_SIZE;
+inline constexpr std::size_t tile_size = gpu::TILE_SIZE;
+
+// Numbers >= 0 of a rectangle of pixels.
+struct PixelPlane {
+    std::size_t width;
+    std::size_t height;
+    std::size_t stride; // from a row to the next
+    const float *values;
+};
+
+// Of the pixels of a region; rows are region_size apart, whatever its width. Of pixels outside it any numbers.
+using RegionFloats = std::array<float, region_size * region_size>;
+
+struct Neighbourhoods {
+    RegionFloats median; // of an even number the lower of the two in the middle, so that of two pixels the brighter
+                         // does not stand for itself; 0 of a pixel alone
+    RegionFloats largest;
+};
+
+void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to);
+
+// The largest alone, of the pixels of a tile; rows are tile_size apart.
+std::array<float, tile_size * tile_size> largest_in_tile(const PixelPlane &tile);
+
+} // namespace pt
