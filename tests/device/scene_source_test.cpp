@@ -1,5 +1,5 @@
 // The path tracer gives the same bits wherever it finds the scene: in constants of its own, in a uniform or a storage
-// buffer.
+// buffer, or in a storage buffer that it reads by the uniform binding; and whether it compares floats or integers.
 #include "tests/device/kernel_render.h"
 #include "tests/device/table_words.h"
 #include "tests/invariance/invariance_scene.h"
@@ -42,6 +42,14 @@ struct Comparison {
     // The storage buffer is that of large scenes, whose surfaces share materials.
     bool holds_in_storage() const {
         return holds(gpu::SCENE_IN_STORAGE, table_words(render.features(), render.words()));
+    }
+
+    // The same scene, of which a kernel with another specialization constant reads or compares otherwise.
+    bool holds_in_storage_with(std::uint32_t constant) const {
+        KernelRender::Constants constants = render.constants();
+        constants[constant] = 1;
+        return render.film_of_kernel(constants, gpu::SCENE_IN_STORAGE,
+                                     table_words(render.features(), render.words())) == film;
     }
 };
 
@@ -126,6 +134,8 @@ TEST_F(SceneSource, KeepsTheBitsWithOneLampMotionGlossAndAHugeSphere) {
     const Comparison same(render);
     EXPECT_TRUE(same.holds(gpu::SCENE_IN_UNIFORM, render.words()));
     EXPECT_TRUE(same.holds_in_storage());
+    EXPECT_TRUE(same.holds_in_storage_with(gpu::ID_UNIFORM_READS));
+    EXPECT_TRUE(same.holds_in_storage_with(gpu::ID_INTEGER_ORDER));
 }
 
 // With two lamps that are alike but for their places, what is selected among their radiances is the same for both.

@@ -9,7 +9,7 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { vec4 point; };
 
 struct Read {
-    vec4 emission; // with a table, 0 for what may not emit
+    vec4 emission; // 0 for what may not emit
     vec4 lamp_emission; // 0 for what is no lamp
     vec4 diffuse;
     vec4 specular;
@@ -25,7 +25,7 @@ layout(set = 0, binding = 2) writeonly buffer Output { Read reads[]; };
 void read(uint surface)
 {
     Read result;
-    result.emission = may_emit(surface) || !HAS_TABLE ? emission_of(surface) : vec4(0.0);
+    result.emission = may_emit(surface) ? emission_of(surface) : vec4(0.0);
     result.lamp_emission = surface < LAMP_COUNT ? emission_of_lamp(surface) : vec4(0.0);
     result.diffuse = diffuse_of(surface);
     result.specular = specular_of(surface);
