@@ -12,7 +12,7 @@ target_compile_options(
             -Wconversion
             $<IF:${pt_in_batches},$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
             $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
-            -ffp-contract=off # bits do not depend on whether a processor has fused multiplications
+            -ffp-contract=off # own arithmetic has the same bits where processors have fused multiplications
 )
 # Without a build type CMake does not optimise, and a project that adds this one as a folder may have none: these targets
 # are optimised there too. A build type, and a level in CMAKE_CXX_FLAGS, are that project's choice.

@@ -26,7 +26,7 @@ constexpr std::size_t channel_count = 3;
 // likely before; without it the stated error was right in the scenes that it was calibrated with.
 struct Limit {
     double square;       // with the offset
-    double known;        // likewise, of the darker part
+    double known;        // square of the mean of the darker part, with the offset
     double light_beyond; // > 0: the pixel is at an edge, and the logarithm counts
 };
 
@@ -96,6 +96,7 @@ struct RowErrors {
 
 // The largest of a row's numbers.
 double largest_of(const TileRow &row) {
+    static_assert(tile_size == 8);
     std::array<double, 4> largest;
     for (std::size_t i = 0; i < 4; ++i)
         largest[i] = more_of(row[i], row[i + 4]);
@@ -193,7 +194,7 @@ void find_pixel_errors(const RegionValues &region, std::span<const double> sampl
     const SetsOfRegion sets = sets_of(region);
     for (auto *const numbers : {&to.square, &to.relative_square, &to.unseen})
         numbers->fill(0.0);
-    Neighbourhoods near;
+    Neighbourhoods near{};
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
         find_neighbourhoods(means_of(region, channel), near);
         for (std::size_t y = 0; y < region.height; ++y)

@@ -32,7 +32,7 @@ public:
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
     PartDifference difference(WideSum sum_a, WideSum sum_b, int exponent) const;
 
-    // What |A b - B a| is multiplied with for that, but for the power of two: within 2^-53 of itself.
+    // What difference() multiplies |A b - B a| with, but for the power of two: within 2^-53 of itself.
     double scale() const;
 
 private:

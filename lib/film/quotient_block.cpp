@@ -60,7 +60,7 @@ bool has_any(const BlockDoubts &doubts) {
 }
 
 // By a power of two nothing is lost: what lies in the middle of two floats is known to do so. Whole numbers > 0 times a
-// usual factor are no less than the least normal float, and finite in double. Of others nothing is known for sure.
+// usual factor are no less than the least normal float, and finite in double. Other factors are left to quotient.h.
 BlockQuotients::Scale BlockQuotients::scale_of(double factor) {
     if (!(factor >= 0x1p-126 && factor <= 0x1p126))
         return {0.0, 0.0};
@@ -122,7 +122,7 @@ BlockDoubts BlockQuotients::estimates(const BlockSums &a, const BlockSums &b, Bl
                     round_alike(sum.value * scale.factor, margin(sum, scale.margin_if_exact), to.mean[i]) |
                     round_alike(std::abs(difference.value) * scale_of_error.factor,
                                 margin(difference, scale_of_error.margin_if_exact), to.standard_error[i]) |
-                    round_alike(less_of(mean_a, mean_b), mean_b < mean_a ? margin_b : margin_a, to.lesser[i]);
+                    round_alike(less_of(mean_a, mean_b), more_of(margin_a, margin_b), to.lesser[i]); // either may be it
     }
     return doubts;
 }

@@ -11,7 +11,7 @@ class ValueSet {
 public:
     ValueSet() = default;
 
-    // Of values of which the largest ones are added afterwards.
+    // Of so many values with this sum, the largest of which add_largest_of() adds.
     ValueSet(double sum, std::size_t count) : sum_(sum), count_(static_cast<double>(count)) {}
 
     // One after the other, since the last bits depend on their order.

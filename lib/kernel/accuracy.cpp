@@ -121,7 +121,9 @@ std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_
     static_assert(arguments_per_function % gpu::WORKGROUP_SIZE == 0);
     std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
 
-    const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, {});
+    std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
+    constants[gpu::ID_INTEGER_ORDER] = device.policy().integer_order ? 1 : 0; // as it renders
+    const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, constants);
     vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
     vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),
                           "values of functions");

@@ -232,12 +232,13 @@ TEST_F(Estimate, SamplesThatAPixelLostAreAnErrorOnTheHost) {
         film.write(sums, parts);
         EXPECT_NO_THROW(pt::read_films(all, samples, first, read));
         for (const std::size_t pixel : {50, 71, 77, 80, 84, 85, 100, 944})
-            for (const std::uint32_t change : {1U, UINT32_MAX}) {
-                pt::PixelSums damaged = sums;
-                damaged.plane(pt::older_part, pt::gpu::FILM_REJECTED)[pixel] += change;
-                film.write(damaged, parts);
-                EXPECT_THROW(pt::read_films(all, samples, first, read), pt::Error) << pixel;
-            }
+            for (const std::uint32_t part : {pt::older_part, pt::newer_part})
+                for (const int change : {1, -1}) {
+                    pt::PixelSums damaged = sums;
+                    damaged.plane(part, pt::gpu::FILM_ACCEPTED)[pixel] += static_cast<std::uint32_t>(change);
+                    film.write(damaged, parts);
+                    EXPECT_THROW(pt::read_films(all, samples, first, read), pt::Error) << pixel;
+                }
     }
 }
 

@@ -45,7 +45,7 @@ public:
             sums.first[i] = sum();
             sums.second[i] = random_() % 4 == 0 ? sums.first[i] + random_() % 3 : sum();
             const pt::WideSum mean = random_() % (1U << 25) | 1U;
-            if (random_() % 4 == 0 && mean * std::max(counts_.a, counts_.b) < pt::WideSum{1} << most_bits_)
+            if (random_() % 4 == 0 && mean * std::max(counts_.a, counts_.b) >> (most_bits_ - 1) <= 1)
                 sums = with_means(sums, i, mean);
         }
         return sums;
