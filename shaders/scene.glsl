@@ -76,7 +76,7 @@ const uint NO_SURFACE = 0xffffffffu;
         }                                                                                                              \
     }
 
-// Of an index that may differ between invocations, in a scene that is not only in constants.
+// A word of the scene buffer, of an index that may differ between invocations.
 vec4 stored_word(uint index)
 {
     return UNIFORM_READS == 1u ? scene_uniform.words[index] : scene_storage.words[index];

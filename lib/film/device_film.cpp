@@ -229,19 +229,25 @@ void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSam
     }
 }
 
-} // namespace
-
+// others: of one film at a time, kept from call to call.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
-                PixelSums &sums) {
+                PixelSums &sums, PixelSums &others) {
     const std::uint64_t split = split_of(samples.hull());
     films.front()->read(first_pixel, split, sums);
-    PixelSums others;
     for (DeviceFilm *film : films.subspan(1)) {
         others.resize(sums.pixel_count());
         film->read(first_pixel, split, others);
         sums.add(others);
     }
     require_all(sums, first_pixel, samples);
+}
+
+} // namespace
+
+void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
+                PixelSums &sums) {
+    PixelSums others;
+    read_films(films, samples, first_pixel, sums, others);
 }
 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
@@ -252,9 +258,10 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
     PixelSums sums;
+    PixelSums others;
     for_each_piece(pixels.count, most_pixels, [&](std::uint32_t first, std::uint32_t count) {
         sums.resize(count);
-        read_films(films, samples, pixels.first + first, sums);
+        read_films(films, samples, pixels.first + first, sums, others);
         receive(sums);
     });
 }

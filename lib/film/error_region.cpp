@@ -58,17 +58,13 @@ double brighter_beside(double mean, double largest_beside, double sample_count) 
 }
 
 // Numbers of a row of a tile.
-struct TileRow {
-    std::array<double, tile_size> values;
-    double &operator[](std::size_t i) { return values.data()[i]; }
-    double operator[](std::size_t i) const { return values.data()[i]; }
-};
+using TileRow = std::array<double, tile_size>;
 
 // Those beyond the edge of an image are 0.
 void take(TileRow &to, const float *from, std::size_t count) {
     if (count < tile_size) {
-        to.values.fill(0.0);
-        std::copy_n(from, count, to.values.begin());
+        to.fill(0.0);
+        std::copy_n(from, count, to.begin());
         return;
     }
     for (std::size_t i = 0; i < tile_size; ++i)

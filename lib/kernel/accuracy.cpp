@@ -2,6 +2,7 @@
 #include "lib/kernel/accuracy.h"
 
 #include "lib/base/error.h"
+#include "lib/kernel/device_constants.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "shaders/gpu_layout.h"
@@ -122,7 +123,7 @@ std::vector<float> evaluate(vulkan::Device &device, std::span<const std::uint32_
     std::vector<std::uint32_t> words(arguments.size() + guard_words, unwritten);
 
     std::array<std::uint32_t, gpu::CONSTANT_COUNT> constants{};
-    constants[gpu::ID_INTEGER_ORDER] = device.policy().integer_order ? 1 : 0; // as it renders
+    set_device_constants(constants, device.policy()); // as it renders
     const vulkan::ComputePipeline pipeline(device, spirv, bindings, sizeof arguments_per_function, constants);
     vulkan::Buffer input(device, vulkan::BufferUse::Storage, arguments.size_bytes(), "arguments of functions");
     vulkan::Buffer output(device, vulkan::BufferUse::Storage, words.size() * sizeof(std::uint32_t),

@@ -1,6 +1,7 @@
 #include "lib/kernel/coverage.h"
 
 #include "lib/base/error.h"
+#include "lib/kernel/device_constants.h"
 #include "lib/kernel/point_sequence.h"
 
 #include <algorithm>
@@ -39,8 +40,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vul
     auto constants = specialization_constants(features);
     constants[gpu::ID_TABLE_BLOCKS] = features.sampler == PT_SAMPLER_RANDOM ? 0 : 1;
     constants[gpu::ID_BRANCH_COUNT] = 1;
-    constants[gpu::ID_UNROLLED] = device.policy().unrolled;
-    constants[gpu::ID_INTEGER_ORDER] = device.policy().integer_order ? 1 : 0;
+    set_device_constants(constants, device.policy());
     constants[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(PointBlock)};
     return constants;
 }

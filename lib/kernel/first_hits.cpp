@@ -2,6 +2,7 @@
 
 #include "lib/base/error.h"
 #include "lib/film/pixel_format.h"
+#include "lib/kernel/device_constants.h"
 #include "lib/kernel/resolve.h"
 
 #include <algorithm>
@@ -54,8 +55,7 @@ void FirstHits::show(const std::shared_ptr<const GpuScene> &scene, const vulkan:
         return;
     slot_.reset(); // bound to the scene before
     auto specialization = specialization_constants(scene->features);
-    specialization[gpu::ID_UNROLLED] = device_.policy().unrolled;
-    specialization[gpu::ID_INTEGER_ORDER] = device_.policy().integer_order ? 1 : 0;
+    set_device_constants(specialization, device_.policy());
     kernel_.show(scene, tree, specialization);
     constants_ = first_hit_constants(*scene);
 }

@@ -1,6 +1,7 @@
 // Specialises the kernels; see trace_pipelines.h.
 #include "lib/kernel/trace_pipelines.h"
 
+#include "lib/kernel/device_constants.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/specialised_code.h"
 #include "shaders/gpu_layout.h"
@@ -27,8 +28,7 @@ std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, c
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
     result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
     result[gpu::ID_SHARERS] = sharers;
-    result[gpu::ID_UNROLLED] = device.policy().unrolled;
-    result[gpu::ID_INTEGER_ORDER] = device.policy().integer_order ? 1 : 0;
+    set_device_constants(result, device.policy());
     result[gpu::ID_WALK_TRIPS] = features.tree ? device.policy().walk_trips : 0;
     const bool fits = SceneBlocks(features).word_count <= gpu::UNIFORM_SCENE_WORDS;
     result[gpu::ID_UNIFORM_READS] = device.policy().uniform_reads && fits ? 1 : 0;

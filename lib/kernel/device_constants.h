@@ -1,0 +1,18 @@
+// Specialization constants that say nothing of a scene, but what a device does well. Set by whatever runs the shaders
+// that trace rays, and by what measures their functions.
+#pragma once
+
+#include "lib/vulkan/device.h"
+#include "shaders/gpu_layout.h"
+
+#include <cstdint>
+#include <span>
+
+namespace pt {
+
+inline void set_device_constants(std::span<std::uint32_t> constants, const vulkan::DevicePolicy &policy) {
+    constants[gpu::ID_UNROLLED] = policy.unrolled;
+    constants[gpu::ID_INTEGER_ORDER] = policy.integer_order ? 1 : 0;
+}
+
+} // namespace pt
