@@ -18,9 +18,14 @@ constexpr std::uint64_t floor_share = 4;
 
 constexpr double root_of_half = 0.70710678118654752440;
 
+// 2^(-halves / 2), the same on all machines.
+double power_of_halves(std::int32_t halves) {
+    const std::int32_t wholes = halves >> 1; // rounded down
+    return std::ldexp((halves & 1) != 0 ? root_of_half : 1.0, -wholes);
+}
+
 double bound_of(std::int32_t round) {
-    const std::int32_t halves = round >> 1; // rounded down
-    return std::ldexp((round & 1) != 0 ? root_of_half : 1.0, -halves);
+    return power_of_halves(round);
 }
 
 // The last round whose bound a gain > 0 does not exceed: -2 log2(gain), rounded down.
@@ -47,12 +52,15 @@ SquaresByRound by_content_round(std::span<const double> gains, std::span<const d
     return sums;
 }
 
-// The sum that is expected in a round. Where the square falls as 1 / N, what a tile gains falls to a fourth as its
-// samples double: four rounds.
+// The sum that is expected in a round. With stratified samples squares fall about as N^-1.5: as a tile's samples
+// double, its square falls by 2^1.5, and what it gains, which is its square by its samples, by 2^2.5. That takes five
+// rounds.
 double expected_sum(const SquaresByRound &squares, std::int32_t round) {
+    constexpr std::int32_t rounds = 5; // of a doubling
+    constexpr std::int32_t halves = 3; // of the power of 2 by which a doubling lessens a square
     double sum = 0.0;
     for (const auto &[content, square] : squares)
-        sum += std::ldexp(square, -std::max((round - content + 3) / 4, 0));
+        sum += square * power_of_halves(halves * std::max((round - content + rounds - 1) / rounds, 0));
     return sum;
 }
 
@@ -94,6 +102,13 @@ std::vector<double> tile_gains(const TileSamples &samples, std::span<const doubl
     return gains;
 }
 
+double error_of(const TileSamples &samples, std::span<const double> squares) {
+    double sum = 0.0;
+    for (const double square : squares)
+        sum += std::isfinite(square) ? square : 0.0;
+    return std::sqrt(sum / (3.0 * samples.grid().width * samples.grid().height));
+}
+
 // With the variances v of tiles, samples in proportion to the root of v take mean(root v)^2 / mean(v) of those of an
 // even film. Counts that are powers of two, tiles whose v is off by a fifth, and the time that looks take cost up to an
 // eighth.
@@ -123,8 +138,10 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
     return tiles;
 }
 
-// The further the target, the more rounds are left out: half of those that it is expected to take. With stratified
-// samples squares fall faster than expected, so that the target is hardly ever left behind by much.
+// The round in which the target is expected to be reached: rounds in between would take looks, and put samples no
+// better. (Measured on the coursework scene, two vertices, against half of the rounds at a time: 0.89 to 0.91 of the
+// time for the same error, 0.98 of that until the target is reached. With squares expected to fall as 1 / N the film
+// went 13% further than asked.)
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little) {
     const std::uint64_t pixels = std::uint64_t{samples.grid().width} * samples.grid().height;
@@ -143,7 +160,7 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
     for (const double aim = expected_sum(by_round, first - 1) / excess;
          aim > 0.0 && expected_sum(by_round, last) > aim;)
         ++last;
-    next.number = first + (last - first) / 2;
+    next.number = last;
     return next;
 }
 

@@ -28,6 +28,9 @@ std::vector<std::uint32_t> unfinished_tiles(const TileSamples &samples);
 // 0 if that is unknown. squares: what is expected of the sum of the squares of its values' relative errors.
 std::vector<double> tile_gains(const TileSamples &samples, std::span<const double> squares);
 
+// The image's error as far as its tiles know it, each by itself; those that know nothing do not count.
+double error_of(const TileSamples &samples, std::span<const double> squares);
+
 // Whether tiles of a film with the same samples everywhere differ so much that it pays to tell them apart.
 bool are_worth_telling_apart(std::span<const double> gains);
 
