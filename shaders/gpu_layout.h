@@ -63,7 +63,8 @@ PT_CONSTANT ID_TREE_LEVELS = 36;     // nodes on the way to the deepest, or some
 PT_CONSTANT ID_UNROLLED = 37;        // surfaces over which loops are unrolled, at the most
 PT_CONSTANT ID_INTEGER_ORDER = 38;   // 1: integers are compared faster than floats (shaders/maths.glsl)
 PT_CONSTANT ID_UNIFORM_READS = 39;   // 1: words of the scene buffer, which has few, are read by the uniform binding
-PT_CONSTANT CONSTANT_COUNT = 40;
+PT_CONSTANT ID_KEEP_SHIFTS = 40;     // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
+PT_CONSTANT CONSTANT_COUNT = 41;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;

@@ -41,6 +41,7 @@ vec3 add_sample(FrameConstants held, inout FilmPixel gathered, vec3 radiance)
 vec3 take_samples(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;
+    keep_shifts(key_of(held, pixel_index, done));
     vec3 value = vec3(0.0);
     do {
         vec3 radiance = path_radiance(held, pixel, key_of(held, pixel_index, done));

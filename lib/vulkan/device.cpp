@@ -107,6 +107,7 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .walk_trips = cpu ? 0 : gpu_walk_trips,
             .integer_order = cpu,
             .uniform_reads = cpu,
+            .keep_shifts = cpu,
             .resolve_on_device = !cpu};
 }
 

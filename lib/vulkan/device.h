@@ -57,6 +57,7 @@ struct DevicePolicy {
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool integer_order = false;     // kernels run faster where integers are compared, not floats (shaders/maths.glsl)
     bool uniform_reads = false;     // what differs between invocations is read faster from uniform than storage buffers
+    bool keep_shifts = false;       // kernels run faster that keep what shifts a pixel's points (shaders/sampler.glsl)
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 
