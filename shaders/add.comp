@@ -22,14 +22,16 @@ void main()
     [[unroll]] for (uint part = 0u; part < FILM_PARTS; ++part) {
         uint from = part * FILM_WORDS * from_stride + add.added_first_pixel + gl_GlobalInvocationID.x;
         uint to = add.parts[part] * FILM_WORDS * to_stride + add.first_pixel + gl_GlobalInvocationID.x;
+        uvec4 rare;
         [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
             uint first = channel * FILM_SUM_WORDS;
             uvec4 sum;
             [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i)
                 sum[i] = added.words[from + (first + i) * from_stride];
-            film_store_sum(to + first * to_stride, to_stride, sum);
+            rare[channel] = film_store_sum(to + first * to_stride, to_stride, sum, false);
         }
         film.words[to + FILM_ACCEPTED * to_stride] += added.words[from + FILM_ACCEPTED * from_stride];
-        film.words[to + FILM_REJECTED * to_stride] += added.words[from + FILM_REJECTED * from_stride];
+        rare.w = added.words[from + FILM_REJECTED * from_stride];
+        film_add_rare_words(to, to_stride, rare);
     }
 }

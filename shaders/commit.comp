@@ -21,5 +21,5 @@ void main()
     FilmPixel gathered = empty_film_pixel();
     if (sample_value.a == 1.0)
         film_add(gathered, sample_value.rgb);
-    film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, false);
+    film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, false, false);
 }

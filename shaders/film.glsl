@@ -88,17 +88,35 @@ uvec4 fixed_point(uvec4 windows)
     return add_with_carry(add_with_carry(a, b), add_with_carry(c, d));
 }
 
-// Adds to the sum whose least significant word is words[first] and whose words lie stride apart. The most significant
-// word hardly ever changes and is then not written: the end of an invocation spends its time on memory.
-void film_store_sum(uint first, uint stride, uvec4 sum)
+// Adds to the three least significant words of a sum, the first of which is words[first]; they lie stride apart.
+// Returns what the most significant one is to take. is_first: nothing has been added to the sum, whatever the words
+// hold. The end of an invocation spends its time on memory, so what is known is not read.
+uint film_store_sum(uint first, uint stride, uvec4 sum, bool is_first)
 {
-    uvec4 old = uvec4(film.words[first], film.words[first + stride], film.words[first + 2u * stride], 0u);
+    uvec4 old = uvec4(0u);
+    if (!is_first)
+        old = uvec4(film.words[first], film.words[first + stride], film.words[first + 2u * stride], 0u);
     uvec4 new = add_with_carry(old, sum);
     film.words[first] = new.x;
     film.words[first + stride] = new.y;
     film.words[first + 2u * stride] = new.z;
-    if (new.w != 0u)
-        film.words[first + 3u * stride] += new.w;
+    return new.w;
+}
+
+// The plane of a word that hardly ever changes: the most significant ones of the three sums, and the samples left out.
+uint rare_plane(uint i) { return i < 3u ? (i + 1u) * FILM_SUM_WORDS - 1u : FILM_REJECTED; }
+
+// Adds to these words. pixel: the first word of a pixel in a part. In a loop with a single trip but for pixels that need
+// more, since lavapipe 22.3 runs the bodies of all ifs.
+void film_add_rare_words(uint pixel, uint stride, uvec4 addends)
+{
+    uint i = addends.x != 0u ? 0u : addends.y != 0u ? 1u : addends.z != 0u ? 2u : 3u;
+    do {
+        uint addend = i == 0u ? addends.x : i == 1u ? addends.y : i == 2u ? addends.z : addends.w;
+        if (addend != 0u)
+            film.words[pixel + rare_plane(i) * stride] += addend;
+        ++i;
+    } while (i < 4u);
 }
 
 // The same where several invocations add to a pixel: each word takes its addend and the carry of the word before at
@@ -117,29 +135,34 @@ void film_store_shared_sum(uint first, uint stride, uvec4 sum)
 }
 
 // Adds what an invocation has gathered to its pixel of the strip, in one part of the film. shared_pixel: other
-// invocations may do so at the same time.
-void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel)
+// invocations may do so at the same time; if not, is_first: the part has no sample of the pixel, and its words hold
+// anything but for the rare ones, which are 0.
+void film_store(uint film_part, uint pixel_in_strip, uint strip_pixel_count, FilmPixel pixel, bool shared_pixel,
+                bool is_first)
 {
-    uint first = film_part * FILM_WORDS * strip_pixel_count + pixel_in_strip;
-    uint accepted = first + FILM_ACCEPTED * strip_pixel_count;
-    uint rejected = first + FILM_REJECTED * strip_pixel_count;
+    uint stride = strip_pixel_count;
+    uint first = film_part * FILM_WORDS * stride + pixel_in_strip;
+    uint accepted = first + FILM_ACCEPTED * stride;
     uvec4 biases = (pixel.accepted + pixel.rejected) * floatBitsToUint(WINDOW_BIASES);
+    uvec4 rare = uvec4(0u, 0u, 0u, pixel.rejected);
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
-        uint first_of_channel = first + channel * FILM_SUM_WORDS * strip_pixel_count;
+        uint first_of_channel = first + channel * FILM_SUM_WORDS * stride;
         uvec4 sum = fixed_point(pixel.windows[channel] - biases);
         if (shared_pixel)
-            film_store_shared_sum(first_of_channel, strip_pixel_count, sum);
+            film_store_shared_sum(first_of_channel, stride, sum);
         else
-            film_store_sum(first_of_channel, strip_pixel_count, sum);
+            rare[channel] = film_store_sum(first_of_channel, stride, sum, is_first);
     }
     if (shared_pixel) {
         atomicAdd(film.words[accepted], pixel.accepted);
         if (pixel.rejected != 0u)
-            atomicAdd(film.words[rejected], pixel.rejected);
+            atomicAdd(film.words[first + FILM_REJECTED * stride], pixel.rejected);
     } else {
-        film.words[accepted] += pixel.accepted;
-        if (pixel.rejected != 0u)
-            film.words[rejected] += pixel.rejected;
+        uint before = 0u;
+        if (!is_first)
+            before = film.words[accepted];
+        film.words[accepted] = before + pixel.accepted;
+        film_add_rare_words(first, stride, rare);
     }
 }
 

@@ -22,15 +22,28 @@ void main()
     uint stride = frame.strip_pixel_count;
     uint kept = frame.film_part * FILM_WORDS * stride + pixel_in_strip;
     uint emptied = (1u - frame.film_part) * FILM_WORDS * stride + pixel_in_strip;
+    uvec4 moved; // of the rare words
+    uvec4 rare;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
         uint first = channel * FILM_SUM_WORDS * stride;
         uvec4 sum;
         [[unroll]] for (uint i = 0u; i < FILM_SUM_WORDS; ++i)
             sum[i] = film.words[emptied + first + i * stride];
-        film_store_sum(kept + first, stride, sum);
+        moved[channel] = sum.w;
+        rare[channel] = film_store_sum(kept + first, stride, sum, false);
     }
+    moved.w = film.words[emptied + FILM_REJECTED * stride];
+    rare.w = moved.w;
+    film_add_rare_words(kept, stride, rare);
     film.words[kept + FILM_ACCEPTED * stride] += film.words[emptied + FILM_ACCEPTED * stride];
-    film.words[kept + FILM_REJECTED * stride] += film.words[emptied + FILM_REJECTED * stride];
-    [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
-        film.words[emptied + plane * stride] = 0u;
+
+    // Of what is overwritten next, only the rare words must be 0.
+    if (frame.is_first == 0u) {
+        [[unroll]] for (uint plane = 0u; plane < FILM_WORDS; ++plane)
+            film.words[emptied + plane * stride] = 0u;
+    } else {
+        [[unroll]] for (uint i = 0u; i < 4u; ++i)
+            if (moved[i] != 0u)
+                film.words[emptied + rare_plane(i) * stride] = 0u;
+    }
 }

@@ -331,6 +331,7 @@ struct FrameConstants {
     uint first_pixel; // of this slice, in the strip; or the first of its entries in the list of tiles
     uint pixel_count;
     uint film_part;    // to which the samples of this dispatch are added
+    uint is_first;     // 1: the part has no samples of these pixels yet; of a fold, that such a dispatch follows
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
     uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
@@ -416,11 +417,11 @@ struct AddConstants {
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
-static_assert(sizeof(FrameConstants) == 92 && sizeof(FrameConstants) <= 128);
+static_assert(sizeof(FrameConstants) == 96 && sizeof(FrameConstants) <= 128);
 static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
-static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 84);
-static_assert(offsetof(FrameConstants, start_scale) == 88);
+static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 88);
+static_assert(offsetof(FrameConstants, start_scale) == 92);
 static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
 static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);

@@ -114,5 +114,6 @@ void main()
     if (frame.split_pass == 1u)
         split_pass.samples[pixel_in_strip] = vec4(value, TREE == 1u && (walk_was_cut || done < end) ? 0.0 : 1.0);
     else
-        film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u);
+        film_store(frame.film_part, pixel_in_strip, frame.strip_pixel_count, gathered, OVERLAP == 1u,
+                   frame.is_first == 1u);
 }

@@ -40,6 +40,10 @@ std::uint64_t end_of_run(const SampleRange &hull, std::uint64_t sample) {
     return multiple_from(with_sample.end, more_zeros);
 }
 
+bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample) {
+    return before.empty() || (sample < split ? split <= before.first : before.end <= split);
+}
+
 void PartUse::extend(const SampleRange &range) {
     const std::uint64_t before = split();
     const bool folded = needs_fold(range);

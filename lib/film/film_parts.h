@@ -33,6 +33,10 @@ PartCounts part_counts(const SampleSet &samples);
 // they belong to nor the split changes. hull: of the samples before.
 std::uint64_t end_of_run(const SampleRange &hull, std::uint64_t sample);
 
+// Whether a sample is added to a part that has none yet. before: from the first to the last that the film has; split:
+// with the sample. Where the split has moved, all samples of before are on one side of it.
+bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
+
 // How the parts of a film in a device's memory are used: the older part may be either. Where the split moves, one part
 // is folded into the other first.
 class PartUse {
@@ -43,6 +47,11 @@ public:
     // Whether samples within this range can be added only after part 1 has been added to part 0 and emptied.
     bool needs_fold(const SampleRange &range) const {
         return holds_samples_ && split_of(hull_of(hull_, range)) != split();
+    }
+
+    // Whether samples from this one on, added within this range, are the first of their part.
+    bool begins_part(const SampleRange &range, std::uint64_t sample) const {
+        return !holds_samples_ || pt::begins_part(hull_, split_of(hull_of(hull_, range)), sample);
     }
 
     // Samples are added within this range, after a fold if it takes one.

@@ -168,13 +168,19 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
+// Whether a dispatch need not read what it adds to. Those that overlap add by atomic operations.
+std::uint32_t Kernel::overwrites(const FilmTarget &target) const {
+    return target.is_empty && !overlap_ ? 1 : 0;
+}
+
 // Records a kernel over the part of a range of pixels that lies in each strip.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                      const Slice &slice, const Batch &batch, std::uint32_t film_part,
+                      const Slice &slice, const Batch &batch, const FilmTarget &target,
                       std::uint32_t invocations_per_pixel) const {
     gpu::FrameConstants frame = frame_;
     frame.split_pass = slice.whole ? 0 : 1;
-    frame.film_part = film_part;
+    frame.film_part = target.part;
+    frame.is_first = overwrites(target);
     frame.first_sample = batch.first_sample;
     frame.sample_count = batch.sample_count;
     const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
@@ -235,13 +241,14 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             const bool folds = slice.whole && parts.needs_fold(extended);
             if (!is_first && (folds || !overlap_))
                 vulkan::barrier_between_commands(commands);
+            const bool begins_part = slice.whole && parts.begins_part(extended, batch.first_sample);
             if (folds) {
-                dispatch(commands, pipelines_.fold(), all_pixels, batch, 0, 1);
+                dispatch(commands, pipelines_.fold(), all_pixels, batch, {0, begins_part}, 1);
                 vulkan::barrier_between_commands(commands);
             }
             if (slice.whole)
                 parts.extend(extended);
-            dispatch(commands, trace, slice, batch, parts.part_of(batch.first_sample), sharers_);
+            dispatch(commands, trace, slice, batch, {parts.part_of(batch.first_sample), begins_part}, sharers_);
         }
         if (behind) {
             vulkan::barrier_between_commands(commands);
@@ -259,7 +266,7 @@ vulkan::Device::Ticket Kernel::start_fold(const SampleRange &hull) {
     PartUse parts = film_.parts();
     parts.extend(hull);
     const vulkan::Device::Ticket ticket = device_.start(
-        [&](const vk::raii::CommandBuffer &commands) { dispatch(commands, pipelines_.fold(), all_pixels, {}, 0, 1); });
+        [&](const vk::raii::CommandBuffer &commands) { dispatch(commands, pipelines_.fold(), all_pixels, {}, {}, 1); });
     film_.set_parts(parts);
     return ticket;
 }
@@ -273,10 +280,10 @@ vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, 
     parts.extend(extended);
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (folds) {
-            dispatch(commands, pipelines_.fold(), range, batch, 0, 1);
+            dispatch(commands, pipelines_.fold(), range, batch, {}, 1);
             vulkan::barrier_between_commands(commands);
         }
-        dispatch(commands, pipelines_.commit(), range, batch, parts.part_of(sample), 1);
+        dispatch(commands, pipelines_.commit(), range, batch, {parts.part_of(sample), false}, 1);
     });
     if (range.first_pixel + range.pixel_count == film_.pixel_count())
         film_.set_parts(parts);

@@ -61,11 +61,17 @@ public:
     // holds whole samples again with the range that ends it.
     vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample, const SampleRange &hull);
 
+    // Where samples are added.
+    struct FilmTarget {
+        std::uint32_t part; // in memory
+        bool is_empty;      // of samples of these pixels
+    };
+
     // Samples of some tiles of a film that has whole rows of regions.
     struct TileWork {
-        std::span<const std::uint32_t> tiles;   // ascending
-        SampleRange samples;                    // all of one part of the film; none, if there is only to fold
-        std::uint32_t film_part;                // that they are added to, in memory
+        std::span<const std::uint32_t> tiles; // ascending
+        SampleRange samples;                  // all of one part of the film; none, if there is only to fold
+        FilmTarget target;
         std::optional<std::uint32_t> fold_into; // the part in memory that takes in the other one first
     };
 
@@ -104,7 +110,8 @@ private:
     void upload_scene();
     bool scene_fits_commands() const;
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
-                  const Batch &batch, std::uint32_t film_part, std::uint32_t invocations_per_pixel) const;
+                  const Batch &batch, const FilmTarget &target, std::uint32_t invocations_per_pixel) const;
+    std::uint32_t overwrites(const FilmTarget &target) const;
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;

@@ -93,12 +93,13 @@ vulkan::Device::Ticket Kernel::start_tiles(const TileWork &work) {
             scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));
             vulkan::barrier_between_commands(commands);
         }
+        frame.is_first = overwrites(work.target);
         if (work.fold_into) {
             frame.film_part = *work.fold_into;
             dispatch_tiles(commands, pipelines_.fold_tiles(), work.tiles, first_entry, frame, 0, 1);
             vulkan::barrier_between_commands(commands);
         }
-        frame.film_part = work.film_part;
+        frame.film_part = work.target.part;
         for (const Batch &batch : batches) {
             if (&batch != &batches.front() && !overlap_)
                 vulkan::barrier_between_commands(commands);
@@ -106,6 +107,7 @@ vulkan::Device::Ticket Kernel::start_tiles(const TileWork &work) {
             frame.sample_count = batch.sample_count;
             dispatch_tiles(commands, *trace, work.tiles, first_entry, frame, batch.table_offset,
                            sharers_of_tiles(device_, work.tiles.size(), batch.sample_count));
+            frame.is_first = 0;
         }
     });
     scene_is_old_ = false;

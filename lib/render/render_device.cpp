@@ -326,8 +326,10 @@ std::size_t RenderDevice::affordable_tiles(std::uint64_t sample_count) const {
 void RenderDevice::start_tiles(const TileSlice &slice) {
     const std::uint64_t split = slice.split();
     const std::uint32_t older = film_->parts().older();
-    Kernel::TileWork work{slice.tiles, slice.takes ? slice.samples : SampleRange{},
-                          slice.samples.first < split ? older : 1 - older, std::nullopt};
+    Kernel::TileWork work{slice.tiles,
+                          slice.takes ? slice.samples : SampleRange{},
+                          {slice.samples.first < split ? older : 1 - older, slice.takes && slice.begins_part()},
+                          std::nullopt};
     if (slice.moves_split())
         work.fold_into = split_of(slice.before) < split ? older : 1 - older;
     const Slice measured{0, static_cast<std::uint32_t>(slice.tiles.size()) * gpu::WORKGROUP_SIZE,

@@ -36,6 +36,7 @@ struct TileSlice {
 
     std::uint64_t split() const { return split_of(before.empty() ? samples : hull_of(before, samples)); }
     bool moves_split() const { return !before.empty() && split_of(before) != split(); }
+    bool begins_part() const { return pt::begins_part(before, split(), samples.first); }
 };
 
 class RenderDevice {

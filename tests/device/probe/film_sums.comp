@@ -19,5 +19,5 @@ void main()
         film_add(gathered, samples[pixel * per_pixel + i].rgb);
         ++i;
     } while (i < per_pixel);
-    film_store(film_part, pixel, count, gathered, false);
+    film_store(film_part, pixel, count, gathered, false, false);
 }
