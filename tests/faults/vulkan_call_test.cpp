@@ -110,13 +110,15 @@ void fail_every_call(const Setting &setting, const std::string &title) {
         if (!seen.insert(place.fault.function).second && place.fault.function != "vkQueueSubmit")
             continue;
         for (std::size_t error = 1; error < place.fault.error_count; ++error) {
+            const std::size_t met_before = places.size();
             FailingCall injection(place.number, error, table, places);
             Life life(setting, expected, {place.step});
             life.live(injection);
             heal_devices();
-            // A device that hangs is left, and with it what it works with.
-            const CallFault &met = places.back().fault;
-            const bool hangs = met.function == "vkQueueSubmit" && met.result == VK_TIMEOUT;
+            // A device that hangs is left, and with it what it works with. How often work is looked at depends on how
+            // long it really takes, so the calls may be fewer than before, and none fail.
+            const bool hangs = places.size() > met_before && places.back().fault.function == "vkQueueSubmit" &&
+                               places.back().fault.result == VK_TIMEOUT;
             EXPECT_EQ(live_objects().contains("vkCreateDevice"), hangs);
             for (const auto &[maker, count] : live_objects())
                 EXPECT_TRUE(hangs) << place.step << ", " << place.fault.function << ": " << count << " of " << maker;
