@@ -54,7 +54,8 @@ std::optional<TileStep> AdaptivePlan::next_apart(const TileSamples &samples, Ada
         const Error error = of_tiles > near_target * target_error_ ? Error{of_tiles, false} : error_();
         if (error.high <= target_error_)
             return std::nullopt;
-        round = round_after(round, samples, squares, gains, squared(error.high / target_error_), error.sees_too_little);
+        const double seen = error.sees_too_little ? of_tiles : error.high;
+        round = round_after(round, samples, squares, gains, squared(seen / target_error_), error.sees_too_little);
         tiles = wanting_tiles(samples, gains, round);
     }
     return to_next_level(samples, std::move(tiles));

@@ -155,7 +155,12 @@ AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples
         next.number = std::max(next.number, 0);
         return next;
     }
-    const std::int32_t first = std::max(round.number, by_round.begin()->first) + 1;
+    const std::int32_t content = std::max(round.number, by_round.begin()->first);
+    if (sees_too_little && excess <= 1.0) { // which another bound does not change
+        next.number = content;
+        return next;
+    }
+    const std::int32_t first = content + 1;
     std::int32_t last = first;
     for (const double aim = expected_sum(by_round, first - 1) / excess;
          aim > 0.0 && expected_sum(by_round, last) > aim;)

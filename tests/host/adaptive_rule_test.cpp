@@ -210,6 +210,20 @@ TEST(AdaptiveRule, WhereLightIsUnseenTheFloorRises) {
     }
 }
 
+// Nor do others take more where all that tiles show is good enough: no bound finds what samples have not met.
+TEST(AdaptiveRule, WhatIsUnseenMovesNoBound) {
+    const TileSamples samples = first_samples();
+    std::vector<double> squares(model_grid.count(), 1e-6);
+    squares[700] = 1e-3;
+    const std::vector<double> gains = pt::tile_gains(samples, squares);
+    const AdaptiveRound before = pt::round_after({}, samples, squares, gains, 1.1, false);
+    const AdaptiveRound next = pt::round_after(before, samples, squares, gains, 0.9, true);
+    EXPECT_EQ(next.number, before.number);
+    EXPECT_EQ(next.floor, 2 * samples.least());
+    EXPECT_EQ(pt::wanting_tiles(samples, gains, next).size(), model_grid.count());
+    EXPECT_GT(pt::round_after(before, samples, squares, gains, 1.1, true).number, before.number);
+}
+
 // mean(v) mean(1) / mean(root v)^2 of two kinds of tiles, half of each: 2 (1 + r) / (1 + root r)^2 for their ratio r.
 TEST(AdaptiveRule, TilesThatAreAlikeStayTogether) {
     std::vector<double> gains(1000, 1.0);
