@@ -44,14 +44,12 @@ public:
     bool empty() const { return !holds_samples_; }
     std::uint64_t split() const { return split_of(hull_); }
 
+    // From the first to the last of the samples; empty if there are none.
+    SampleRange hull() const { return holds_samples_ ? hull_ : SampleRange{}; }
+
     // Whether samples within this range can be added only after part 1 has been added to part 0 and emptied.
     bool needs_fold(const SampleRange &range) const {
         return holds_samples_ && split_of(hull_of(hull_, range)) != split();
-    }
-
-    // Whether samples from this one on, added within this range, are the first of their part.
-    bool begins_part(const SampleRange &range, std::uint64_t sample) const {
-        return !holds_samples_ || pt::begins_part(hull_, split_of(hull_of(hull_, range)), sample);
     }
 
     // Samples are added within this range, after a fold if it takes one.

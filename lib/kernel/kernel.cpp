@@ -13,10 +13,9 @@ namespace pt {
 
 namespace {
 
-// Tables of points for one slice, 4 MiB at the most: one for each dispatch. A slice of 48 dispatches of 1023 samples
-// is cut no more than 15 times, since from cut to cut the split has more zeros at its end (film_parts.h).
+// Tables of points for one slice, 4 MiB at the most: one for each dispatch. The film's split cuts a slice once more.
 constexpr std::uint32_t max_tables = 64;
-constexpr std::uint32_t max_full_dispatches = 48;
+constexpr std::uint32_t max_full_dispatches = max_tables - 1;
 
 std::uint64_t checked_scene_bytes(const vulkan::Device &device, std::size_t words) {
     const std::uint64_t bytes = std::max<std::uint64_t>(words, gpu::UNIFORM_SCENE_WORDS) * sizeof(glm::vec4);
@@ -135,24 +134,24 @@ std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }
 
-// The samples of a slice as batches of one dispatch each, all of one part of the film. Their tables are free: slices
-// end in the order in which they were started, and there is room for all that are under way.
-std::vector<Kernel::Batch> Kernel::next_batches(std::uint32_t first_sample, std::uint32_t sample_count,
-                                                SampleRange hull) {
+// The samples of a slice as batches of one dispatch each, all of one part of the film as the slice leaves it: the split
+// moves once at the most, before them. Their tables are free: slices end in the order in which they were started, and
+// there is room for all that are under way.
+std::vector<Kernel::Batch> Kernel::next_batches(const SampleRange &samples, std::uint64_t split, SampleRange before) {
     std::vector<Batch> batches;
-    const std::uint64_t end = std::uint64_t{first_sample} + sample_count;
-    for (std::uint64_t sample = first_sample; sample < end; sample = batches.back().range().end) {
-        const std::uint64_t run_end = std::min(end, end_of_run(hull, sample));
-        const std::uint64_t count = std::min<std::uint64_t>(max_dispatch_samples_, run_end - sample);
+    for (std::uint64_t sample = samples.first; sample < samples.end; sample = batches.back().range().end) {
+        const std::uint64_t end_in_part = sample < split ? std::min(split, samples.end) : samples.end;
+        const std::uint64_t count = std::min<std::uint64_t>(max_dispatch_samples_, end_in_part - sample);
         batches.push_back(next_batch({sample, sample + count}));
-        hull = hull_of(hull, batches.back().range());
+        batches.back().begins_part = begins_part(before, split, sample);
+        before = hull_of(before, batches.back().range());
     }
     return batches;
 }
 
 Kernel::Batch Kernel::next_batch(const SampleRange &samples) {
     const Batch batch{static_cast<std::uint32_t>(samples.first), static_cast<std::uint32_t>(samples.count()),
-                      next_table_ * table_bytes_};
+                      next_table_ * table_bytes_, false};
     next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
     return batch;
 }
@@ -213,12 +212,17 @@ bool Kernel::scene_fits_commands() const {
     return gpu_scene_->words.size() * sizeof(glm::vec4) <= vulkan::max_recorded_bytes;
 }
 
-// Where the film's split moves, its parts are folded before the batch that moves it.
+// Where the film's split moves, its parts are folded first.
 vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
                                      bool on_cleared_film, const Behind &behind) {
     const Slice all_pixels{0, film_.pixel_count(), 1, true};
     PartUse parts = on_cleared_film ? PartUse{} : film_.parts();
-    const std::vector<Batch> batches = next_batches(first_sample, slice.sample_count, hull);
+    const SampleRange samples{first_sample, std::uint64_t{first_sample} + slice.sample_count};
+    const SampleRange extended = hull_of(hull, samples);
+    const bool folds = slice.whole && parts.needs_fold(extended);
+    const std::vector<Batch> batches = next_batches(samples, split_of(extended), parts.hull());
+    if (slice.whole)
+        parts.extend(extended);
     upload_points(batches);
     upload_scene();
     const bool makes_pass = !slice.whole && !film_.has_pass();
@@ -235,20 +239,15 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             film_.clear_pass(commands);
         if (scene_is_old_ || on_cleared_film || makes_pass)
             vulkan::barrier_between_commands(commands);
+        if (folds) {
+            const bool refills = std::ranges::any_of(batches, &Batch::begins_part);
+            dispatch(commands, pipelines_.fold(), all_pixels, batches.front(), {0, refills}, 1);
+            vulkan::barrier_between_commands(commands);
+        }
         for (const Batch &batch : batches) {
-            const bool is_first = &batch == &batches.front();
-            const SampleRange extended = hull_of(hull, batch.range());
-            const bool folds = slice.whole && parts.needs_fold(extended);
-            if (!is_first && (folds || !overlap_))
+            if (&batch != &batches.front() && !overlap_)
                 vulkan::barrier_between_commands(commands);
-            const bool begins_part = slice.whole && parts.begins_part(extended, batch.first_sample);
-            if (folds) {
-                dispatch(commands, pipelines_.fold(), all_pixels, batch, {0, begins_part}, 1);
-                vulkan::barrier_between_commands(commands);
-            }
-            if (slice.whole)
-                parts.extend(extended);
-            dispatch(commands, trace, slice, batch, {parts.part_of(batch.first_sample), begins_part}, sharers_);
+            dispatch(commands, trace, slice, batch, {parts.part_of(batch.first_sample), batch.begins_part}, sharers_);
         }
         if (behind) {
             vulkan::barrier_between_commands(commands);
@@ -273,7 +272,7 @@ vulkan::Device::Ticket Kernel::start_fold(const SampleRange &hull) {
 
 // Folds range by range too, which is safe because the film is read only after the pass has been added to all pixels.
 vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, const SampleRange &hull) {
-    const Batch batch{sample, 1, 0};
+    const Batch batch{sample, 1, 0, false};
     const SampleRange extended = hull_of(hull, batch.range());
     PartUse parts = film_.parts();
     const bool folds = parts.needs_fold(extended);

@@ -91,12 +91,13 @@ private:
         std::uint32_t first_sample;
         std::uint32_t sample_count;
         std::uint32_t table_offset; // bytes
+        bool begins_part;           // of the film, which has no samples of this device's yet
 
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
 
     Batch next_batch(const SampleRange &samples);
-    std::vector<Batch> next_batches(std::uint32_t first_sample, std::uint32_t sample_count, SampleRange hull);
+    std::vector<Batch> next_batches(const SampleRange &samples, std::uint64_t split, SampleRange before);
     void upload_points(const std::vector<Batch> &batches);
     void bind_film(const vulkan::ComputePipeline &trace);
     void prepare_pass();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -50,13 +51,24 @@ struct FilmOfSets {
     pt::PartUse use;
     std::array<SampleSet, 2> parts;
 
+    // hull: of the samples of all films. What Kernel overwrites holds nothing.
     void add(const SampleRange &samples, const SampleRange &hull) {
+        SampleRange before = use.hull();
         if (use.needs_fold(hull)) {
             parts[0].add(parts[1]);
             parts[1] = {};
         }
         use.extend(hull);
-        parts[use.part_of(samples.first)].add(samples);
+        for (const SampleRange &piece :
+             {SampleRange{samples.first, std::clamp(use.split(), samples.first, samples.end)},
+              SampleRange{std::clamp(use.split(), samples.first, samples.end), samples.end}}) {
+            if (piece.empty())
+                continue;
+            SampleSet &part = parts[use.part_of(piece.first)];
+            EXPECT_TRUE(!pt::begins_part(before, use.split(), piece.first) || part.empty()) << pt::text_of(piece);
+            part.add(piece);
+            before = pt::hull_of(before, piece);
+        }
     }
 
     // What DeviceFilm::read gives.
@@ -71,8 +83,8 @@ struct FilmOfSets {
     }
 };
 
-// Two films take ranges in any order, each cut into runs as Kernel does. In the end both parts hold just the samples on
-// their side of the split, whichever film took them.
+// Two films take ranges in any order, each at once, as Kernel does, or cut into runs, as tiles do. In the end both
+// parts hold just the samples on their side of the split, whichever film took them.
 TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
     std::mt19937 random(1);
     for (int round = 0; round < 3000; ++round) {
@@ -85,7 +97,8 @@ TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
             const SampleRange range{missing.first, std::min(missing.end, missing.first + 1 + random() % 80)};
             FilmOfSets &film = films[random() % 2];
             for (std::uint64_t sample = range.first; sample < range.end;) {
-                const std::uint64_t end = std::min(range.end, pt::end_of_run(all.hull(), sample));
+                const std::uint64_t end_of_run = pt::end_of_run(all.hull(), sample);
+                const std::uint64_t end = round % 4 < 2 ? range.end : std::min(range.end, end_of_run);
                 ASSERT_GT(end, sample);
                 film.add({sample, end}, pt::hull_of(all.hull(), {sample, end}));
                 all.add({sample, end});
