@@ -28,11 +28,13 @@ TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     frame.first_pixel = 17;
     frame.pixel_count = 18;
     frame.film_part = 19;
-    frame.first_sample = 20;
-    frame.sample_count = 21;
-    frame.split_pass = 22;
+    frame.is_first = 20;
+    frame.first_sample = 21;
+    frame.sample_count = 22;
+    frame.split_pass = 23;
+    frame.start_scale = 24;
     const auto seen = Probe(push_layout_spirv, sizeof frame).run<float>({}, 24, frame, 1);
-    for (int i = 0; i < 22; ++i)
+    for (int i = 0; i < 24; ++i)
         EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
 }
 

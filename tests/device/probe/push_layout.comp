@@ -16,6 +16,6 @@ void main()
     values[1] = vec4(frame.camera_up, frame.width);
     values[2] = vec4(frame.camera_forward, frame.height);
     values[3] = vec4(frame.seed, frame.strip_first_pixel, frame.strip_pixel_count);
-    values[4] = vec4(frame.first_pixel, frame.pixel_count, frame.film_part, frame.first_sample);
-    values[5] = vec4(frame.sample_count, frame.split_pass, 0.0, 0.0);
+    values[4] = vec4(frame.first_pixel, frame.pixel_count, frame.film_part, frame.is_first);
+    values[5] = vec4(frame.first_sample, frame.sample_count, frame.split_pass, frame.start_scale);
 }
