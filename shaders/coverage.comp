@@ -27,7 +27,9 @@ uint tile_of(uvec2 pixel)
 bool meets_something(uvec2 pixel, uint sample_index)
 {
     uint pixel_index = pixel.y * view.width + pixel.x;
-    SampleKey key = SampleKey(view.seed, pixel_index, sample_index, sample_index - view.first_sample);
+    SampleKey key = key_of_pixel(view.seed, pixel_index);
+    key.sample_index = sample_index;
+    key.row = sample_index - view.first_sample;
     Walk walk = walk_from_camera(camera_ray(camera_frame(), pixel, key));
     finish(walk, false);
     return walk.hit.surface != NO_SURFACE;

@@ -22,11 +22,14 @@ layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pa
 // The push constants are read once, into held, and not by each sample: lavapipe 22.3 reads them for one invocation
 // after the other, which took an eighth of the time of paths of two vertices.
 
-// A sample of this invocation's pixel by its number in the slice.
-SampleKey key_of(FrameConstants held, uint pixel_index, uint number)
+// The key of a sample of the pixel by its number in the slice.
+SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
     const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, SPOT_COUNT), BRANCH_COUNT);
-    return SampleKey(held.seed, pixel_index, held.first_sample + number, number * row_length);
+    SampleKey key = pixel;
+    key.sample_index = held.first_sample + number;
+    key.row = number * row_length;
+    return key;
 }
 
 // Adds a sample, and returns its value.
@@ -41,10 +44,11 @@ vec3 add_sample(FrameConstants held, inout FilmPixel gathered, vec3 radiance)
 vec3 take_samples(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;
-    keep_shifts(key_of(held, pixel_index, done));
+    SampleKey key = key_of_pixel(held.seed, pixel_index);
+    keep_shifts(key);
     vec3 value = vec3(0.0);
     do {
-        vec3 radiance = path_radiance(held, pixel, key_of(held, pixel_index, done));
+        vec3 radiance = path_radiance(held, pixel, key_of_sample(key, held, done));
         if (TREE == 0u || !walk_was_cut)
             value = add_sample(held, gathered, radiance);
         ++done;
@@ -56,6 +60,7 @@ vec3 take_samples(uvec2 pixel, uint pixel_index, inout uint done, uint end, inou
 vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint end, inout FilmPixel gathered)
 {
     FrameConstants held = frame;
+    SampleKey pixel_key = key_of_pixel(held.seed, pixel_index);
     vec3 value = vec3(0.0);
     TreeSample current;
     Departure departure;
@@ -78,7 +83,7 @@ vec3 take_samples_by_steps(uvec2 pixel, uint pixel_index, inout uint done, uint 
             if (!begins) {
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {
-                SampleKey key = key_of(held, pixel_index, done);
+                SampleKey key = key_of_sample(pixel_key, held, done);
                 current = sample_of(key, camera_ray(held, pixel, key));
                 walk = walk_from_camera(current.camera);
                 begins = false;

@@ -87,8 +87,8 @@ inline Blocks take(std::uint32_t sampler, const Request &request) {
     return take_from(in_table ? table_of(sampler, request) : Table{}, sampler, request);
 }
 
-// One false alarm in a million, over the at most 60 chi-squares of these tests together.
-inline const double bound = statistics::normal_quantile(1e-6 / 60);
+// One false alarm in a million, over the at most 72 chi-squares of these tests together.
+inline const double bound = statistics::normal_quantile(1e-6 / 72);
 
 // Chi-square deviate of numbers against uniform ones.
 inline double uniform_deviate(const std::vector<std::uint32_t> &numbers) {

@@ -133,4 +133,28 @@ TEST(SobolScrambling, IsIndependentBetweenTheBlocksOfAPath) {
     }
 }
 
+// Chi-square deviate of three numbers of a pixel against uniform ones of the cube.
+double triple_deviate(const std::vector<std::uint32_t> &x, const std::vector<std::uint32_t> &y,
+                      const std::vector<std::uint32_t> &z) {
+    constexpr std::uint32_t cells = 16 * 16 * 16;
+    std::vector<double> observed(cells);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        ++observed[(x[i] >> 20) * 256 + (y[i] >> 20) * 16 + (z[i] >> 20)];
+    return statistics::chi_square_deviate(observed, std::vector<double>(cells, static_cast<double>(x.size()) / cells));
+}
+
+// The shifts of a pixel's blocks are multiples of one word: where the factors of three blocks had a sum of 0 with small
+// weights, as those of an arithmetic progression have, the shifts would lie on a few planes.
+TEST(SobolScrambling, IsIndependentAmongThreeBlocksOfAPath) {
+    for (const int which : {0, 1, 2}) {
+        const auto blocks = scrambles_of_blocks(which);
+        for (std::size_t left_out = 0; left_out < blocks.size(); ++left_out) {
+            const auto &x = blocks[(left_out + 1) % blocks.size()];
+            const auto &y = blocks[(left_out + 2) % blocks.size()];
+            const auto &z = blocks[(left_out + 3) % blocks.size()];
+            EXPECT_LT(triple_deviate(x, y, z), bound) << "component " << which << ", without block " << left_out;
+        }
+    }
+}
+
 } // namespace

@@ -19,7 +19,7 @@ void main()
     uint index = gl_GlobalInvocationID.x;
     if (index >= count)
         return;
-    vec2 u = sample_block(SampleKey(uvec2(seed, 7u), index, 0u, 0u), 0u).xy;
+    vec2 u = sample_block(key_of_pixel(uvec2(seed, 7u), index), 0u).xy;
     vec3 direction;
     if (kind == UNIFORM_SPHERE)
         direction = spherical_direction(uniform_spherical_angles(u));

@@ -29,7 +29,7 @@ void main()
     vec3 normal = normal_time.xyz;
     Vertex vertex = Vertex(position.xyz, normal, normal, surface, false);
     Lamps lamps = lamps_from(vertex, normal_time.w);
-    uvec4 words = sample_words(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u);
+    uvec4 words = sample_words(key_of_pixel(uvec2(seed, 11u), index), 0u);
     vec2 u = vec2(words.xy >> 8u) * NUMBER_STEP;
     LampChoice choice = choose(lamps, words.z);
     if (index < LAMP_COUNT)

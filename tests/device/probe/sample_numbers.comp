@@ -24,6 +24,8 @@ void main()
         return;
     uint row = index % sample_count;
     uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, 0u), BRANCH_COUNT);
-    SampleKey key = SampleKey(seed, first_pixel + index / sample_count, first_sample + row, row * row_length);
+    SampleKey key = key_of_pixel(seed, first_pixel + index / sample_count);
+    key.sample_index = first_sample + row;
+    key.row = row * row_length;
     numbers[index] = sample_block(branch_key(key, branch), block);
 }

@@ -24,7 +24,7 @@ void main()
         return;
     Vertex vertex = Vertex(position.xyz, normal.xyz, normal.xyz, surface, false);
     Spots spots = spots_from(vertex, 0.0);
-    uvec4 words = sample_words(SampleKey(uvec2(seed, 11u), index, 0u, 0u), 0u);
+    uvec4 words = sample_words(key_of_pixel(uvec2(seed, 11u), index), 0u);
     vec3 numbers = vec3(words.xyz >> 8u) * NUMBER_STEP;
     uint spot = choose_spot(spots, numbers.z);
     vec3 direction = direction_to_spot(spots, spot, vertex.position, 0.0, numbers.xy);
