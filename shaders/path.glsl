@@ -219,13 +219,13 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
 }
 
-// The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky the last direction
-// is like the others: the sky's light is found by directions alone.
+// The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky or where planes emit
+// the last direction is like the others: that light is found by directions alone.
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
     bool last = vertex_count + 1u == MAX_PATH_LENGTH;
-    return SAMPLE_LAMPS && SKY_COUNT == 0u && last ? at_last_direction(material) : material;
+    return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
 // Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the
