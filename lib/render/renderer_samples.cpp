@@ -221,6 +221,9 @@ std::optional<pt_result> Renderer::next_tiles() {
         std::iota(all.begin(), all.end(), 0U);
         return unless_done(job_->uneven->set_goal(all, [&](std::uint32_t tile) { return job_->goals[tile]; }));
     }
+    // A film whose tiles are not to be told apart yet comes here if it may take no sample.
+    if (samples_.even() && samples_.of(0).count() < adaptive_from())
+        return PT_OK;
     const auto look_at_tiles = [&] { return tile_squares(); };
     const auto look = [&] {
         const ErrorEstimate &error = this->error();

@@ -196,6 +196,22 @@ TEST_F(AdaptiveTest, SplitsAndResumesChangeNoBit) {
     }
 }
 
+// Nor calls that may take no sample, at whatever number of samples: 16 and 32 are levels of the rule, at which tiles
+// could be told apart, but on GPUs are not yet.
+TEST_F(AdaptiveTest, CallsForNoSamplesChangeNoBit) {
+    for (const bool like_gpus : {false, true}) {
+        const Context context = context_on(1, 50, like_gpus);
+        const Bytes expected = film_on_target(context.get());
+        begin(context.get());
+        for (const uint32_t samples : {0U, 16U, 16U, 32U}) {
+            ASSERT_EQ(take(context.get(), samples, uneven_target), PT_OK);
+            ASSERT_EQ(take(context.get(), 0, uneven_target), PT_OK);
+        }
+        ASSERT_EQ(take(context.get(), no_limit, uneven_target), PT_TARGET_REACHED);
+        EXPECT_EQ(film(context.get()), expected) << like_gpus;
+    }
+}
+
 TEST_F(AdaptiveTest, SeveralDevicesGiveTheBytesOfOne) {
     for (const bool like_gpus : {false, true}) {
         const Context alone = context_on(1, 50, like_gpus);
