@@ -40,8 +40,8 @@ std::vector<std::uint32_t> wanting_tiles(const TileSamples &samples, std::span<c
 
 // The round that follows one in which no tile wants more. excess: the square of the image's error over that of its
 // target; infinite if the error is unknown. sees_too_little: much of the error is light that no sample has met
-// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more, and the excess is that
-// of what tiles show, without which it is greater than 1. Some tile wants more in it.
+// (PT_UNCERTAIN_UNSEEN), perhaps that of a tile beside: those with the fewest samples take more, and excess is that of
+// what tiles show alone, which may be 1 or less; otherwise it is greater than 1. Some tile wants more in it.
 AdaptiveRound round_after(const AdaptiveRound &round, const TileSamples &samples, std::span<const double> squares,
                           std::span<const double> gains, double excess, bool sees_too_little);
 
