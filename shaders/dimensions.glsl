@@ -33,7 +33,7 @@ uint blocks_at_spot()
 // Where the blocks of a branch begin for its first vertex, which is number 1, and for a later one.
 uint first_vertex_blocks()
 {
-    return shared_blocks(LAMP_COUNT, SPOT_COUNT);
+    return blocks_of_sample();
 }
 
 uint later_vertex_blocks(uint vertex)
@@ -59,6 +59,12 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
 {
     vec4 numbers = sample_block(branch, begin + count - 1u);
     return GLOSS == 1u ? numbers : numbers.xyzz;
+}
+
+// With ONE_LAST_DIRECTION that direction likewise (x, y, z), and which branch takes it (w).
+vec4 last_direction_numbers(SampleKey key)
+{
+    return direction_numbers(key, blocks_of_sample() - 1u, 1u);
 }
 
 #endif

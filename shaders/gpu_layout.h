@@ -64,7 +64,8 @@ PT_CONSTANT ID_UNROLLED = 37;        // surfaces over which loops are unrolled, 
 PT_CONSTANT ID_INTEGER_ORDER = 38;   // 1: integers are compared faster than floats (shaders/maths.glsl)
 PT_CONSTANT ID_UNIFORM_READS = 39;   // 1: words of the scene buffer, which has few, are read by the uniform binding
 PT_CONSTANT ID_KEEP_SHIFTS = 40;     // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
-PT_CONSTANT CONSTANT_COUNT = 41;
+PT_CONSTANT ID_ONE_LAST_DIRECTION = 41; // 1: of the branches one takes the last direction (shaders/last_direction.glsl)
+PT_CONSTANT CONSTANT_COUNT = 42;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -88,21 +89,23 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
 // and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex
 // (2); with spots, the way by one of them: the direction (2) and which spot (1), and at the spot what a later vertex
-// consumes: lamp (3) and direction (2 or 3). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
+// consumes: lamp (3) and direction (2 or 3); with ONE_LAST_DIRECTION that direction (2 or 3) and which branch takes it
+// (1). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
 // several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
-// and survival of Russian roulette (1, for long paths). The dimensions of a sequence are dealt to the blocks in this
+// and survival of Russian roulette (1, for long paths), but for a last direction that it shares. The dimensions of a sequence are dealt to the blocks in this
 // order: the low ones are its best, and go to what makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// Blocks before those of the way by a spot, of that way, and of all that branches share.
+// Blocks before those of the way by a spot, of that way, and of all that branches share; that of the last direction, if
+// they share it, comes last.
 PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
 PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
-PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count)
+PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count, uint one_last_direction)
 {
-    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count);
+    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count) + one_last_direction;
 }
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
@@ -112,18 +115,19 @@ PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
 {
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
 }
+PT_FUNCTION uint last_direction_dimensions(uint gloss) { return 2 + gloss + 1; }
 PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 {
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
 // Blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count)
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count, uint one_last_direction)
 {
-    const uint of_sample = shared_blocks(lamp_count, spot_count);
+    const uint of_sample = shared_blocks(lamp_count, spot_count, one_last_direction);
     const uint first = of_sample + vertex_blocks(1, lamp_count);
     return max_path_length < 2 ? of_sample
-                               : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
+                               : first + (max_path_length - 2) * vertex_blocks(2, lamp_count) - one_last_direction;
 }
 
 // Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the

@@ -5,245 +5,12 @@
 #include "camera.glsl"
 #include "dimensions.glsl"
 #include "intersect.glsl"
+#include "last_direction.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
 #include "spots.glsl"
-#include "tree_walk.glsl"
+#include "step.glsl"
 #include "vertex.glsl"
-
-// Lamps are sampled if there are any and the estimator does so: all of them at the first vertex if they are few;
-// otherwise, and at later vertices, one that is chosen.
-const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
-const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
-const bool SAMPLE_ONE_LAMP = SAMPLE_LAMPS && LAMP_COUNT > EVERY_LAMP_LIMIT;
-
-struct Path {
-    Arrival arrival; // at its last vertex
-    vec3 throughput;
-    vec3 radiance;
-    uint vertex_count; // so far
-    bool alive;        // whether it goes on from there
-};
-
-// Of the path that an invocation is on, with spots: kernels without them have nothing of it.
-float arrival_density; // of the direction that led to the last vertex, times the directions that the vertex before took
-float departure_share; // of the light that the next departure finds; the rest is found by way of a spot
-
-// At its first vertex.
-Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
-
-// Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
-// importance sampling, or all to the lamps. A density here is that of one sample times the number of such samples
-// that the vertex takes (Veach 1997, section 9.2.2).
-float lamp_weight_against(float lamp_density, float direction_density)
-{
-    return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 : power_heuristic(lamp_density, direction_density);
-}
-
-float direction_weight_against(float direction_density, float lamp_density)
-{
-    if (ESTIMATOR == ESTIMATOR_LIGHT)
-        return lamp_density > 0.0 ? 0.0 : 1.0;
-    return power_heuristic(direction_density, lamp_density);
-}
-
-// A sample of a lamp: its shadow ray, and the light, to be weighted, that it brings if nothing is in between.
-struct LampLight {
-    ShadowRay shadow;
-    vec3 light;
-    float weight;
-};
-
-LampLight no_lamp_light()
-{
-    return LampLight(NO_SHADOW_RAY, vec3(0.0), 0.0);
-}
-
-// Light of a lamp, of which the vertex takes a number of samples, while a number of directions leave the same vertex.
-LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampChoice choice, vec2 place,
-                        float samples, float directions)
-{
-    LampSample found = sample_lamp(choice, place);
-    float density = found.density * samples;
-    Reflection towards = reflection(material, vertex, found.shadow.direction);
-    float weight = lamp_weight_against(density, towards.density * directions) / density;
-    vec3 light = throughput * towards.f * emission_of_lamp(choice.lamp).rgb;
-    return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
-}
-
-// How often a vertex samples a lamp: each of a few once, else as often as it chooses it.
-float lamp_samples(LampChoice choice, bool every_lamp, float directions)
-{
-    return every_lamp ? 1.0 : choice.probability * directions;
-}
-
-// Light of one lamp, chosen by what it can contribute, once for each direction that the vertex takes.
-LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps,
-                               ChosenLampNumbers numbers, float directions)
-{
-    LampChoice choice = choose(lamps, numbers.which);
-    float samples = lamp_samples(choice, false, directions);
-    return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
-}
-
-// Of a branch the number that chooses the lobe is stratified over all of them; the sum may round up to 1.
-float lobe_number(float number, uint branch, float directions)
-{
-    return at_most((number + float(branch)) / directions, LARGEST_NUMBER);
-}
-
-// How a path leaves a vertex: in one of its directions, with the light of a lamp.
-struct Departure {
-    vec3 origin;
-    vec3 direction;
-    float density;    // of the direction, times the directions that the vertex takes
-    float directions;
-    float strongest;  // component of the path's throughput
-    bool carries_light;
-    float survival;   // the number that decides whether the path does
-    LampLight lamp;
-    bool every_lamp;  // whether the vertex samples each
-};
-
-// Takes the vertex and the direction into the path's throughput.
-Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, bool every_lamp, vec4 numbers,
-                 float directions)
-{
-    Departure departure;
-    departure.origin = vertex.position;
-    departure.direction = sample_direction(material, vertex, numbers.xy, numbers.z);
-    Reflection onwards = reflection(material, vertex, departure.direction);
-    departure.density = onwards.density * directions;
-    departure.directions = directions;
-    path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
-    departure.strongest = at_least(path.throughput.r, at_least(path.throughput.g, path.throughput.b));
-    departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
-    departure.survival = numbers.w;
-    departure.lamp = lamp;
-    departure.every_lamp = every_lamp;
-    return departure;
-}
-
-// Takes the path to what its ray has met, with the light of the lamp, which arrives if nothing is in between.
-void arrive(inout Path path, Departure departure, Lamps lamps, Hit hit, bool blocked)
-{
-    float lamp_weight = departure.lamp.weight;
-    if (SPOT_COUNT > 0u)
-        lamp_weight *= departure_share;
-    path.radiance += departure.lamp.light * (blocked ? 0.0 : lamp_weight);
-
-    // What the next vertex emits, weighted against lamp sampling if that could have found it too.
-    path.alive = hit.surface != NO_SURFACE && departure.carries_light;
-    if (path.alive && may_emit(hit.surface)) {
-        float weight = 1.0;
-        uint hit_lamp = lamp_of(hit.surface);
-        if (SAMPLE_LAMPS && hit_lamp < LAMP_COUNT) {
-            LampChoice choice = choice_of(lamps, hit_lamp);
-            float samples = lamp_samples(choice, departure.every_lamp, departure.directions);
-            weight = direction_weight_against(departure.density, cone_density(choice.view) * samples);
-        }
-        if (SPOT_COUNT > 0u)
-            weight *= departure_share;
-        path.radiance += path.throughput * emission_of(hit.surface).rgb * weight;
-    }
-    if (SPOT_COUNT > 0u) {
-        arrival_density = departure.density;
-        departure_share = 1.0;
-    }
-    path.arrival = Arrival(departure.origin + hit.distance * departure.direction, departure.direction, hit.surface);
-    ++path.vertex_count;
-
-    // Russian roulette for paths that may get long: from the fourth vertex on a path survives with the probability of
-    // its throughput, as a share of the branch's, and if it does, is weighted up by it. The floor bounds the weight:
-    // random numbers are multiples of 2^-24, which would be too coarse for tiny probabilities.
-    if (ROULETTE && path.vertex_count >= 4u) {
-        float survival = at_most(at_least(departure.strongest * float(BRANCH_COUNT), 0.05), 1.0);
-        path.alive = path.alive && departure.survival < survival;
-        path.throughput /= survival;
-    }
-}
-
-// Whether a direction may lead to a surface that emits, given what it meets first of those that are not in the tree.
-// The last direction of a path finds nothing but emission, and where a walk takes long, a few tests that spare it are
-// worth it.
-bool may_meet_light(Start start, vec3 direction, Hit hit, float time)
-{
-    const uint few_lamps = 16u;
-    if (TREE_LAMPS == 0u)
-        return hit.surface != NO_SURFACE && may_emit(hit.surface);
-    if (PLANES_EMIT == 1u || SKY_COUNT > 0u || LAMP_COUNT > few_lamps)
-        return true;
-    bool met = false;
-    FOR_EACH(lamp, 0u, LAMP_COUNT,
-             met = met || distance_to_sphere(start, direction, surface_of_lamp(lamp), sphere_of_lamp(lamp, time)) < NO_HIT);
-    return met;
-}
-
-// Whether a shadow ray is blocked.
-bool is_hidden(ShadowRay towards_lamp, Start start, float time)
-{
-    ShadowRay shadow = ended_as_met(towards_lamp, start, time);
-    if (TREE == 1u)
-        shadow = ended_as_met_in_tree(shadow, start, time);
-    bool blocked = is_blocked(start, time, shadow);
-    Walk walk = walk_from(start, shadow.direction, false, shadow, time, Hit(NO_HIT, NO_SURFACE), blocked);
-    finish(walk, true);
-    return walk.blocked;
-}
-
-// The walk of the ray on which a path leaves a vertex, and of that to the lamp.
-Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float time)
-{
-    Start start = Start(vertex.position, vertex.surface, vertex.inside);
-    ShadowRay shadow = ended_as_met(departure.lamp.shadow, start, time);
-    if (TREE == 1u) {
-        shadow = ended_as_met_in_tree(shadow, start, time);
-    }
-    bool blocked;
-    Hit hit = closest_hit_and_shadow(start, time, departure.direction, shadow, blocked);
-    bool is_last = path.vertex_count + 1u == MAX_PATH_LENGTH;
-    if (TREE == 1u && is_last)
-        departure.carries_light = departure.carries_light && may_meet_light(start, departure.direction, hit, time);
-    Walk walk = walk_from(start, departure.direction, departure.carries_light, shadow, time, hit, blocked);
-    walk.seeks_light = is_last;
-    return walk;
-}
-
-// Takes the path from a vertex to the next in one of the directions in which it is left.
-void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, bool every_lamp, float time,
-           vec4 numbers, float directions)
-{
-    Departure departure = depart(path, vertex, material, lamp, every_lamp, numbers, directions);
-    Walk walk = walk_onwards(vertex, path, departure, time);
-    finish(walk, SAMPLE_LAMPS);
-    arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
-}
-
-// The material of a vertex, as the direction in which the path goes on is to be sampled. Under a sky or where planes emit
-// the last direction is like the others: that light is found by directions alone.
-Material material_to_leave(uint surface, uint vertex_count)
-{
-    Material material = material_of(surface);
-    bool last = vertex_count + 1u == MAX_PATH_LENGTH;
-    return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
-}
-
-// Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the
-// number of the vertex, or of that as which it is left.
-void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
-{
-    Vertex vertex = vertex_at(path.arrival, time);
-    Material material = material_to_leave(vertex.surface, as_vertex);
-    Lamps lamps;
-    LampLight lamp = no_lamp_light();
-    if (SAMPLE_LAMPS) {
-        lamps = lamps_from(vertex, time);
-        ChosenLampNumbers numbers = chosen_lamp_numbers(key, begin);
-        lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, numbers, 1.0);
-    }
-    vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
-    leave(path, vertex, material, lamp, lamps, false, time, numbers, 1.0);
-}
 
 // Light that reaches the first vertex over one more, in the direction of a spot: weighted against the branches, which
 // find it too (Veach 1997, chapter 9). The path ends there; what comes over more vertices is the branches' alone.
@@ -307,6 +74,13 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         radiance += light_by_way_of_spot(vertex, material, spots, key, time);
     }
 
+    // With ONE_LAST_DIRECTION branches end before their last direction, which one of them takes for all.
+    vec4 last_numbers;
+    Reservoir reservoir;
+    if (ONE_LAST_DIRECTION == 1u) {
+        last_numbers = last_direction_numbers(key);
+        reservoir = empty_reservoir(arrival, last_numbers.w);
+    }
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
@@ -317,7 +91,7 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         }
         if (SAMPLE_ONE_LAMP) {
             ChosenLampNumbers numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
-            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions);
+            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions, directions);
         }
 
         vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
@@ -325,17 +99,21 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         Path path = path_from(arrival);
         if (SPOT_COUNT > 0u)
             departure_share = 1.0;
-        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP, time, numbers, directions);
+        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP ? 0.0 : directions, time, numbers, directions);
         if (SPOT_COUNT > 0u)
             departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {
                 extend(path, branch_numbers, later_vertex_blocks(path.vertex_count), path.vertex_count, time);
-            } while (path.alive && path.vertex_count < MAX_PATH_LENGTH);
+            } while (path.alive && path.vertex_count < BRANCH_END);
         }
+        if (ONE_LAST_DIRECTION == 1u && path.alive)
+            end_branch(path, branch_numbers, time, reservoir);
         radiance += path.radiance;
         ++branch;
     } while (branch < BRANCH_COUNT);
+    if (ONE_LAST_DIRECTION == 1u)
+        radiance += light_in_last_direction(reservoir, last_numbers, time);
     return radiance;
 }
 

@@ -25,7 +25,7 @@ layout(set = 0, binding = BINDING_PASS) buffer Pass { vec4 samples[]; } split_pa
 // The key of a sample of the pixel by its number in the slice.
 SampleKey key_of_sample(SampleKey pixel, FrameConstants held, uint number)
 {
-    const uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, SPOT_COUNT), BRANCH_COUNT);
+    const uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
     SampleKey key = pixel;
     key.sample_index = held.first_sample + number;
     key.row = number * row_length;

@@ -20,13 +20,16 @@ struct SampleKey {
     uvec4 shift; // the pixel's, of which those of its blocks are made
 };
 
+// Blocks that the branches of a sample share.
+uint blocks_of_sample() { return shared_blocks(LAMP_COUNT, SPOT_COUNT, ONE_LAST_DIRECTION); }
+
 // The key of a branch of a sample: beyond the shared blocks it is a sample of its own, number B i + b. Where that
 // passes 2^32 the seed changes, and with it the table's points, so that no branch repeats another's numbers.
 SampleKey branch_key(SampleKey key, uint branch)
 {
     uint high, low;
     umulExtended(key.sample_index, BRANCH_COUNT, high, low);
-    uint branch_blocks = TABLE_BLOCKS - shared_blocks(LAMP_COUNT, SPOT_COUNT);
+    uint branch_blocks = TABLE_BLOCKS - blocks_of_sample();
     return SampleKey(key.seed + uvec2(0u, high), key.pixel, low + branch, key.row + branch * branch_blocks, key.shift);
 }
 
@@ -71,7 +74,10 @@ uvec4 shift_of(SampleKey key, uint block)
 const uint MOST_KEPT = 8u;
 uvec4 kept_shifts[MOST_KEPT];
 
-bool all_in_table() { return path_blocks(MAX_PATH_LENGTH, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS; }
+bool all_in_table()
+{
+    return path_blocks(MAX_PATH_LENGTH, LAMP_COUNT, SPOT_COUNT, ONE_LAST_DIRECTION) <= TABLE_BLOCKS;
+}
 
 bool shifts_are_kept()
 {

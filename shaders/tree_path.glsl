@@ -38,6 +38,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     bool at_first = current.path.vertex_count == 1u;
     bool every_lamp = SAMPLE_EVERY_LAMP && at_first;
     float directions = at_first ? float(BRANCH_COUNT) : 1.0;
+    float lamp_choices = every_lamp ? 0.0 : directions;
     SampleKey key = branch_key(current.key, min(current.branch, BRANCH_COUNT - 1u));
     uint begin = at_first ? first_vertex_blocks() : later_vertex_blocks(current.path.vertex_count);
     Vertex vertex = vertex_at(current.path.arrival, time);
@@ -56,7 +57,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
         } else {
             choice = choose(lamps, chosen.which);
         }
-        float samples = lamp_samples(choice, every_lamp, directions);
+        float samples = lamp_samples(choice, lamp_choices);
         if (!every_lamp || current.branch < LAMP_COUNT)
             lamp = light_of_lamp(current.path.throughput, vertex, material, choice, chosen.place, samples, directions);
     }
@@ -65,7 +66,7 @@ Walk leave_last_vertex(inout TreeSample current, out Departure departure, out La
     vec4 numbers = direction_numbers(key, begin, vertex_blocks(at_first ? 1u : 2u, LAMP_COUNT));
     if (at_first)
         numbers.z = lobe_number(numbers.z, current.branch, directions);
-    departure = depart(current.path, vertex, material, lamp, every_lamp, numbers, directions);
+    departure = depart(current.path, vertex, material, lamp, lamp_choices, numbers, directions);
     departure.carries_light = departure.carries_light && current.branch < BRANCH_COUNT;
     return walk_onwards(vertex, current.path, departure, time);
 }

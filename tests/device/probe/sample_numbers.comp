@@ -23,7 +23,7 @@ void main()
     if (index >= pixel_count * sample_count)
         return;
     uint row = index % sample_count;
-    uint row_length = row_blocks(TABLE_BLOCKS, shared_blocks(LAMP_COUNT, 0u), BRANCH_COUNT);
+    uint row_length = row_blocks(TABLE_BLOCKS, blocks_of_sample(), BRANCH_COUNT);
     SampleKey key = key_of_pixel(seed, first_pixel + index / sample_count);
     key.sample_index = first_sample + row;
     key.row = row * row_length;
