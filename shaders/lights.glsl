@@ -37,6 +37,11 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
+// Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is
+// hidden, the weights alone would leave the others to chance. It raises the second moment by a ninth at most where
+// nothing is.
+const float UNIFORM_SHARE = 0.1;
+
 // The lamps as seen from a vertex: found once, asked by choose() and choice_of(). The views of a few are kept, many are
 // looked at again where one is asked for.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
@@ -46,7 +51,9 @@ struct Lamps {
     float time;
     LampView views[EVERY_LAMP_LIMIT];
     float total_weight;
-    float in_sight; // lamps with a weight above 0
+    float in_sight;        // lamps with a weight above 0
+    float share_of_weight; // of the choices by weight, for each unit of it
+    float uniform_share;   // of each lamp in sight, of the choices made uniformly
     LampTreeTop tree;
 };
 
@@ -70,6 +77,8 @@ Lamps lamps_from(Vertex vertex, float time)
             lamps.views[lamp] = view;
         ++lamp;
     } while (lamp < LAMP_COUNT);
+    lamps.share_of_weight = (1.0 - UNIFORM_SHARE) / lamps.total_weight;
+    lamps.uniform_share = UNIFORM_SHARE / lamps.in_sight;
     return lamps;
 }
 
@@ -88,14 +97,9 @@ LampView lamp_among(Lamps lamps, uint lamp)
     return view;
 }
 
-// Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is
-// hidden, the weights alone would leave the others to chance. It raises the second moment by a ninth at most where
-// nothing is.
-const float UNIFORM_SHARE = 0.1;
-
 float lamp_probability(Lamps lamps, float weight)
 {
-    float probability = (1.0 - UNIFORM_SHARE) * (weight / lamps.total_weight) + UNIFORM_SHARE / lamps.in_sight;
+    float probability = weight * lamps.share_of_weight + lamps.uniform_share;
     return weight > 0.0 ? (LAMP_COUNT == 1u ? 1.0 : probability) : 0.0;
 }
 
@@ -150,8 +154,8 @@ LampChoice choose(Lamps lamps, uint number)
         return choose_by_tree(lamps, number);
     float u = float(number >> 8u) * NUMBER_STEP;
     bool uniformly = u < UNIFORM_SHARE;
-    float target = uniformly ? u / UNIFORM_SHARE * lamps.in_sight
-                             : (u - UNIFORM_SHARE) / (1.0 - UNIFORM_SHARE) * lamps.total_weight;
+    float target = uniformly ? u * (1.0 / UNIFORM_SHARE) * lamps.in_sight
+                             : (u - UNIFORM_SHARE) * (1.0 / (1.0 - UNIFORM_SHARE)) * lamps.total_weight;
     uint chosen = 0u;
     float cumulated = 0.0;
     uint lamp = 0u;
@@ -170,10 +174,12 @@ float one_minus_cos(LampView view)
     return view.squared_sine / (1.0 + sqrt(1.0 - view.squared_sine));
 }
 
-// Density over solid angle of the directions towards a lamp that has been chosen; 0 where it cannot be sampled.
+// Density over solid angle of the directions towards a lamp that has been chosen, 1 / (2 pi (1 - cos)); 0 where it
+// cannot be sampled.
 float cone_density(LampView view)
 {
-    return view.weight > 0.0 ? 1.0 / (2.0 * PI * one_minus_cos(view)) : 0.0;
+    float density = (0.5 / PI) * (1.0 + sqrt(1.0 - view.squared_sine)) / view.squared_sine;
+    return view.weight > 0.0 ? density : 0.0;
 }
 
 struct LampSample {

@@ -27,7 +27,7 @@ vec3 light_by_way_of_spot(Vertex vertex, Material material, Spots spots, SampleK
     Path path = path_from(Arrival(vertex.position + hit.distance * direction, direction, spot_surface(spot)));
     float density = spot_density(spots, path.arrival, hit.distance, time);
     bool met = hit.surface == path.arrival.surface && density > 0.0;
-    float weight = power_heuristic(density, towards.density * float(BRANCH_COUNT)) / density;
+    float weight = power_heuristic_over_density(density, towards.density * float(BRANCH_COUNT));
     path.throughput = towards.f * (met ? towards.cosine * weight : 0.0);
     path.vertex_count = 2u;
     departure_share = 1.0;

@@ -64,12 +64,12 @@ Reflection reflection(Material material, Vertex vertex, vec3 outgoing)
     float cosine = at_least(dot(vertex.normal, outgoing), 0.0);
     float p = material.specular_probability;
     vec3 f = material.diffuse;
-    float density = (1.0 - p) / PI * cosine;
+    float density = (1.0 - p) * (1.0 / PI) * cosine;
     if (GLOSS == 1u) {
         float n = material.glossiness;
         float lobe = lobe_power(vertex.mirror, outgoing, n);
         f += material.specular * lobe;
-        density += p * (n + 1.0) / (2.0 * PI) * lobe;
+        density += p * (n + 1.0) * (0.5 / PI) * lobe;
     }
     return Reflection(f, cosine, ESTIMATOR == ESTIMATOR_UNIFORM ? 0.5 / PI : density);
 }

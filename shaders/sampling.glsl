@@ -75,4 +75,12 @@ float power_heuristic(float a, float b)
     return 1.0 / (1.0 + ratio * ratio);
 }
 
+// The same over a: what a sample's value is multiplied by. One division less.
+float power_heuristic_over_density(float a, float b)
+{
+    float inverse = 1.0 / a;
+    float ratio = b * inverse;
+    return inverse / (1.0 + ratio * ratio);
+}
+
 #endif

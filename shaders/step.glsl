@@ -30,12 +30,13 @@ float departure_share; // of the light that the next departure finds; the rest i
 // At its first vertex.
 Path path_from(Arrival first) { return Path(first, vec3(1.0), vec3(0.0), 1u, true); }
 
-// Weight of light that lamp sampling found, and of light that a direction found, where both could have: by multiple
-// importance sampling, or all to the lamps. A density here is that of one sample times the number of such samples
-// that the vertex takes (Veach 1997, section 9.2.2).
-float lamp_weight_against(float lamp_density, float direction_density)
+// Weight of light that lamp sampling found, over its density, and of light that a direction found, where both could
+// have: by multiple importance sampling, or all to the lamps. A density here is that of one sample times the number of
+// such samples that the vertex takes (Veach 1997, section 9.2.2).
+float lamp_weight_over_density(float lamp_density, float direction_density)
 {
-    return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 : power_heuristic(lamp_density, direction_density);
+    return ESTIMATOR == ESTIMATOR_LIGHT ? 1.0 / lamp_density
+                                        : power_heuristic_over_density(lamp_density, direction_density);
 }
 
 float direction_weight_against(float direction_density, float lamp_density)
@@ -64,7 +65,7 @@ LampLight light_of_lamp(vec3 throughput, Vertex vertex, Material material, LampC
     LampSample found = sample_lamp(choice, place);
     float density = found.density * samples;
     Reflection towards = reflection(material, vertex, found.shadow.direction);
-    float weight = lamp_weight_against(density, towards.density * directions) / density;
+    float weight = lamp_weight_over_density(density, towards.density * directions);
     vec3 light = throughput * towards.f * emission_of_lamp(choice.lamp).rgb;
     return LampLight(found.shadow, light, density > 0.0 ? towards.cosine * weight : 0.0);
 }

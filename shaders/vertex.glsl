@@ -30,7 +30,8 @@ Vertex vertex_at(Arrival arrival, float time)
     vec3 normal;
     if (is_sphere(surface)) {
         vec4 sphere = sphere_of(surface, time);
-        normal = normalize(position - sphere.xyz);
+        vec3 from_centre = position - sphere.xyz;
+        normal = from_centre * inversesqrt(dot(from_centre, from_centre));
         position = sphere.xyz + sphere.w * normal;
     } else {
         Level level = level_among(surface, position, time);
