@@ -225,9 +225,10 @@ FromStart from_start(const PreparedScene &scene, const Camera &camera, const Ren
 
 } // namespace
 
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
+                   bool one_last_direction) {
     const auto [distinct, start] = from_start(scene, camera, settings);
-    return gpu_scene(distinct, scene, start, settings);
+    return gpu_scene(distinct, scene, start, settings, one_last_direction);
 }
 
 KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
@@ -236,9 +237,10 @@ KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, con
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
-                   const RenderSettings &settings) {
+                   const RenderSettings &settings, bool one_last_direction) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
-    const Features features = features_of(distinct, surfaces, scene, start, settings);
+    Features features = features_of(distinct, surfaces, scene, start, settings);
+    features.one_last_direction = features.one_last_direction && one_last_direction;
     return {features,
             words_of(surfaces, scene, start, features),
             frame_constants(start, settings, scene.film_unit),

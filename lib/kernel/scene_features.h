@@ -51,7 +51,7 @@ struct Features {
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
     std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
-    bool one_last_direction;  // of the branches one takes the last direction for all (shaders/last_direction.glsl)
+    bool one_last_direction;  // one branch takes the last direction for all (shaders/last_direction.glsl)
     bool starts_ahead;        // camera rays start on a plane across the view (ray_start.h)
     bool orthographic;        // and are parallel
     bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer

@@ -160,7 +160,8 @@ bool Renderer::is_in_pass() const {
 
 const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {
     if (!gpu_scene_)
-        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
+        gpu_scene_ = std::make_shared<const GpuScene>(
+            gpu_scene(*scene_, *camera_, *settings_, devices_.front()->device().policy().one_last_direction));
     return gpu_scene_;
 }
 

@@ -54,6 +54,9 @@ struct DevicePolicy {
     // a look takes as long as some samples, pictures that need no more are done sooner without, and with paths of two
     // vertices four times as many. 0, or a power of two from 16 on.
     std::uint32_t adaptive_from = 256;
+    // Kernels run faster whose branches share their last direction (shaders/last_direction.glsl): lavapipe takes 0.93
+    // of the time with six vertices, but an H200 1.02 to 1.06. Of several devices the first decides.
+    bool one_last_direction = false;
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool integer_order = false;     // kernels run faster where integers are compared, not floats (shaders/maths.glsl)
     bool uniform_reads = false;     // what differs between invocations is read faster from uniform than storage buffers

@@ -57,9 +57,15 @@ public:
     // The same with specialization constants of the test's own.
     FilmWords film_of_kernel(const Constants &constants, std::uint32_t source,
                              const std::vector<glm::vec4> &words) const {
+        Probe probe = probe_of_kernel(constants, source, words);
+        return film_by(probe);
+    }
+
+    // That kernel, for several films.
+    Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         Probe probe(pathtrace_spirv, sizeof frame_, with_scene_source(constants, source, words));
         set_scene_for(probe, source, words);
-        return film_by(probe);
+        return probe;
     }
 
     // The kernel with the scene that has a tree: films by it are those of the tree as it is then. walk_trips: as
