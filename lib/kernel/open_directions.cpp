@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t direction_count = 512;
 
-// Points of equal heights' steps that turn by the golden section of a turn, which leaves no gaps (Swinbank and Purser,
-// "Fibonacci grids", 2006).
+// Heights in equal steps, each turned from the one before by the golden section of a turn, which leaves no gaps
+// (Swinbank and Purser, "Fibonacci grids", 2006).
 std::array<glm::dvec3, direction_count> spread_directions() {
     std::array<glm::dvec3, direction_count> directions{};
     for (std::size_t i = 0; i < direction_count; ++i) {
