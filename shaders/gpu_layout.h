@@ -92,8 +92,9 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 // consumes: lamp (3) and direction (2 or 3); with ONE_LAST_DIRECTION that direction (2 or 3) and which branch takes it
 // (1). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
 // several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
-// and survival of Russian roulette (1, for long paths), but for a last direction that it shares. The dimensions of a sequence are dealt to the blocks in this
-// order: the low ones are its best, and go to what makes most of the picture.
+// and survival of Russian roulette (1, for long paths), but for a last direction that it shares. The dimensions of a
+// sequence are dealt to the blocks in this order, but to a shared last direction after all others: the low ones are its
+// best, and go to what makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette

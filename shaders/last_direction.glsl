@@ -4,7 +4,6 @@
 #ifndef LAST_DIRECTION_GLSL
 #define LAST_DIRECTION_GLSL
 
-#include "intersect.glsl"
 #include "step.glsl"
 
 // The vertex at which branches end.
@@ -47,8 +46,7 @@ void offer(inout Reservoir reservoir, Path path, float worth)
 // not. (The tenth is by trial.)
 float worth_of(Path path, Material material)
 {
-    float strongest = at_least(path.throughput.r, at_least(path.throughput.g, path.throughput.b));
-    return strongest * (material.specular_probability + 0.1);
+    return strongest_of(path.throughput) * (material.specular_probability + 0.1);
 }
 
 // Light of a lamp that reaches the last vertex of a branch, which then may be kept to go on from there.
@@ -75,9 +73,7 @@ vec3 light_in_last_direction(Reservoir reservoir, vec4 numbers, float time)
     Path path = path_from(reservoir.arrival);
     path.throughput = reservoir.throughput * (reservoir.total_worth * last_directions() / reservoir.worth);
     path.vertex_count = BRANCH_END;
-    Departure departure = depart(path, vertex, material, no_lamp_light(), 1.0, numbers, last_directions());
-    Walk walk = walk_onwards(vertex, path, departure, time);
-    arrive(path, departure, lamps, ahead(walk.hit), true);
+    leave(path, vertex, material, no_lamp_light(), lamps, 1.0, time, numbers, last_directions());
     return path.radiance;
 }
 

@@ -35,6 +35,9 @@ float at_least(float number, float limit)
     return intBitsToFloat(max(floatBitsToInt(number), floatBitsToInt(limit)));
 }
 
+// Of R, G and B, none of them negative.
+float strongest_of(vec3 colour) { return at_least(colour.r, at_least(colour.g, colour.b)); }
+
 // Of two numbers that are not positive the greater: their integers are ordered the other way round.
 float nearer_to_zero(float a, float b)
 {

@@ -113,7 +113,7 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     Reflection onwards = reflection(material, vertex, departure.direction);
     departure.density = onwards.density * directions;
     path.throughput *= onwards.f * (departure.density > 0.0 ? onwards.cosine / departure.density : 0.0);
-    departure.strongest = at_least(path.throughput.r, at_least(path.throughput.g, path.throughput.b));
+    departure.strongest = strongest_of(path.throughput);
     departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
     departure.survival = numbers.w;
     departure.lamp = lamp;

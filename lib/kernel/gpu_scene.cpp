@@ -239,8 +239,7 @@ KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, con
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings, bool one_last_direction) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
-    Features features = features_of(distinct, surfaces, scene, start, settings);
-    features.one_last_direction = features.one_last_direction && one_last_direction;
+    const Features features = features_of(distinct, surfaces, scene, start, settings, one_last_direction);
     return {features,
             words_of(surfaces, scene, start, features),
             frame_constants(start, settings, scene.film_unit),

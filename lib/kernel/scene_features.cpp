@@ -93,7 +93,7 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 // Whether next to all paths are as long as they may be: they cannot leave a sphere that holds the camera, nor what
 // planes all but enclose.
 bool is_closed(const KernelSurfaces &surfaces, const SeenScene &distinct) {
-    constexpr double few = 0.2;
+    constexpr double few = 0.2; // less than between a floor and a wall, more than in a corner of three planes
     const auto holds = [](const SeenSphere &sphere) { return !sphere.hidden && holds_camera(sphere); };
     return std::ranges::any_of(surfaces.spheres, holds) || open_directions(distinct.planes) < few;
 }
@@ -149,7 +149,7 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree
 }
 
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
-                     const Camera &camera, const RenderSettings &render) {
+                     const Camera &camera, const RenderSettings &render, bool one_last_direction) {
     const auto lamps = std::span(surfaces.spheres).first(surfaces.lamp_count);
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
     const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
@@ -221,7 +221,8 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         SceneBlocks(features).word_count + gpu::SPOT_LIMIT <= gpu::UNIFORM_SCENE_WORDS)
         features.spot_count = static_cast<std::uint32_t>(light_spots(surfaces, scene.scene.materials).size());
     features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
-    features.one_last_direction = samples_lamps(render) && shares_last_direction(features, surfaces, distinct.seen);
+    features.one_last_direction =
+        one_last_direction && samples_lamps(render) && shares_last_direction(features, surfaces, distinct.seen);
     return features;
 }
 

@@ -85,8 +85,9 @@ struct KernelSurfaces {
 // tree: NULL if there is none.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
+// one_last_direction: whether devices are faster so, where the scene allows it.
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
-                     const Camera &camera, const RenderSettings &render);
+                     const Camera &camera, const RenderSettings &render, bool one_last_direction);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with
