@@ -46,6 +46,9 @@ public:
     std::vector<Strip> &strips() { return strips_; }
     const std::vector<Strip> &strips() const { return strips_; }
 
+    // Whether the host sees its memory, in place.
+    bool is_host_memory() { return strips_.front().words.host_memory().data() != nullptr; }
+
     // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
     // takes samples.
     void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);

@@ -1,6 +1,7 @@
 #include "lib/film/pixel_sums.h"
 
 #include "lib/base/error.h"
+#include "lib/film/part_words.h"
 #include "lib/film/quotient.h"
 #include "lib/film/quotient_block.h"
 
@@ -137,9 +138,6 @@ private:
     std::optional<PartWeights> weights_;      // likewise of the pixel before
 };
 
-// Pixels whose carries are kept at a time: in the fastest cache, and in no memory that might be lacking.
-constexpr std::size_t carry_block = 1024;
-
 } // namespace
 
 std::span<std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) {
@@ -159,24 +157,10 @@ void PixelSums::add(const PixelSums &other) noexcept {
         add_part(part, 0, other, part, 0, pixel_count_);
 }
 
-// Plane by plane: a sum's carries go from each word to the next.
 void PixelSums::add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                          std::size_t first, std::size_t count) noexcept {
-    std::array<std::uint32_t, carry_block> carries;
-    for (std::size_t done = 0; done < count; done += carry_block) {
-        const std::size_t block = std::min(carry_block, count - done);
-        for (std::size_t plane = 0; plane < gpu::FILM_WORDS; ++plane) {
-            if (plane >= gpu::FILM_ACCEPTED || plane % gpu::FILM_SUM_WORDS == 0)
-                std::ranges::fill_n(carries.begin(), static_cast<std::ptrdiff_t>(block), 0U);
-            const std::span<std::uint32_t> words = this->plane(to_part, plane).subspan(to_first + done, block);
-            const std::span<const std::uint32_t> others = from.plane(from_part, plane).subspan(first + done, block);
-            for (std::size_t pixel = 0; pixel < block; ++pixel) {
-                const std::uint64_t sum = std::uint64_t{words[pixel]} + others[pixel] + carries[pixel];
-                words[pixel] = static_cast<std::uint32_t>(sum);
-                carries[pixel] = static_cast<std::uint32_t>(sum >> 32);
-            }
-        }
-    }
+    add_words({plane(to_part, 0).data() + to_first, pixel_count_},
+              {from.plane(from_part, 0).data() + first, from.pixel_count_}, count);
 }
 
 void PixelSums::fold_into(std::uint32_t part) noexcept {

@@ -172,6 +172,11 @@ std::uint32_t Kernel::overwrites(const FilmTarget &target) const {
     return target.is_empty && !overlap_ ? 1 : 0;
 }
 
+// Where nothing is under way as a submission is made, and what is emptied will be overwritten.
+bool Kernel::folds_on_host() const {
+    return device_.policy().queue_depth == 1 && !overlap_ && film_.is_host_memory();
+}
+
 // Records a kernel over the part of a range of pixels that lies in each strip.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
                       const Slice &slice, const Batch &batch, const FilmTarget &target,
@@ -230,6 +235,9 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
         prepare_pass();
     const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
     bind_film(trace);
+    const bool refills = std::ranges::any_of(batches, &Batch::begins_part);
+    HostFold host_fold(film_, 0);
+    const bool is_folded = folds && refills && folds_on_host() && host_fold.fold({{0, film_.pixel_count()}});
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (scene_is_old_)
             scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));
@@ -239,8 +247,7 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             film_.clear_pass(commands);
         if (scene_is_old_ || on_cleared_film || makes_pass)
             vulkan::barrier_between_commands(commands);
-        if (folds) {
-            const bool refills = std::ranges::any_of(batches, &Batch::begins_part);
+        if (folds && !is_folded) {
             dispatch(commands, pipelines_.fold(), all_pixels, batches.front(), {0, refills}, 1);
             vulkan::barrier_between_commands(commands);
         }
@@ -254,6 +261,7 @@ vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sam
             behind(commands, parts);
         }
     });
+    host_fold.keep();
     scene_is_old_ = false;
     film_.set_parts(parts);
     return ticket;

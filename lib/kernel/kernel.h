@@ -3,6 +3,7 @@
 #pragma once
 
 #include "lib/film/device_film.h"
+#include "lib/film/host_fold.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
@@ -113,6 +114,7 @@ private:
     void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
                   const Batch &batch, const FilmTarget &target, std::uint32_t invocations_per_pixel) const;
     std::uint32_t overwrites(const FilmTarget &target) const;
+    bool folds_on_host() const;
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;

@@ -16,6 +16,19 @@ std::uint32_t sharers_of_tiles(const vulkan::Device &device, std::size_t tile_co
     return static_cast<std::uint32_t>(std::clamp<std::size_t>(sharers, 1, std::max(sample_count / least_samples, 1U)));
 }
 
+// Row by row, those of tiles side by side at once.
+std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
+    std::vector<PixelRange> ranges;
+    for (std::size_t i = 0; i < tiles.size();) {
+        Rectangle side_by_side = grid.pixels(tiles[i]);
+        for (++i; i < tiles.size() && tiles[i] == tiles[i - 1] + 1 && grid.pixels(tiles[i]).x > 0; ++i)
+            side_by_side.width += grid.pixels(tiles[i]).width;
+        for (std::uint32_t row = 0; row < side_by_side.height; ++row)
+            ranges.push_back({(side_by_side.y + row) * grid.width + side_by_side.x, side_by_side.width});
+    }
+    return ranges;
+}
+
 } // namespace
 
 static_assert(gpu::TILE_SIZE * gpu::TILE_SIZE == gpu::WORKGROUP_SIZE);
@@ -87,6 +100,9 @@ vulkan::Device::Ticket Kernel::start_tiles(const TileWork &work) {
     const vulkan::ComputePipeline *const trace =
         batches.empty() ? nullptr
                         : &pipelines_.trace(features_, TracePipelines::of_tile_list, gpu_scene_->words, seconds_);
+    HostFold host_fold(film_, 1 - work.target.part);
+    const bool is_folded = work.fold_into == 1 - work.target.part && work.target.is_empty && folds_on_host() &&
+                           host_fold.fold(pixels_of_tiles(film_.grid(), work.tiles));
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         gpu::FrameConstants frame = frame_;
         if (scene_is_old_) {
@@ -94,7 +110,7 @@ vulkan::Device::Ticket Kernel::start_tiles(const TileWork &work) {
             vulkan::barrier_between_commands(commands);
         }
         frame.is_first = overwrites(work.target);
-        if (work.fold_into) {
+        if (work.fold_into && !is_folded) {
             frame.film_part = *work.fold_into;
             dispatch_tiles(commands, pipelines_.fold_tiles(), work.tiles, first_entry, frame, 0, 1);
             vulkan::barrier_between_commands(commands);
@@ -110,6 +126,7 @@ vulkan::Device::Ticket Kernel::start_tiles(const TileWork &work) {
             frame.is_first = 0;
         }
     });
+    host_fold.keep();
     scene_is_old_ = false;
     return ticket;
 }

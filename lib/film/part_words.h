@@ -1,0 +1,24 @@
+// The words of consecutive pixels in a part of a film, as exact sums that are added to those of another part or taken
+// off them again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pt {
+
+// Plane by plane, as in gpu_layout.h. Word: std::uint32_t, or const.
+template <typename Word>
+struct PartWords {
+    Word *first;        // of the first pixel's
+    std::size_t stride; // from a plane to the next
+};
+
+void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
+               std::size_t pixel_count) noexcept;
+
+// Undoes that.
+void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
+                    std::size_t pixel_count) noexcept;
+
+} // namespace pt
