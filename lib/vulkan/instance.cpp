@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <new>
 #include <string>
 
@@ -97,11 +98,22 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
     }
 }
 
+// The loader unloads drivers with the last instance, and NVIDIA's takes static thread-local storage of the process for
+// good each time it is loaded: after thirty times none is left, and no further instance can be created (driver 580.159).
+// So it stays, if it is there, which also halves the time that further instances take.
+void keep_nvidia_driver_loaded() noexcept {
+    for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
+        if (void *const driver = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
+            dlclose(driver);
+}
+
 Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
         // In the chain the messenger hears of the creation and destruction of the instance itself.
-        return Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
+        auto instance = Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
+        keep_nvidia_driver_loaded();
+        return instance;
     } catch (const vk::SystemError &error) {
         throw_if_out_of_memory(error, "creating the Vulkan instance");
         throw Error(PT_ERROR_NO_DEVICE, std::string("no Vulkan driver: ") + error.what() + driver_advice(context));

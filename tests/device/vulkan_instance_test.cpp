@@ -53,4 +53,10 @@ TEST(VulkanInstanceTest, WithoutTheLayerValidationIsUnsupported) {
     EXPECT_TRUE(names(error, "VK_LAYER_KHRONOS_validation")) << error.what();
 }
 
+// One after the other, so that the loader unloads the drivers in between. NVIDIA's can be loaded thirty times.
+TEST(VulkanInstanceTest, AnyNumberFollowOneAnother) {
+    for (int i = 0; i < 40; ++i)
+        ASSERT_FALSE(Instance(pt::Log{}, false).physical_devices().empty()) << i;
+}
+
 } // namespace
