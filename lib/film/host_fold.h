@@ -20,9 +20,9 @@ public:
     HostFold(const HostFold &) = delete;
     HostFold &operator=(const HostFold &) = delete;
 
-    // Once, while no submission is under way; the host must see the film's memory. The other part's words are left for the submission to overwrite, as a
-    // kernel does that is told that a part is empty: this takes the rare words (film.glsl) to be 0, so that nothing is
-    // folded where one of them is not, and it is false.
+    // Once, where the host sees the film's memory, and while no submission is under way. The other part's words stay,
+    // for the submission to overwrite as what a kernel knows to be empty. Such a kernel takes the rare words
+    // (film.glsl) to be 0, so where one of them is not, nothing is folded, and this is false.
     bool fold(std::vector<PixelRange> pixels);
 
     // The submission has been made.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "lib/film/device_film.h"
-#include "lib/film/host_fold.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"

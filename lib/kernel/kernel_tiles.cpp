@@ -1,4 +1,5 @@
 // Samples of some tiles of the film; see kernel.h.
+#include "lib/film/host_fold.h"
 #include "lib/film/tile_grid.h"
 #include "lib/kernel/kernel.h"
 

@@ -99,8 +99,8 @@ vk::raii::Instance create_instance(const vk::raii::Context &context,
 }
 
 // The loader unloads drivers with the last instance, and NVIDIA's takes static thread-local storage of the process for
-// good each time it is loaded: after thirty times none is left, and no further instance can be created (driver 580.159).
-// So it stays, if it is there, which also halves the time that further instances take.
+// good each time it is loaded: after thirty times none is left, and no further instance can be created (driver
+// 580.159). So it stays, if it is there, which also halves the time that further instances take.
 void keep_nvidia_driver_loaded() noexcept {
     for (const char *name : {"libGLX_nvidia.so.0", "libEGL_nvidia.so.0"}) // one of them is the driver
         if (void *const driver = dlopen(name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
@@ -111,7 +111,8 @@ Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, 
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
         // In the chain the messenger hears of the creation and destruction of the instance itself.
-        auto instance = Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
+        auto instance =
+            Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
         keep_nvidia_driver_loaded();
         return instance;
     } catch (const vk::SystemError &error) {
