@@ -76,6 +76,10 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     }
 }
 
+bool DeviceFilm::is_host_memory() const {
+    return std::ranges::all_of(strips_, [](const Strip &strip) { return strip.words.host_bytes().data() != nullptr; });
+}
+
 // All pixels are cleared before any is used, so it does not matter that a strip's words are plane after plane: a share
 // of its pixels stands for the same share of its bytes.
 void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count) {

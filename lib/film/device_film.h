@@ -47,7 +47,7 @@ public:
     const std::vector<Strip> &strips() const { return strips_; }
 
     // Whether the host sees its memory, in place.
-    bool is_host_memory() { return strips_.front().words.host_memory().data() != nullptr; }
+    bool is_host_memory() const;
 
     // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
     // takes samples.

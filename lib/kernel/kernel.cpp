@@ -173,9 +173,10 @@ std::uint32_t Kernel::overwrites(const FilmTarget &target) const {
     return target.is_empty && !overlap_ ? 1 : 0;
 }
 
-// Where nothing is under way as a submission is made, and what is emptied will be overwritten.
+// Where nothing is under way that may read the film, slices or an image for a caller who does not wait for it, and what
+// is emptied will be overwritten.
 bool Kernel::folds_on_host() const {
-    return device_.policy().queue_depth == 1 && !overlap_ && film_.is_host_memory();
+    return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
 // Records a kernel over the part of a range of pixels that lies in each strip.

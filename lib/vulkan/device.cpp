@@ -174,9 +174,11 @@ std::string Device::kernel_key(const std::string &code_digest) const {
 }
 
 bool Device::hangs() const {
-    return abandoned_ || (gave_up_ && !std::ranges::all_of(submissions_, [&](const Submission &submission) {
-                              return ended(submission);
-                          }));
+    return abandoned_ || (gave_up_ && !is_at_rest());
+}
+
+bool Device::is_at_rest() const {
+    return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
 // Whether a submission has come to an end by now, be it by the loss of the device.

@@ -126,6 +126,9 @@ public:
     // last look at them and this one.
     void look();
 
+    // Whether all submissions have ended, those too that nobody has waited for.
+    bool is_at_rest() const;
+
     // Waits and returns the seconds from submission, or from the end of the one before if that was later, to
     // completion. Where the ends are not known, what comes nearest to the expected seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);

@@ -272,6 +272,32 @@ TEST_F(ReadbackToBufferTest, TheContextGoesOnMeanwhile) {
     caller_->device().waitIdle();
 }
 
+// Not even where the host has the film in its memory: samples that move the film's split are begun while the image of
+// those before cannot be made yet.
+TEST_F(ReadbackToBufferTest, LaterSamplesDoNotChangeIt) {
+    for (const bool like_gpus : {false, true}) {
+        use_context(like_gpus);
+        const BufferContents before = expected(target());
+        const vk::raii::Semaphore after = caller_->device().createSemaphore({});
+        pt_buffer_image image = target();
+        image.signal_semaphore = handle_of(after);
+        const pt_accumulate_info more{sizeof more, 40, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+        {
+            const Gate gate(caller_->device());
+            submit([&](const vk::raii::CommandBuffer &commands) { gate.record(commands); }, {}, {});
+            ASSERT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+            ASSERT_EQ(pt_start(context(), &more), PT_PENDING) << pt_last_error(context());
+        }
+        EXPECT_EQ(pt_poll(context(), UINT64_MAX, nullptr), PT_OK) << pt_last_error(context());
+        caller_->device().waitIdle();
+        EXPECT_TRUE(buffer_->bytes() == before);
+        image.signal_semaphore = 0;
+        EXPECT_EQ(pt_readback_to_buffer(context(), &image), PT_OK) << pt_last_error(context());
+        EXPECT_TRUE(buffer_->bytes() == expected(target()));
+        EXPECT_FALSE(buffer_->bytes() == before) << "more samples, another image";
+    }
+}
+
 TEST_F(ReadbackToBufferTest, NeedsALentDeviceAndSamples) {
     pt_create_info info{};
     info.struct_size = sizeof info;
