@@ -91,6 +91,28 @@ class Render(unittest.TestCase):
             pt.render(np.zeros((0, 3)), 1.0)
 
 
+    def test_numbers_that_cannot_be_used_are_named_as_the_caller_knows_them(self):
+        row, radii = POSITIONS.copy(), np.full(len(POSITIONS), 0.1)
+        row[3, 1], radii[2] = np.nan, np.inf
+        for words, arguments, options in (
+                (r"positions\[3, 1\] = nan: must be finite", (row, 0.1), {}),
+                (r"positions\[3, 1\] = nan: must be finite", (row, 0.1), {"camera": CAMERA}),
+                (r"radii\[2\] = inf: must be > 0 and finite", (POSITIONS, radii), {}),
+                ("radii = nan: must be > 0 and finite", (POSITIONS, np.nan), {}),
+                ("radii = -1: must be > 0 and finite", (POSITIONS, -1), {}),
+                *((f"error = {error}: must be > 0 and finite", (POSITIONS, 0.1), {"error": error, "samples": 1})
+                  for error in (0, -0.5, float("nan"), float("inf"))),
+                ("device = '': must name a device", (POSITIONS, 0.1), {"device": ""})):
+            with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
+                pt.render(*arguments, **options)
+        with self.assertRaisesRegex(ValueError, r"center\[3, 1\] = nan: must be finite"):
+            pt.Camera.around(row, 0.1)
+
+    def test_version(self):
+        self.assertEqual(pt.__version__, pt.version())
+        self.assertFalse(hasattr(pt, "no_such_name"))
+
+
 class Readback(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

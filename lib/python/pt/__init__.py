@@ -11,6 +11,8 @@ radiance, unclamped. Row 0 of an image is the top row.
 The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed with the package, else the system's.
 """
 
+from typing import TYPE_CHECKING
+
 from pt._callbacks import Log, Progress
 from pt._camera import Camera, RenderSettings
 from pt._context import Context
@@ -36,7 +38,17 @@ __all__ = [
     "devices", "render", "version",
 ]
 
+__version__: str  # that of the library
+
 
 def version() -> str:
     """Of the library: "0.2.0"."""
     return version_text(library())
+
+
+if not TYPE_CHECKING:  # where it would allow any name
+    def __getattr__(name):
+        """The library is loaded when it is first needed, and not by an import."""
+        if name == "__version__":
+            return version()
+        raise AttributeError(f"module 'pt' has no attribute {name!r}")

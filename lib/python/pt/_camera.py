@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
-from pt._columns import real_column
+from pt._columns import check_finite, real_column
 from pt._enums import Estimator, Projection, Sampler
 from pt._vectors import Vector, vector
 
@@ -61,6 +61,8 @@ class Camera:
         radii = real_column("radius", radius, 1, len(centers)).astype(np.float64)
         if not len(centers):
             raise ValueError("center has no spheres: there must be one to be seen")
+        check_finite("center", center)
+        check_finite("radius", radius, positive=True)
         middle = 0.5 * ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0))
         right, above, back = _axes(direction, up)
         # A sphere is in view if it is on the inner side of the four planes through the pinhole that bound the view.

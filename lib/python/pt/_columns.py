@@ -50,6 +50,18 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
     return _laid_out(name, array, components, count)
 
 
+def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
+    """ValueError: names the first number that is not, by row and column."""
+    array = np.asarray(values)
+    good = np.isfinite(array)
+    if positive:
+        good &= array > 0
+    if not good.all():
+        place = tuple(np.argwhere(~good)[0].tolist())
+        index = f"[{', '.join(map(str, place))}]" if place else ""
+        raise ValueError(f"{name}{index} = {array[place]}: must be {'> 0 and ' if positive else ''}finite")
+
+
 def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
     """Of floats, linear, or of uint8, sRGB."""
     array = np.asarray(values)

@@ -65,6 +65,8 @@ class Context:
         self._log_function = log_function(lambda: getattr(this(), "_log", None))
         log_pointer = structs.pt_log_fn(self._log_function)
         flags = CreateFlag.VALIDATION * validation | CreateFlag.NO_SCENE_KERNELS * (not scene_kernels)
+        if device == "":
+            raise ValueError("device = '': must name a device; None is the best one")
         if not 1 <= submit_milliseconds <= 1000:
             raise ValueError(f"submit_milliseconds = {submit_milliseconds}: must be in [1, 1000]")
         info = structs.pt_create_info(device=None if device is None else device.encode(), flags=flags,

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import contextlib
+import math
 
 import numpy as np
 import numpy.typing as npt
 
 from pt._callbacks import Progress
 from pt._camera import Camera, RenderSettings
+from pt._columns import check_finite
 from pt._context import Context
 from pt._image import Image
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
@@ -35,7 +37,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
                       diffuse; None: all are as the material is
     size              width and height of the image, pixels
     samples           a pixel; default 64. With an error the most that a pixel gets, by default 65536
-    error             ends when the image's relative error is at or below it: 0.01 is 1%
+    error             > 0: ends when the image's relative error is at or below it; 0.01 is 1%
     camera            default: Camera.around the spheres
     up                the vertical direction, of the camera that is fitted and of the floor
     floor             whether there is a white plane below the spheres
@@ -49,7 +51,11 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
     Arrays are read in place where SphereArray says so. For anything else than this light, make a Scene and use a
     Context.
     """
+    if error is not None and not 0.0 < error < math.inf:
+        raise ValueError(f"error = {error}: must be > 0 and finite, or None to take all samples")
     spheres = SphereArray(positions, radii, material, color=colors)
+    check_finite("positions", spheres.center)  # camera and light follow from them, and would be what is refused
+    check_finite("radii", radii, positive=True)
     if camera is None:
         camera = Camera.around(spheres.center, spheres.radius, aspect=size[0] / size[1], up=up)
     scene = Scene(surroundings(spheres, camera), [ground(spheres, up)] if floor else [], [spheres])
