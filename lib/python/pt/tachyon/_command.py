@@ -1,0 +1,74 @@
+"""pt-tachyon: a scene of Tachyon as a scene file of `pt render`."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from pt._scene import Material, SphereArray
+from pt.tachyon._reader import TachyonScene, read
+
+
+def main(arguments: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="pt-tachyon", description="Makes a scene file for pt render of a scene of Tachyon, as VMD and OVITO write them.")
+    parser.add_argument("input", help="the scene of Tachyon")
+    parser.add_argument("-o", "--output", required=True, metavar="SCENE.json", help="scene file to write; - is standard output")
+    parser.add_argument("--leave-out-others", action="store_true",
+                        help="leave out triangles, cylinders and whatever else cannot be rendered, and count them")
+    options = parser.parse_args(arguments)
+    try:
+        found = read(options.input, leave_out_others=options.leave_out_others)
+        text = json.dumps(scene_file(found), indent=1)
+        if options.output == "-":
+            print(text)
+        else:
+            with open(options.output, "w", encoding="utf-8") as file:
+                file.write(text + "\n")
+    except (OSError, ValueError) as error:
+        print(f"pt-tachyon: {error}", file=sys.stderr)
+        return 3 if isinstance(error, ValueError) else 6  # those of pt render
+    for note in found.notes:
+        print(f"pt-tachyon: warning: {note}", file=sys.stderr)
+    return 0
+
+
+def scene_file(found: TachyonScene) -> dict[str, Any]:
+    """The sections of a scene file, as JSON has them."""
+    materials: dict[str, Material] = {f"texture {index}": each for index, each in enumerate(found.scene.materials)}
+    names = {each: name for name, each in materials.items()}
+    spheres = list(_spheres_of(found.scene.sphere_arrays))
+    for sphere in found.scene.spheres:
+        assert isinstance(sphere.material, Material)
+        name = names.setdefault(sphere.material, f"light {len(names) + 1 - len(found.scene.materials)}")
+        materials[name] = sphere.material
+        spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
+    camera = found.camera
+    seen: dict[str, Any] = {"projection": "orthographic", "vertical_extent": camera.vertical_extent}
+    if camera.vertical_fov is not None:
+        seen = {"vertical_fov": math.degrees(camera.vertical_fov)}
+    return {"camera": {"position": camera.position, "look_at": camera.target, "up": camera.up, **seen},
+            "film": {"width": found.settings.width, "height": found.settings.height},
+            "materials": {name: _material(each) for name, each in materials.items()},
+            "spheres": spheres,
+            "planes": [{"normal": plane.normal, "offset": plane.offset, "material": f"texture {plane.material}"}
+                       for plane in found.scene.planes]}
+
+
+def _spheres_of(arrays: Any) -> Iterator[dict[str, Any]]:
+    for array in arrays:
+        assert isinstance(array, SphereArray) and isinstance(array.material, np.ndarray)
+        for center, radius, index in zip(array.center.tolist(), array.radius.tolist(), array.material.tolist()):
+            yield {"center": center, "radius": radius, "material": f"texture {index}"}
+
+
+def _material(material: Material) -> dict[str, Any]:
+    keys = {"diffuse": material.diffuse, "specular": material.specular, "emission": material.emission,
+            "glossiness": material.glossiness, "hidden_from_camera": material.hidden_from_camera}
+    return {name: value for name, value in keys.items() if value not in (0.0, False, (0.0, 0.0, 0.0))}

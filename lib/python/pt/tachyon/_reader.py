@@ -1,0 +1,194 @@
+"""Tachyon's sections: camera, lights, spheres, planes and background. Other shapes can be left out, counted."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from pt._camera import Camera, RenderSettings
+from pt._scene import Material, Plane, Scene, Sphere, SphereArray
+from pt._vectors import Triple
+from pt.tachyon._lights import Light, Surroundings, lamps_of, view_target
+from pt.tachyon._textures import Textures
+from pt.tachyon._words import Words
+
+OTHERS = {
+    "TRI": "a triangle", "STRI": "a smooth triangle", "VCSTRI": "a smooth triangle",
+    "VERTEXARRAY": "a mesh of triangles", "CYLINDER": "a cylinder", "FCYLINDER": "a finite cylinder",
+    "POLYCYLINDER": "a chain of cylinders", "RING": "a ring", "BOX": "a box", "QUADRIC": "a quadric surface",
+    "SCAPE": "a landscape", "SCALARVOL": "a volume", "TPOLYFILE": "a file of triangles",
+    "MGFFILE": "a file of shapes", "IMAGEDEF": "an image", "SPOTLIGHT": "a spotlight",
+    "SKY_LIGHT": "light from all sides", "BACKGROUND_GRADIENT": "a background of two colors", "FOG": "fog",
+    "START_CLIPGROUP": "a cut through shapes", "INCLUDE": "another file"}
+SECTIONS = ("CAMERA", "BACKGROUND", "LIGHT", "DIRECTIONAL_LIGHT", "TEXDEF", "TEXALIAS", "SPHERE", "PLANE", "SHADER_MODE",
+            "END_SCENE")
+SKY_RADIUS = 1e6  # over the extent: a floor ends less than a pixel below the horizon
+
+
+@dataclass
+class TachyonScene:
+    """What a file has, with a lamp for each light and a ball around all in place of the background.
+
+    scene      its spheres are one SphereArray, in the order of the file
+    camera     with the target that Tachyon's direction leads to
+    settings   the file's resolution, other settings as they are by default
+    notes      what was left out, each with its line
+    """
+
+    scene: Scene
+    camera: Camera
+    settings: RenderSettings
+    notes: list[str]
+
+
+def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
+    """Reads a scene file of Tachyon. Lengths are as they stand, colors are linear, and z has the other sign.
+
+    leave_out_others   leaves out what is neither sphere, plane, light nor camera, and counts it in the notes, in place of
+                       refusing it
+
+    ValueError: the file says something else; the message has its line. OSError: it cannot be read.
+    """
+    with open(path, encoding="utf-8", errors="replace") as lines:
+        return parse(lines, os.fspath(path), leave_out_others=leave_out_others)
+
+
+def parse(lines: Iterable[str], name: str, *, leave_out_others: bool = False) -> TachyonScene:
+    """The same of lines."""
+    return _Reader(Words(lines, name), leave_out_others).read()
+
+
+class _Reader:
+    def __init__(self, words: Words, leaves_out_others: bool) -> None:
+        self.words = words
+        self.leaves_out_others = leaves_out_others
+        self.left_out: dict[str, str] = {}  # by keyword, each once
+        self.others: Counter[str] = Counter()
+        self.textures = Textures(words, self.left_out)
+        self.background: Triple = (0.0, 0.0, 0.0)
+        self.spheres: list[tuple[float, float, float, float]] = []
+        self.sphere_materials: list[int] = []
+        self.planes: list[Plane] = []
+        self.lights: list[Light] = []
+        self.camera: dict[str, Triple] = {}
+        self.vertical_fov: float | None = None
+        self.vertical_extent: float | None = None  # of parallel rays
+
+    def read(self) -> TachyonScene:
+        self.words.expect("BEGIN_SCENE", "RESOLUTION")
+        width, height = self.words.size("RESOLUTION"), self.words.size("RESOLUTION")
+        self.aspect = width / height
+        while (keyword := self.words.keyword("END_SCENE")) != "END_SCENE":
+            self.section(keyword)
+        if not self.camera:
+            self.words.refuse("there is no CAMERA")
+        table = np.array(self.spheres, np.float64).reshape(-1, 4)
+        centers, radii = table[:, :3], table[:, 3]
+        position = self.camera["CENTER"]
+        target = view_target(centers, radii, self.planes, position, self.camera["VIEWDIR"])
+        around = Surroundings(centers, radii, self.planes, np.array(position), target)
+        lamps, warnings = lamps_of(self.lights, around)
+        if any(self.background):
+            lamps.append(Sphere(target, SKY_RADIUS * around.extent(self.lights), Material(emission=self.background)))
+        arrays = [SphereArray(centers, radii, np.array(self.sphere_materials, np.uint32))] if self.spheres else []
+        scene = Scene(lamps, self.planes, arrays, materials=self.textures.materials)
+        camera = Camera(position, target, self.camera["UPDIR"], self.vertical_fov,
+                        vertical_extent=self.vertical_extent)
+        notes = [*self.left_out.values(), *warnings]
+        notes += [f"{count} x {keyword}, {OTHERS[keyword]}: left out" for keyword, count in self.others.items()]
+        return TachyonScene(scene, camera, RenderSettings(width, height), notes)
+
+    def section(self, keyword: str) -> None:
+        words = self.words
+        if keyword == "SPHERE":
+            center = words.vector("CENTER")
+            self.spheres.append((*center, words.named("RAD", positive=True)))
+            self.sphere_materials.append(self.textures.reference())
+        elif keyword == "PLANE":
+            point, normal = words.vector("CENTER"), words.direction("NORMAL")
+            offset = -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2])
+            self.planes.append(Plane(normal, offset, self.textures.reference()))
+        elif keyword == "TEXDEF":
+            self.textures.define()
+        elif keyword == "TEXALIAS":
+            self.textures.define_alias()
+        elif keyword == "LIGHT":
+            self.lights.append(self.light())
+        elif keyword == "DIRECTIONAL_LIGHT":
+            place, (x, y, z) = words.place(), words.direction("DIRECTION")  # in which its light goes
+            words.expect("COLOR")
+            self.lights.append(Light(place, words.color("COLOR"), (-x, -y, -z), is_directional=True))
+        elif keyword == "CAMERA":
+            self.read_camera()
+        elif keyword == "BACKGROUND":
+            self.background = words.color("BACKGROUND")
+        elif keyword == "SHADER_MODE":  # how Tachyon shades, which is not how light is found here
+            while (word := words.keyword("END_SHADER_MODE")) != "END_SHADER_MODE":
+                if word == "AMBIENT_OCCLUSION":
+                    self.left_out[word] = f"{words.place()}: {word}: its light from all sides is left out"
+        else:
+            self.other(keyword)
+
+    def other(self, keyword: str) -> None:
+        if keyword not in OTHERS:
+            self.words.refuse(f'"{keyword}": must be {", ".join(SECTIONS[:-1])} or {SECTIONS[-1]}')
+        if not self.leaves_out_others:
+            self.words.refuse(f"{keyword} is {OTHERS[keyword]}: only spheres, planes, lights and a camera can be rendered. "
+                              "leave_out_others (pt-tachyon --leave-out-others) goes on without it")
+        self.others[keyword] += 1
+        while (word := (self.words.peek() or "").upper()) and word not in SECTIONS and word not in OTHERS:
+            self.words.word(keyword)
+
+    def light(self) -> Light:
+        words = self.words
+        place, center = words.place(), words.vector("CENTER")
+        radius = words.named("RAD", least=0.0)
+        attenuation = (1.0, 0.0, 0.0)
+        if words.take_if("ATTENUATION"):
+            attenuation = (words.named("CONSTANT", least=0.0), words.named("LINEAR", least=0.0),
+                           words.named("QUADRATIC", least=0.0))
+            if not any(attenuation):
+                words.refuse("ATTENUATION: must not be 0 0 0")
+        words.expect("COLOR")
+        return Light(place, words.color("COLOR"), center, attenuation=attenuation, radius=radius)
+
+    def read_camera(self) -> None:
+        words = self.words
+        if self.camera:
+            words.refuse("there is a second CAMERA")
+        projection = words.keyword("the projection") if words.take_if("PROJECTION") else "PERSPECTIVE"
+        if projection == "PERSPECTIVE_DOF":
+            words.named("FOCALLENGTH", positive=True)
+            if words.named("APERTURE") != 0.0:
+                self.left_out[projection] = f"{words.place()}: {projection}: depth of field is left out"
+        elif projection not in ("PERSPECTIVE", "ORTHOGRAPHIC"):
+            words.refuse(f'PROJECTION "{projection}": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC')
+        height = 1.0 / words.named("ZOOM", positive=True)  # of the picture in a plane at the distance 1
+        if words.named("ASPECTRATIO") != 1.0:
+            words.refuse("ASPECTRATIO: must be 1, pixels are square")
+        words.named("ANTIALIASING")
+        words.named("RAYDEPTH")
+        self.camera = {"CENTER": words.vector("CENTER"), "VIEWDIR": words.direction("VIEWDIR"),
+                       "UPDIR": words.direction("UPDIR")}
+        if words.take_if("FRUSTUM"):
+            height = self.frustum_height()
+        words.expect("END_CAMERA")
+        if projection == "ORTHOGRAPHIC":
+            self.vertical_extent = height
+        else:
+            self.vertical_fov = 2.0 * math.atan(0.5 * height)
+
+    def frustum_height(self) -> float:
+        """Of edges of the picture in the plane at the distance 1, which must be even about the middle."""
+        left, right, bottom, top = (self.words.number("FRUSTUM") for _ in range(4))
+        height, width = top - bottom, right - left
+        tolerance = 1e-4 * height  # the digits that files have
+        if not (height > 0.0 and abs(width - self.aspect * height) <= self.aspect * tolerance and
+                abs(left + right) <= tolerance and abs(bottom + top) <= tolerance):
+            self.words.refuse("FRUSTUM: must be even about the middle, and of square pixels")
+        return height

@@ -1,0 +1,300 @@
+"""Scenes of Tachyon: every section by exact values, what its own pictures show, and files that are damaged."""
+
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+from unittest import mock
+
+import numpy as np
+import pt
+from pt.tachyon import _command, _lights
+from pt.tachyon._reader import parse, read
+
+DATA = pathlib.Path(sys.argv.pop(1))
+# As VMD has it. z counts the other way there.
+SCENE = """# as VMD has it
+Begin_Scene
+Resolution 64 32
+Shader_Mode Medium Trans_Max_Surfaces 4 End_Shader_Mode
+Camera
+  Zoom 0.5
+  Aspectratio 1
+  Antialiasing 0
+  Raydepth 8
+  Center 1 2 -3
+  Viewdir 0 0 2
+  Updir 0 1 0.5
+End_Camera
+Directional_Light Direction 0 -3 0 Color 1 0.5 0.25
+Background 0.5 0.25 0.125
+TexDef gold Ambient 0.2 Diffuse 0.5 Specular 0 Opacity 1 Phong Metal 0.5 Phong_size 18
+  Color 1 0.5 0.25 TexFunc 0
+TexAlias metal gold
+Sphere Center 2 2 7 Rad 2 metal
+Sphere Center 0 2 7 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0.75 Opacity 1
+  Phong Plastic 0.5 Phong_size 18 Color 0 0.5 1 TexFunc 0
+Plane Center 0 -5 4 Normal 0 2 1 gold
+Light Center 2 2 -6 Rad 0.5 Color 0.5 1 2
+End_Scene
+"""
+
+
+def parsed(*changes, **options):
+    """SCENE with the first of each pair in place of the second."""
+    text = SCENE
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return parse(text.splitlines(), "a.dat", **options)
+
+
+class Sections(unittest.TestCase):
+    def test_camera(self):
+        found = parsed()
+        self.assertEqual((found.settings.width, found.settings.height), (64, 32))
+        self.assertEqual(found.camera.position, (1, 2, 3))
+        self.assertEqual(found.camera.up, (0, 1, -0.5))
+        self.assertAlmostEqual(math.tan(found.camera.vertical_fov / 2), 1, 14)  # half of 1 / ZOOM
+        # The point of the view that is nearest to the middle of the box around both spheres, (1.5, 2, -7).
+        self.assertEqual(found.camera.target, (1, 2, -7))
+        self.assertEqual(found.notes, [])
+
+    def test_projections(self):
+        self.assertEqual(parsed(("Zoom 0.5", "Projection Orthographic Zoom 0.5")).camera.vertical_extent, 2)
+        framed = parsed(("End_Camera", "Frustum -1.5 1.5 -0.75 0.75 End_Camera"))
+        self.assertAlmostEqual(math.tan(framed.camera.vertical_fov / 2), 0.75, 14)
+        focused = parsed(("Zoom 0.5", "Projection Perspective_DoF FocalLength 3 Aperture 0.1 Zoom 0.5"))
+        self.assertEqual(focused.notes, ["a.dat:6: PERSPECTIVE_DOF: depth of field is left out"])
+
+    def test_surfaces(self):
+        scene = parsed().scene
+        spheres = scene.sphere_arrays[0]
+        np.testing.assert_array_equal(spheres.center, [[2, 2, -7], [0, 2, -7]])
+        np.testing.assert_array_equal(spheres.radius, [2, 1])
+        plane = scene.planes[0]
+        self.assertEqual((plane.normal, plane.offset), ((0, 2, -1), 6))  # 2 y - z + 6 is 0 at (0, -5, -4)
+        gold, mirror = (scene.materials[index] for index in spheres.material)
+        self.assertEqual(scene.materials[plane.material], gold)
+        self.assertEqual(gold, pt.Material((0.5, 0.25, 0.125), (0.05, 0.025, 0.0125), glossiness=18))  # peak 10 times
+        self.assertEqual(mirror, pt.Material((0, 0.5, 1), 0.75, glossiness=1e6))
+        self.assertEqual(parsed(("Metal", "Plastic")).scene.materials[0].specular, (0.05, 0.05, 0.05))
+
+    def test_equal_textures_are_one_material(self):
+        sphere = "Sphere Center 0 0 0 Rad 1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color {} TexFunc 0\n"
+        more = "".join(map(sphere.format, ("1 0 0", "0 1 0", "1 0 0")))
+        first, second, third = parsed(("Plane", more + "Plane")).scene.sphere_arrays[0].material[2:]
+        self.assertEqual(first, third)
+        self.assertNotEqual(first, second)
+
+    def test_lights_are_lamps(self):
+        sun, lamp, sky = parsed().scene.spheres
+        distance = 100 * math.sqrt(170)  # a hundred times that of the light, which is farthest: sqrt(1 + 13^2)
+        self.assertAlmostEqual(sun.center[1], 2 + distance, 9)
+        self.assertAlmostEqual(sun.radius, distance / 50, 9)
+        np.testing.assert_allclose(sun.material.emission, [2500, 1250, 625], rtol=1e-12)
+        self.assertTrue(sun.material.hidden_from_camera)
+        self.assertEqual((lamp.center, lamp.radius), ((2, 2, 6), 0.5))
+        self.assertFalse(lamp.material.hidden_from_camera)
+        np.testing.assert_allclose(lamp.material.emission, np.array([0.5, 1, 2]) * 170 / 0.25, rtol=1e-12)
+        self.assertEqual(sky.material.emission, (0.5, 0.25, 0.125))
+        faded = parsed(("Rad 0.5 Color", "Rad 0.5 Attenuation Constant 1 Linear 0 Quadratic 0.1 Color")).scene.spheres[1]
+        np.testing.assert_allclose(faded.material.emission[0], 0.5 * 170 / 0.25 / 18, rtol=1e-12)
+
+    def test_refusals_name_place_value_and_rule(self):
+        for old, new, message in (
+                ("Rad 2 metal", "Rad 2 silver", '19: "silver": must be TEXTURE or the name of a TEXDEF before it'),
+                ("Rad 2 ", "Rad -2 ", "19: RAD = -2: must be above 0"),
+                ("Rad 2 ", "Rad nan ", '19: RAD = "nan": must be a finite number'),
+                ("Rad 2 ", "2 ", '19: "2" must be RAD'),
+                ("Aspectratio 1", "Aspectratio 1.5", "7: ASPECTRATIO: must be 1, pixels are square"),
+                ("Zoom 0.5", "Projection Fisheye Zoom 0.5",
+                 '6: PROJECTION "FISHEYE": must be PERSPECTIVE, PERSPECTIVE_DOF or ORTHOGRAPHIC'),
+                ("End_Camera", "Frustum -1 1 -0.25 0.75 End_Camera",
+                 "13: FRUSTUM: must be even about the middle, and of square pixels"),
+                ("Normal 0 2 1", "Normal 0 0 0", "22: NORMAL: must not be 0 0 0"),
+                ("TexFunc 0", "TexFunc 11", "17: TEXFUNC: must be a whole number from 0 to 10"),
+                ("Resolution 64", "Resolution 6.5", "3: RESOLUTION = 6.5: must be a whole number from 1 to 2^32 - 1"),
+                ("End_Scene", "", "23: the file ends where END_SCENE must be: it was cut short"),
+                ("Sphere Center 0", "FCylinder Base 0", "20: FCYLINDER is a finite cylinder: "),
+                ("Sphere Center 0", "Ball Center 0", '20: "BALL": must be CAMERA, ')):
+            with self.subTest(new), self.assertRaises(ValueError) as caught:
+                parsed((old, new))
+            self.assertTrue(str(caught.exception).startswith("a.dat:" + message), caught.exception)
+
+    def test_others_are_left_out_if_asked_for(self):
+        triangle = "Tri V0 0 0 0 V1 1 0 0 V2 0 1 0 gold\n"
+        tube = "FCylinder Base 0 0 0 Apex 1 1 1 Rad 0.1 Texture Ambient 0 Diffuse 1 Specular 0 Opacity 1 Color 1 1 1 TexFunc 0\n"
+        found = parsed(("Plane", triangle + tube + triangle + "Plane"), leave_out_others=True)
+        self.assertEqual(found.notes, ["2 x TRI, a triangle: left out", "1 x FCYLINDER, a finite cylinder: left out"])
+        self.assertEqual((len(found.scene.sphere_arrays[0]), len(found.scene.planes)), (2, 1))
+
+    def test_what_is_left_out_is_told_once(self):
+        found = parsed(
+            ("TexFunc 0", "TexFunc 9 wood.ppm Center 0 0 0 Rotate 0 0 0 Scale 1 1 1 UAxis 1 0 0 VAxis 0 1 0"),
+            ("Opacity 1", "Opacity 0.5"), ("Opacity 1", "Opacity 0"),
+            ("Trans_Max_Surfaces 4", "Ambient_Occlusion Ambient_Color 1 1 1 Rescale_Direct 0.3 Samples 12"))
+        self.assertEqual(found.notes, [
+            "a.dat:4: AMBIENT_OCCLUSION: its light from all sides is left out",
+            "a.dat:16: OPACITY: light through surfaces is left out, they are opaque",
+            "a.dat:17: TEXFUNC: patterns and images on surfaces are left out, their plain color is used"])
+
+
+class Lamps(unittest.TestCase):
+    """In a world whose camera at (0, 0, 8) looks at the origin."""
+
+    @staticmethod
+    def around(spheres=(), planes=()):
+        table = np.array(spheres, float).reshape(-1, 4)
+        return _lights.Surroundings(table[:, :3], table[:, 3], list(planes), np.array([0.0, 0, 8]), np.zeros(3))
+
+    def only_lamp(self, light, *surfaces):
+        lamps, warnings = _lights.lamps_of([light], self.around(*surfaces))
+        self.assertEqual((len(lamps), warnings), (1, []))
+        return lamps[0]
+
+    @staticmethod
+    def irradiance(lamp):
+        """Of a surface at the origin that faces it: over the cone of directions to it, cosine times radiance."""
+        widest = math.asin(lamp.radius / np.linalg.norm(lamp.center))
+        angles = (np.arange(20000) + 0.5) * widest / 20000
+        return 2 * math.pi * lamp.material.emission[1] * np.sum(np.cos(angles) * np.sin(angles)) * widest / 20000
+
+    def test_they_light_what_is_looked_at_as_the_light_would(self):
+        for radius in (0, 0.25, 2):
+            lamp = self.only_lamp(_lights.Light("", (1, 0.5, 0), (3, 4, 0), radius=radius))
+            self.assertAlmostEqual(self.irradiance(lamp), math.pi * 0.5, 8)
+            self.assertEqual(lamp.radius, radius or 0.1)
+        sun = self.only_lamp(_lights.Light("", (1, 0.5, 0), (0, 2, 0), is_directional=True))
+        self.assertAlmostEqual(self.irradiance(sun), math.pi * 0.5, 8)
+        self.assertEqual(sun.center[1], 800)
+
+    def test_they_touch_nothing(self):
+        light = _lights.Light("", (1, 1, 1), (3, 4, 0))
+        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 1.9)]).radius, 0.05, 12)
+        self.assertAlmostEqual(self.only_lamp(light, [(3, 4, 2, 2.125)]).radius, 0.0625, 12)  # it is inside
+        plane = pt.Plane((0, 2, 0), -7.9375, 0)
+        self.assertAlmostEqual(self.only_lamp(light, [], [plane]).radius, 0.03125 / 2, 12)
+        seen = _lights.Light("", (1, 1, 1), (0, 0, 7.875), radius=0.125)
+        self.assertEqual(self.only_lamp(seen).radius, 0.0625)  # half of the way to the camera
+        lamps, warnings = _lights.lamps_of([_lights.Light("a:7", (1, 1, 1), (3, 4, 0))],
+                                           self.around(planes=[pt.Plane((0, 1, 0), -4, 0)]))
+        self.assertEqual((lamps, warnings), ([], ["a:7: the light lies on a surface, and is left out"]))
+
+    def test_at_what_is_looked_at_it_is_measured_at_the_camera(self):
+        self.assertEqual(self.only_lamp(_lights.Light("", (1, 1, 1), (0, 0, 0))).radius, 8 / 50)
+
+    def test_the_target_is_among_what_is_seen(self):
+        planes = [pt.Plane((0, 0, 2), -8, 0), pt.Plane((0, 0, 1), 7, 0), pt.Plane((0, 1, 0), 0, 0)]  # behind, ahead, beside
+        for balls, some, z in (([], [], 2), ([], planes, -7), ([(0, 0, 10, 1)], planes, -7),
+                               ([(0, 0, -4, 1), (0, 9, -1, 2)], planes, -2)):
+            table = np.array(balls, float).reshape(-1, 4)
+            target = _lights.view_target(table[:, :3], table[:, 3], some, (1, 2, 3), (0, 0, -5))
+            np.testing.assert_array_equal(target, [1, 2, z])
+
+
+class Pictures(unittest.TestCase):
+    def test_the_first_surfaces_are_those_that_tachyon_shows(self):
+        """Its pictures have 10 (i + 1) in red where ball i is, in green for plane i; it looks through the upper right
+        corners of pixels."""
+        for name in ("perspective", "parallel"):
+            with self.subTest(name):
+                found = read(DATA / f"{name}.dat")
+                self.assertEqual(self.differences(found), (0, True))
+                mirrored = pt.Camera(found.camera.position, found.camera.target,
+                                     tuple(np.multiply(found.camera.up, (-1, 1, 1))), found.camera.vertical_fov,
+                                     vertical_extent=found.camera.vertical_extent)
+                found.camera = mirrored
+                self.assertGreater(self.differences(found)[0], 300)
+
+    def differences(self, found):
+        """Pixels that show something else, of those that are certain, and whether nearly all are."""
+        width, height = found.settings.width, found.settings.height
+        name = "perspective" if found.camera.vertical_extent is None else "parallel"
+        shown = np.frombuffer((DATA / f"{name}.ppm").read_bytes()[-3 * width * height:], np.uint8)
+        red, green = shown.reshape(height, width, 3)[..., 0] // 10, shown.reshape(height, width, 3)[..., 1] // 10
+        spheres = found.scene.sphere_arrays[0]
+        shown = np.where(red > 0, red - 1, len(spheres) + green.astype(int) - 1)
+        starts, ways = self.rays(found.camera, width, height)
+        ways /= np.linalg.norm(ways, axis=-1, keepdims=True)
+        distances = [self.to_sphere(starts - center, ways, radius)
+                     for center, radius in zip(spheres.center, spheres.radius)]
+        with np.errstate(divide="ignore"):
+            distances += [-(starts @ plane.normal + plane.offset) / (ways @ plane.normal) for plane in found.scene.planes]
+        distances = np.array(distances)
+        distances[~(distances > 0)] = np.inf
+        nearest, second = np.partition(distances, 1, axis=0)[:2]
+        certain = second - nearest > 1e-3
+        for center, radius in zip(spheres.center, spheres.radius):  # and not at an edge
+            toward = center - starts
+            miss = np.linalg.norm(toward - np.sum(toward * ways, -1)[..., None] * ways, axis=-1)
+            certain &= np.abs(miss - radius) > 1e-3
+        return int(np.sum(certain & (distances.argmin(axis=0) != shown))), np.mean(certain) > 0.95
+
+    @staticmethod
+    def rays(camera, width, height):
+        right, up, back = camera.axes()
+        x = (np.arange(width) + 1) / width * 2 - 1
+        y = 1 - np.arange(height) / height * 2
+        half = math.tan(camera.vertical_fov / 2) if camera.vertical_extent is None else camera.vertical_extent / 2
+        offset = half * (width / height * x[None, :, None] * right + y[:, None, None] * up)
+        start = np.broadcast_to(camera.position, offset.shape)
+        return (start, offset - back) if camera.vertical_extent is None else (start + offset, np.zeros_like(offset) - back)
+
+    @staticmethod
+    def to_sphere(start, way, radius):
+        b, c = np.sum(start * way, -1), np.sum(start * start, -1) - radius**2
+        with np.errstate(invalid="ignore"):
+            root = np.sqrt(b * b - c)
+        return np.where(-b - root > 0, -b - root, -b + root)
+
+
+class Damage(unittest.TestCase):
+    def outcome(self, text):
+        try:
+            found = parse(text.splitlines(), "a.dat")
+        except ValueError as error:
+            self.assertRegex(str(error), r"\A(a\.dat:\d+: |center|radius|materials|camera)")
+            return None
+        return len(found.scene.sphere_arrays[0]) if found.scene.sphere_arrays else 0
+
+    def test_cut_short_is_refused(self):
+        text = (DATA / "parallel.dat").read_text()
+        end = text.upper().index("END_SCENE") + len("END_SCENE")
+        for size in random.Random(1).choices(range(len(text)), k=200):
+            self.assertEqual(self.outcome(text[:size]) is None, size < end, size)
+
+    def test_changed_bytes_do_no_harm(self):
+        text, chance, refused = (DATA / "perspective.dat").read_text(), random.Random(2), 0
+        for index in range(200):
+            changed = list(text)
+            for _ in range(1 + index % 3):  # half of them in the camera
+                changed[chance.randrange(len(text) if index % 2 else 250)] = chance.choice("0123456789.-+eE# \nvbfls\xff")
+            refused += self.outcome("".join(changed)) is None
+        self.assertTrue(50 < refused < 200, refused)
+
+
+class Command(unittest.TestCase):
+    def test_it_writes_the_scene_that_was_read(self):
+        with tempfile.TemporaryDirectory() as folder:
+            given, written = pathlib.Path(folder, "a.dat"), pathlib.Path(folder, "a.json")
+            given.write_text(SCENE)
+            self.assertEqual(_command.main([str(given), "-o", str(written)]), 0)
+            scene = json.loads(written.read_text())
+            given.write_text(SCENE.replace("Sphere", "Ball"))
+            with mock.patch("sys.stderr") as stderr:
+                self.assertEqual(_command.main([str(given), "-o", str(written)]), 3)
+            self.assertIn("a.dat:19", stderr.write.call_args_list[0].args[0])
+        self.assertEqual(scene["spheres"][1], {"center": [0, 2, -7], "radius": 1, "material": "texture 1"})
+        self.assertEqual(scene["materials"]["texture 1"], {"diffuse": [0, 0.5, 1], "specular": [0.75] * 3, "glossiness": 1e6})
+        self.assertEqual([each["material"] for each in scene["spheres"]], [
+            "texture 0", "texture 1", "light 1", "light 2", "light 3"])
+        self.assertTrue(scene["materials"]["light 1"]["hidden_from_camera"])
+        self.assertEqual(scene["planes"], [{"normal": [0, 2, -1], "offset": 6, "material": "texture 0"}])
+
+
+if __name__ == "__main__":
+    unittest.main()
