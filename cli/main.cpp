@@ -3,6 +3,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
+#include "cli/base/other_program.h"
 #include "cli/base/standard_streams.h"
 #include "cli/base/usage_reason.h"
 #include "cli/bench/bench_command.h"
@@ -22,12 +23,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <iostream>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -43,13 +46,24 @@ public:
     Program() {
         app_.require_subcommand(0, 1);
         app_.formatter(cli::help_formatter());
-        app_.footer(cli::exit_code_help);
+        app_.footer(
+            "pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, view and farm come\n"
+            "with the Python package.\n\n" +
+            std::string(cli::exit_code_help));
         app_.set_version_flag("--version", "pt " + cli::version_text(), "Print the version and exit");
         say_help(app_);
         add_commands();
     }
 
     int run(int argument_count, char **arguments) {
+        const std::string_view name = argument_count > 1 ? arguments[1] : "";
+        const auto is_named = [&](const Command &command) { return command.app->get_name() == name; };
+        if (cli::may_name_program(name) && std::none_of(commands_.begin(), commands_.end(), is_named)) {
+            cli::run_other_program(name, arguments + 1);
+            if (const std::string_view how = cli::installation_of(name); !how.empty())
+                return fail(cli::ExitCode::usage,
+                            "there is no pt-" + std::string(name) + " in the PATH, which " + std::string(how));
+        }
         try {
             app_.parse(argument_count, arguments);
         } catch (const CLI::ParseError &error) {
