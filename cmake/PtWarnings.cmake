@@ -10,6 +10,7 @@ target_compile_options(
             -Wextra
             -Wpedantic
             -Wconversion
+            $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion> # of which GCC's -Wconversion has none for C++
             $<IF:${pt_in_batches},$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow>
             $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror> # other projects have other compilers
             -ffp-contract=off # own arithmetic has the same bits where processors have fused multiplications

@@ -50,9 +50,9 @@ std::size_t terminal_columns() {
 }
 
 Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
-                   Clock::time_point start, std::function<std::size_t()> column_count) :
+                   Clock::time_point start, std::function<std::size_t()> columns) :
     output_(output),
-    column_count_(std::move(column_count)),
+    column_count_(std::move(columns)),
     style_(style),
     pixel_count_(static_cast<double>(pixel_count)),
     sample_count_(sample_count),

@@ -20,9 +20,9 @@ class Progress {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // pixel_count times sample_count samples are to be taken from now on. column_count: how wide the terminal is now.
+    // pixel_count times sample_count samples are to be taken from now on. columns: how wide the terminal is now.
     Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixel_count, std::uint64_t sample_count,
-             Clock::time_point start, std::function<std::size_t()> column_count = &terminal_columns);
+             Clock::time_point start, std::function<std::size_t()> columns = &terminal_columns);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
     ~Progress(); // leaves the terminal's line empty for what is printed next

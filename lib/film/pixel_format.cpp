@@ -29,7 +29,7 @@ void write_with_alpha(std::span<const float> values, std::byte *to, const Conver
 std::uint16_t half_bits(float value) {
     constexpr std::uint32_t smallest_normal = 0x38800000; // 2^-14
     constexpr std::uint32_t difference_of_biases = 0x38000000;
-    constexpr std::uint32_t infinity = 0x7c00;
+    constexpr std::uint32_t half_infinity = 0x7c00;
     const auto float_bits = std::bit_cast<std::uint32_t>(value);
     // Of numbers below 2^-14 the last bit is 2^-24; those below 2^-25 become 0, whatever their bits.
     const bool normal = float_bits >= smallest_normal;
@@ -40,7 +40,7 @@ std::uint16_t half_bits(float value) {
     const std::uint32_t half_of_last = 1U << (dropped - 1);
     const bool up = rest > half_of_last || (rest == half_of_last && kept % 2 == 1);
     // A carry goes into the exponent, and from the largest number to infinity.
-    return static_cast<std::uint16_t>(std::min(kept + (up ? 1U : 0U), infinity));
+    return static_cast<std::uint16_t>(std::min(kept + (up ? 1U : 0U), half_infinity));
 }
 
 void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to) {

@@ -122,10 +122,10 @@ void ErrorReader::list_counts(const TileSamples &samples) {
 void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
-    const auto *const squares = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_bytes().data());
+    const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_bytes().data());
     for (std::size_t tile = 0; tile < query.tile_squares.size(); ++tile)
         query.tile_squares[tile] =
-            static_cast<double>(squares[tile].x) * factor + static_cast<double>(squares[tile].y) / units.factor;
+            static_cast<double>(of_tiles[tile].x) * factor + static_cast<double>(of_tiles[tile].y) / units.factor;
 }
 
 void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {

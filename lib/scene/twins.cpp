@@ -120,8 +120,8 @@ std::vector<bool> twins_of_earlier(const std::vector<Element> &elements, const L
     std::vector<bool> is_twin(elements.size());
     for (const auto &[index, i] : crowded) {
         const Element &element = elements[index];
-        const auto is_twin_of = [&, index = index](std::uint32_t other) {
-            return other < index && !is_twin[other] && are_twins(element, elements[other]);
+        const auto is_twin_of = [&, own_index = index](std::uint32_t other) {
+            return other < own_index && !is_twin[other] && are_twins(element, elements[other]);
         };
         is_twin[index] = line.any_near(i, reach(element), is_twin_of);
     }

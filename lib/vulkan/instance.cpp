@@ -17,11 +17,13 @@ namespace {
 
 constexpr const char *validation_layer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
-                                          VkDebugUtilsMessageTypeFlagsEXT /*types*/,
-                                          const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
-    const int32_t level = severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? PT_LOG_ERROR : PT_LOG_WARNING;
-    static_cast<const Log *>(user)->write(level, data->pMessage ? data->pMessage : "");
+// The parameters are types of the C header, or of Vulkan-Hpp itself where that is newer.
+template <typename Severity, typename Types, typename Data>
+VKAPI_ATTR VkBool32 VKAPI_CALL on_message(Severity severity, Types /*types*/, const Data *data, void *user) {
+    const bool is_error = static_cast<vk::DebugUtilsMessageSeverityFlagBitsEXT>(severity) >=
+                          vk::DebugUtilsMessageSeverityFlagBitsEXT::eError;
+    static_cast<const Log *>(user)->write(is_error ? PT_LOG_ERROR : PT_LOG_WARNING,
+                                          data->pMessage ? data->pMessage : "");
     return VK_FALSE;
 }
 

@@ -37,7 +37,8 @@ public:
     explicit QueueSpy(const vk::raii::Device &device) {
         counts = {};
         // The dispatcher is the device's own table of functions, and no constant.
-        auto *functions = const_cast<vk::raii::DeviceDispatcher *>(device.getDispatcher());
+        using Functions = std::remove_cvref_t<decltype(*device.getDispatcher())>;
+        auto *functions = const_cast<Functions *>(device.getDispatcher());
         real_submit = functions->vkQueueSubmit;
         functions->vkQueueSubmit = &submit;
         functions->vkQueueWaitIdle = [](VkQueue) { return wait(); };

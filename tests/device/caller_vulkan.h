@@ -27,9 +27,9 @@ public:
         return std::exchange(lines_, {});
     }
 
-    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/,
-                                                  VkDebugUtilsMessageTypeFlagsEXT /*types*/,
-                                                  const VkDebugUtilsMessengerCallbackDataEXT *data, void *user) {
+    template <typename Severity, typename Types, typename Data> // of the C header, or of newer versions of Vulkan-Hpp
+    static VKAPI_ATTR VkBool32 VKAPI_CALL receive(Severity /*severity*/, Types /*types*/, const Data *data,
+                                                  void *user) {
         auto *messages = static_cast<LayerMessages *>(user);
         const std::lock_guard held(messages->mutex_);
         messages->lines_.emplace_back(data->pMessage);
