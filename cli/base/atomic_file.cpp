@@ -11,6 +11,20 @@
 #include <unistd.h>
 
 namespace cli {
+namespace {
+
+// The kernel's rule for protected symbolic links (proc_sys_fs(5)), which it cannot apply here because it does not
+// follow them: where everybody may put links that nobody else can remove, only those of the user and of the folder's
+// owner count. Another user's cannot be put in their place between this and the reading of the link.
+bool may_follow(const std::filesystem::path &link, const struct stat &of_link) {
+    constexpr mode_t open_to_all = S_ISVTX | S_IWOTH;
+    struct stat folder {};
+    return stat(link.has_parent_path() ? link.parent_path().c_str() : ".", &folder) == 0 &&
+           ((folder.st_mode & open_to_all) != open_to_all || of_link.st_uid == geteuid() ||
+            of_link.st_uid == folder.st_uid);
+}
+
+} // namespace
 
 AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(target_of(path)), file_(create_temporary()) {}
 
@@ -22,9 +36,16 @@ AtomicFile::~AtomicFile() {
 
 std::filesystem::path AtomicFile::target_of(const std::string &path) {
     constexpr int most_links = 40; // Linux follows no more (path_resolution(7))
-    std::error_code error;
     std::filesystem::path target = path;
-    for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+    struct stat status {};
+    for (int i = 0; i < most_links && lstat(target.c_str(), &status) == 0 && S_ISLNK(status.st_mode); ++i) {
+        if (!may_follow(target, status)) {
+            throw Failure(ExitCode::file,
+                          "cannot write " + path + ": the link " + target.string() +
+                              " is another user's, in a folder where everybody may write; only your own "
+                              "links and those of the folder's owner are followed there");
+        }
+        std::error_code error;
         target = target.parent_path() / std::filesystem::read_symlink(target, error);
     }
     return target;
@@ -88,8 +109,8 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 
 void AtomicFile::commit() {
     struct stat status {};
-    if (stat(target_.c_str(), &status) == 0) {
-        fchmod(file_.get(), status.st_mode & 07777); // a replaced file keeps its permissions where possible
+    if (lstat(target_.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+        fchmod(file_.get(), status.st_mode & 0777); // a replaced file keeps its permissions where possible
     }
     // The data have to be on the disk before the name is: otherwise a crash could leave an empty file in its place.
     if (fsync(file_.get()) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0) {

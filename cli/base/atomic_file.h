@@ -33,7 +33,8 @@ public:
     static void check_writable(const std::string &path);
 
     // The file that is written. Symbolic links are followed, whether or not their target exists yet: a rename would
-    // replace the link itself.
+    // replace the link itself. Those of other users in sticky folders where everybody may write are refused by
+    // Failure(ExitCode::file), unless they belong to the folder's owner.
     static std::filesystem::path target_of(const std::string &path);
 
 private:

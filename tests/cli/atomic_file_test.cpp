@@ -68,6 +68,44 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
     EXPECT_EQ(status.st_mode & 0777, 0640U);
 }
 
+// The table of proc_sys_fs(5), protected_symlinks. Root's links are made over to another user.
+TEST(AtomicFile, FollowsNoOneElsesLinksWhereEverybodyMayWrite) {
+    if (geteuid() != 0) {
+        GTEST_SKIP() << "only root can make links that belong to others";
+    }
+    constexpr uid_t another = 65534;
+    constexpr uid_t third = 65533;
+    struct Case {
+        mode_t folder;
+        uid_t folder_owner;
+        uid_t link_owner;
+        bool is_followed;
+    };
+    for (const Case &c : {Case{01777, 0, another, false}, Case{01777, third, another, false},
+                          Case{01777, third, 0, true}, Case{01777, another, another, true},
+                          Case{0777, 0, another, true}, Case{01755, 0, another, true}, Case{01775, 0, another, true}}) {
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder.file("of root"));
+        std::filesystem::create_directory(folder.file("open"));
+        folder.write("of root/target", "old");
+        std::filesystem::create_symlink("../of root/target", folder.file("open/link"));
+        std::filesystem::create_symlink("open/link", folder.file("own link")); // to a link that may not be followed
+        ASSERT_EQ(lchown(folder.file("open/link").c_str(), c.link_owner, c.link_owner), 0);
+        ASSERT_EQ(chown(folder.file("open").c_str(), c.folder_owner, c.folder_owner), 0);
+        ASSERT_EQ(chmod(folder.file("open").c_str(), c.folder), 0);
+        for (const char *path : {"open/link", "own link"}) {
+            const std::string refusal = refusal_of(folder.file(path));
+            EXPECT_EQ(refusal, c.is_followed
+                                   ? ""
+                                   : "cannot write " + folder.file(path) + ": the link " + folder.file("open/link") +
+                                         " is another user's, in a folder where everybody may write; only your "
+                                         "own links and those of the folder's owner are followed there")
+                << path << ' ' << std::oct << c.folder << ' ' << std::dec << c.folder_owner << ' ' << c.link_owner;
+        }
+        EXPECT_EQ(folder.read("of root/target"), "old");
+    }
+}
+
 TEST(AtomicFile, CheckLeavesNothing) {
     const TemporaryFolder folder;
     EXPECT_EQ(refusal_of(folder.file("a")), "");

@@ -9,6 +9,7 @@ import os
 import struct
 import subprocess
 import time
+import unittest
 
 from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
 
@@ -167,6 +168,31 @@ class SameFiles(CommandLineTest):
         self.assertEqual(os.listdir(self.path("folder")), ["new.png"])
         os.symlink("loop.png", self.path("loop.png"))
         self.expect(6, "render", "s.png", "-o", "loop.png", error="cannot write loop.png: Too many levels")
+
+
+@unittest.skipUnless(os.geteuid() == 0, "needs root, for a second user")
+class LinksOfOthers(CommandLineTest):
+    """Nobody's links in a folder like /tmp lead root to no file, whichever output it is."""
+    RULE = "is another user's, in a folder where everybody may write; only your own links"
+
+    def test_they_are_refused_before_anything_is_rendered(self):
+        self.write("s.json", SCENE)
+        self.expect(0, "render", "s.json", "-o", "r.exr", "--spp", "16")
+        os.mkdir(self.path("open"))
+        os.chmod(self.path("open"), 0o1777)
+        os.chmod(self.folder, 0o755)
+        render = ("render", "s.json", "--spp", "16", "-o", "a.exr")
+        for name, command in (("a.png", ("render", "s.json", "--spp", "16", "-o")), ("a.exr", (*render[:4], "-o")),
+                              ("e.exr", (*render, "--standard-error")), ("a.json", (*render, "--stats")),
+                              ("a.ptfilm", (*render, "--film")), ("c.ptfilm", (*render, "--checkpoint")),
+                              ("t.png", ("tonemap", "r.exr"))):
+            with self.subTest(name=name):
+                self.write("of root", "kept")
+                target = "../of root" if "--checkpoint" not in command else "../new"  # one that is there is kept anyway
+                subprocess.run(["ln", "-s", target, name], cwd=self.path("open"), check=True, user=65534)
+                self.expect(6, *command, f"open/{name}", error=f"cannot write open/{name}: the link open/{name} {self.RULE}")
+                self.assertEqual((self.read("of root"), self.files()),
+                                 ("kept", ["of root", "open", "r.exr", "s.json"]))
 
 
 class EqualRuns(CommandLineTest):

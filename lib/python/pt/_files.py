@@ -16,7 +16,7 @@ def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:
     place = pathlib.Path(path)
     beside = place.with_name(f".{place.name}.{uuid.uuid4().hex}")
     try:
-        with open(beside, "wb") as file:
+        with open(beside, "xb") as file:
             write(file)
         beside.replace(place)
     finally:
