@@ -1,7 +1,5 @@
 #include "cli/base/vector_width.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -11,11 +9,14 @@ namespace {
 
 constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH"; // in bits
 constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
+constexpr const char *no_cache_name = "MESA_SHADER_CACHE_DISABLE";
 
-// If the user has set one of these, neither the width nor the folder of compiled shaders is changed, because one is not
-// safe without the other (see wide_vectors). The last two are older names of Mesa's.
-constexpr std::array choices{width_name, cache_name, "MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR",
-                             "MESA_GLSL_CACHE_DISABLE"};
+// The user's own for Mesa, else this program's; empty if there is neither.
+std::filesystem::path cache_folder(const Environment &environment) {
+    const auto chosen = environment.find(cache_name);
+    return chosen == environment.end() || chosen->second.empty() ? user_cache(environment)
+                                                                 : std::filesystem::path(chosen->second);
+}
 
 bool has_avx512() {
 #if defined(__x86_64__)
@@ -29,31 +30,30 @@ bool has_avx512() {
 } // namespace
 
 // A folder of compiled shaders for this width alone: Mesa's key of a shader does not tell its width (seen with 22.3.6
-// and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512.
+// and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512. The width itself
+// does not depend on that folder: it is part of the device's name, by which films know each other.
 Environment wide_vectors(const Environment &environment) {
-    const bool chosen =
-        std::any_of(choices.begin(), choices.end(), [&](const char *name) { return environment.contains(name); });
-    const std::filesystem::path cache = user_cache(environment);
-    if (chosen || cache.empty()) {
+    if (environment.contains(width_name)) {
         return {};
     }
-    return {{width_name, "512"}, {cache_name, (cache / "shaders-512").string()}};
+    const std::filesystem::path folder = cache_folder(environment);
+    return folder.empty() ? Environment{{width_name, "512"}, {no_cache_name, "true"}}
+                          : Environment{{width_name, "512"}, {cache_name, (folder / "shaders-512").string()}};
 }
 
 void choose_vector_width() {
     if (!has_avx512()) {
         return;
     }
-    const Environment wide = wide_vectors(own_environment());
-    if (wide.empty()) {
-        return;
-    }
-    // Mesa makes the last folder of the path only, and goes without a cache if it cannot: every start would compile
-    // anew.
-    std::error_code error;
-    std::filesystem::create_directories(wide.at(cache_name), error);
-    if (error) {
-        return;
+    Environment wide = wide_vectors(own_environment());
+    // Mesa makes the last folder of the path only.
+    if (const auto folder = wide.find(cache_name); folder != wide.end()) {
+        std::error_code error;
+        std::filesystem::create_directories(folder->second, error);
+        if (error) {
+            wide.erase(folder);
+            wide.emplace(no_cache_name, "true"); // every start compiles anew
+        }
     }
     for (const auto &[name, value] : wide) {
         setenv(name.c_str(), value.c_str(), 1);

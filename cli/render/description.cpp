@@ -83,7 +83,7 @@ Json planes_of(const SceneFile &file) {
 Json environment_of() {
     choose_vector_width();
     Json variables = Json::object();
-    for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR"}) {
+    for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE"}) {
         if (const char *value = std::getenv(name)) {
             variables[name] = value;
         }

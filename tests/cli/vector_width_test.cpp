@@ -30,17 +30,20 @@ TEST(VectorWidth, CacheIsWhereTheUserKeepsCaches) {
     EXPECT_EQ(folder(with(home, "XDG_CACHE_HOME", "x")), "/home/someone/.cache/pt/shaders-512");
 }
 
-TEST(VectorWidth, IsLeftAloneWithoutAPlaceForACache) {
-    EXPECT_EQ(wide_vectors({}), Environment());
-    EXPECT_EQ(wide_vectors({{"HOME", ""}}), Environment());
+TEST(VectorWidth, IsWideWithoutAPlaceForACache) {
+    const Environment without_cache{{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DISABLE", "true"}};
+    EXPECT_EQ(wide_vectors({}), without_cache);
+    EXPECT_EQ(wide_vectors({{"HOME", ""}}), without_cache);
 }
 
-TEST(VectorWidth, IsTheUsersChoice) {
-    for (const char *name : {"LP_NATIVE_VECTOR_WIDTH", "MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE",
-                             "MESA_GLSL_CACHE_DIR", "MESA_GLSL_CACHE_DISABLE"}) {
-        for (const char *value : {"256", "512", "true", ""}) {
-            EXPECT_EQ(wide_vectors(with(home, name, value)), Environment()) << name << '=' << value;
-        }
+TEST(VectorWidth, IsTheUsersChoiceAndThePlaceOfTheCacheIs) {
+    for (const char *value : {"256", "512", ""}) {
+        EXPECT_EQ(wide_vectors(with(home, "LP_NATIVE_VECTOR_WIDTH", value)), Environment()) << value;
+    }
+    EXPECT_EQ(wide_vectors(with(home, "MESA_SHADER_CACHE_DIR", "/mine")),
+              (Environment{{"LP_NATIVE_VECTOR_WIDTH", "512"}, {"MESA_SHADER_CACHE_DIR", "/mine/shaders-512"}}));
+    for (const char *name : {"MESA_SHADER_CACHE_DISABLE", "MESA_GLSL_CACHE_DISABLE", "MESA_GLSL_CACHE_DIR"}) {
+        EXPECT_EQ(wide_vectors(with(home, name, "true")), wide_vectors(home)) << name;
     }
 }
 

@@ -46,13 +46,20 @@ class RealDeviceWidth(CommandLineTest):
         self.assertIn("512 bits", self.render("a.exr"))
         self.assertTrue(os.listdir(self.path("cache/pt/shaders-512")))
         self.assertIn("256 bits", self.render("a.exr", LP_NATIVE_VECTOR_WIDTH=256))
-        self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DIR=self.path("mine")))
-        self.assertIn("256 bits", self.render("a.exr", MESA_SHADER_CACHE_DISABLE="true"))
+        self.assertIn("512 bits", self.render("a.exr", MESA_SHADER_CACHE_DIR=self.path("mine")))
+        self.assertTrue(os.listdir(self.path("mine/shaders-512")))
 
-    def test_not_where_no_cache_can_be(self):
+    def test_a_checkpoint_goes_on_wherever_caches_can_be(self):
+        """Cron, services and other users have other folders for caches, or none."""
         self.write("file", "")
-        self.expect(0, "devices", "--json", XDG_CACHE_HOME=self.path("file"))
-        self.assertIn("256 bits", self.output)
+        picture = ("render", COURSEWORK, "--size", "16x8", "--device", self.device, "--checkpoint", "c.ptfilm", "--spp")
+        self.expect(0, *picture, "8", "-o", "a.png", XDG_CACHE_HOME=self.path("cache"))
+        for spp, folders in (("16", {"HOME": "", "XDG_CACHE_HOME": ""}), ("24", {"XDG_CACHE_HOME": self.path("file")}),
+                             ("32", {"MESA_SHADER_CACHE_DISABLE": "true"})):
+            self.expect(0, *picture, spp, "-o", "a.png", "--resume", **folders)
+        self.expect(2, *picture, "40", "-o", "a.png", "--resume", LP_NATIVE_VECTOR_WIDTH=256,
+                    error="choose that model of device by --device, or on a CPU the width of its vectors by "
+                    "LP_NATIVE_VECTOR_WIDTH, or begin anew")
 
     def test_the_picture_is_the_same(self):
         for seed in (1, 2):
