@@ -6,8 +6,6 @@
 #include "cli/base/other_program.h"
 #include "cli/base/standard_streams.h"
 #include "cli/base/usage_reason.h"
-#include "cli/bench/bench_command.h"
-#include "cli/bench/bench_options.h"
 #include "cli/compare/compare_command.h"
 #include "cli/figure/figure_command.h"
 #include "cli/film/merge_command.h"
@@ -110,9 +108,6 @@ private:
         cli::add_compare_options(add("compare", "Compare an image with a reference", cli::compare_help,
                                      [this] { return cli::run_compare(compare_); }),
                                  compare_);
-        cli::add_bench_options(add("bench", "Measure the error and the time of samplers and estimators",
-                                   cli::bench_help, [this] { return cli::run_bench(bench_); }),
-                               bench_);
         cli::add_merge_options(add("merge", "Add films of one picture that were rendered apart", cli::merge_help,
                                    [this] { return cli::run_merge(merge_); }),
                                merge_);
@@ -149,7 +144,6 @@ private:
     cli::FigureOptions figure_;
     cli::TonemapOptions tonemap_;
     cli::CompareOptions compare_;
-    cli::BenchOptions bench_;
     cli::MergeOptions merge_;
     cli::SelftestOptions selftest_;
     cli::CompletionOptions completion_;

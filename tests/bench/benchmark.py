@@ -1,7 +1,7 @@
 """Renders the scenes of the benchmark with pt's default, with every other sampler and estimator, and with Mitsuba where
 it can express the scene; prints one table, and draws one plot of error against time.
 
-    python3 tests/bench/benchmark.py --pt build/bin/pt --mitsuba mitsuba/bin/python --json benchmark.json
+    PT_LIBRARY=build/lib/libpt.so python3 tests/bench/benchmark.py --mitsuba mitsuba/bin/python --json benchmark.json
 
 The plot is benchmark.png, and needs matplotlib. What is behind is printed first. Mitsuba is any Python that can import
 it (peer_mitsuba.py says how to install it).
@@ -25,18 +25,17 @@ import tempfile
 
 from bench_scenes import NAMES, REFERENCES, SIZE, load_scene, read_reference_table, sample_counts, scene_path
 from benchmark_figures import DEFAULT, ESTIMATORS, SAMPLERS, print_report, scene_figures
-from devices import runs_on_cpu
 from mitsuba_scene import obstacle
 
+ERROR_AND_TIME = [sys.executable, "-B", str(pathlib.Path(__file__).with_name("error_and_time.py"))]
 MITSUBA_FACTOR = 4  # its numbers of samples go so much further, to reach the same errors
 
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--pt", default="build/bin/pt", help="the program (default: build/bin/pt)")
     parser.add_argument("--mitsuba", metavar="PYTHON", help="interpreter that can import Mitsuba (default: without it)")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
-    parser.add_argument("--device", help="as for pt bench")
+    parser.add_argument("--device", help="of pt (default: the best)")
     parser.add_argument("--scenes", nargs="+", choices=NAMES, default=NAMES)
     parser.add_argument("--samples", type=int, nargs="+", help="per pixel, at least two numbers (default: the scene's)")
     parser.add_argument("--rounds", type=int, default=3)
@@ -50,7 +49,7 @@ def parse_arguments():
 
 
 def bench(command, folder):
-    """What a program that writes its figures as pt bench does has measured."""
+    """What a program that writes its figures as error_and_time.py does has measured."""
     path = os.path.join(folder, "bench.json")
     subprocess.run([*command, "--json", path], check=True)
     with open(path, encoding="utf-8") as file:
@@ -61,7 +60,7 @@ def run_pt(options, name, counts, number, folder):
     """One round: option -> cells, and the device."""
     cells = {}
     for samplers, estimators in ((SAMPLERS, DEFAULT[1:]), (DEFAULT[:1], ESTIMATORS)):
-        command = [options.pt, "bench", str(scene_path(name)), "--reference", str(options.references / f"{name}.exr"),
+        command = [*ERROR_AND_TIME, str(scene_path(name)), "--reference", str(options.references / f"{name}.exr"),
                    "--size", "{}x{}".format(*SIZE), "--samplers", ",".join(samplers), "--estimators",
                    ",".join(estimators), "--spp", counts, "--rounds", "1", "--seed", str(10 * number), "--quiet"]
         result = bench(command + (["--device", options.device] if options.device else []), folder)
@@ -111,7 +110,7 @@ def main():
         for name in options.scenes:
             print(f"round {number + 1} of {options.rounds}: {name}", file=sys.stderr, flush=True)
             measure_round(options, name, number, report)
-    on_cpu = all(runs_on_cpu(options.pt, scene["device"]) for scene in report["scenes"].values())
+    on_cpu = all(scene["device"]["is_cpu"] for scene in report["scenes"].values())
     report["unit"] = "CPU seconds" if on_cpu else "seconds"
     for name, scene in report["scenes"].items():
         scene.update(scene_figures(scene["rounds"], "processor_seconds" if on_cpu else "seconds"),

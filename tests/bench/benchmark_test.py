@@ -1,5 +1,5 @@
 """Tests of the benchmark: how it reckons, that its scenes and references belong together, and that it runs. No clock is
-judged. Arguments: PT [unittest arguments]; PT_LIBRARY names the library."""
+judged. PT_LIBRARY names the library."""
 
 import contextlib
 import io
@@ -18,7 +18,6 @@ from block_means import block_means, compare, whole_means
 from cost_of_error import cost_of_error
 from mitsuba_scene import obstacle
 
-PT = os.path.abspath(sys.argv[1])
 FOLDER = pathlib.Path(__file__).resolve().parent
 SCENE = "large-lamp"
 
@@ -102,7 +101,7 @@ class RealDevice(unittest.TestCase):
             return {path.name: path.read_bytes() for path in pathlib.Path(folder).iterdir()}, done.stdout
 
     def test_the_benchmark_runs(self):
-        files, output = self.run_script("benchmark.py", "--pt", PT, "--scenes", SCENE, "--samples", "2", "32",
+        files, output = self.run_script("benchmark.py", "--scenes", SCENE, "--samples", "2", "32",
                                         "--rounds", "1", "--json", "FOLDER/b.json")
         scene = json.loads(files["b.json"])["scenes"][SCENE]
         self.assertEqual(list(scene["options"]), ["default", "random", "halton", "halton-cp", "uniform", "cosine",
@@ -125,4 +124,4 @@ class RealDevice(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
+    unittest.main()

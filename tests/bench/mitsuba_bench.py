@@ -1,4 +1,4 @@
-"""Does for Mitsuba what `pt bench` does for pt: renders a scene with several numbers of samples, and writes the seconds
+"""Does for Mitsuba what error_and_time.py does for pt: renders a scene with several numbers of samples, and writes the seconds
 and the error of each. peer_mitsuba.py says how to install Mitsuba."""
 
 import argparse

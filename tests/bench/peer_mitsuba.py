@@ -1,7 +1,8 @@
 """Renders the coursework scene with Mitsuba 3 and with pt in turn, and compares their speeds and errors.
 
-    python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba
-    DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/peer_mitsuba.py --pt build/bin/pt --json peer.json
+    python3 -m venv mitsuba && mitsuba/bin/pip install mitsuba openimageio
+    PT_LIBRARY=build/lib/libpt.so DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python \
+        tests/bench/peer_mitsuba.py --json peer.json
 
 Variant llvm_ad_rgb runs on the CPU and needs LLVM's shared library (Debian: libllvm19; with libllvm15 Mitsuba 3.9.1 ends
 with "Cannot select: fminimum" on processors with AVX-512); cuda_ad_rgb runs on a GPU. The scene is the same
@@ -40,6 +41,7 @@ PATH_LENGTHS = {
     6: {"pt": [4, 16, 64, 256], "targets": [0.3, 0.2, 0.14, 0.1, 0.07, 0.05, 0.035],
         "mitsuba": [16, 64, 256, 400, 1024], "errors": [5e-3, 1e-3]},
 }
+ERROR_AND_TIME = [sys.executable, "-B", os.path.join(ROOT, "tests/bench/error_and_time.py")]
 PT_SAMPLERS = {"multijitter": "sobol", "independent": "random"}  # what stands beside which sampler of Mitsuba's
 BRANCHES = {2: 1, 6: 4}  # paths of pt's from the first vertex of a sample
 
@@ -47,7 +49,7 @@ BRANCHES = {2: 1, 6: 4}  # paths of pt's from the first vertex of a sample
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--pt", default="build/bin/pt", help="the program (default: build/bin/pt)")
-    parser.add_argument("--device", help="pt's device, as for pt bench")
+    parser.add_argument("--device", help="of pt (default: the best)")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="of Mitsuba (default: llvm_ad_rgb)")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--lengths", type=int, nargs="+", choices=PATH_LENGTHS, default=list(PATH_LENGTHS))
@@ -57,10 +59,10 @@ def parse_arguments():
 
 
 def run_pt(options, scene, reference, length, round_number, samplers, *aims):
-    """One round of pt bench, with numbers of samples or target errors: sampler -> point of each -> (cost, relMSE)."""
+    """One round of error_and_time.py, with numbers of samples or target errors: sampler -> point of each -> (cost, relMSE)."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "bench.json")
-        command = [options.pt, "bench", scene, "--reference", reference, "--max-path-length", str(length),
+        command = [*ERROR_AND_TIME, scene, "--reference", reference, "--max-path-length", str(length),
                    "--samplers", ",".join(samplers), *aims,
                    "--rounds", "1", "--seed", str(1000 * round_number), "--json", path, "--quiet"]
         subprocess.run(command + (["--device", options.device] if options.device else []), check=True)

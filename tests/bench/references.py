@@ -4,7 +4,7 @@
     DRJIT_LIBLLVM_PATH=libLLVM.so.19.1 mitsuba/bin/python tests/bench/references.py check made
 
 `render` needs nothing but Python and libpt. It writes NAME.pfm, the mean of 16 images of different seeds by `mis` and
-`sobol`, and NAME.json, with the image's own squared error (relMSE as in `pt bench`, from how the 16 differ) and block
+`sobol`, and NAME.json, with the image's own squared error (relMSE as in error_and_time.py, from how the 16 differ) and block
 means of 64 images by another estimator with random numbers. The rule is that its own error is at most a hundredth of
 the smallest that is measured against it. The benchmark measures at up to 256 samples; an error that falls as 1/N, the
 slowest, is at 16 x 16,384 samples a thousandth of that. benchmark.py says where the rule is broken.

@@ -46,12 +46,11 @@ class Usage(CommandLineTest):
         render = ["render", COURSEWORK, "-o", "a.png"]
         for arguments, error in ((["rendr", COURSEWORK], 'unknown command "rendr", did you mean "render"? (see pt'),
                                  (["scene.json"], 'command "scene.json", known: render, figure, tonemap, compare, '
-                                                  'bench, merge, selftest, schema, devices, completion, man'),
+                                                  'merge, selftest, schema, devices, completion, man'),
                                  (["render", COURSEWORK, "--outptu", "a.png"],
                                   'unknown option "--outptu", did you mean "--output"? (see pt render --help)'),
                                  ([*render, "--expsure", "-3"], 'mean "--exposure"?'),
                                  ([*render, "--expsure=-3"], 'unknown option "--expsure",'),
-                                 (["bench", COURSEWORK, "--sampler", "x"], 'mean "--samplers"? (see pt bench --help)'),
                                  (["selftest", "--devcie", "0"], 'mean "--device"? (see pt selftest --help)'),
                                  ([*render, "--spp"], "pt: --spp: its value is missing: N (see pt render --help)"),
                                  (["render", "a.json", "-o"], "pt: --output: its value is missing: IMAGE (see"),
@@ -160,14 +159,14 @@ class SceneErrors(CommandLineTest):
     def test_what_no_sample_can_be_taken_of_leads_back_too(self):
         fault = {"FAKE_PT_FAIL": f"accumulate:{RESULT['UNSUPPORTED']}"}
         length = {"FAKE_PT_RULE": "render,-1,max_path_length,-1,,6,too long", **fault}
-        for command in (("render", COURSEWORK, "-o", "a.png"), ("bench", COURSEWORK)):
-            self.expect(3, *command, **fault, FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
-                        error=place_in_coursework('"center":') + ": spheres[0].motion = (1; 2; 3): too far")
-            self.expect(3, *command, **length,
-                        error=place_in_coursework('"max_path_length":') + ": render.max_path_length = 6: too long")
-            self.expect(2, *command, "--max-path-length", "6", **length, error="pt: --max-path-length = 6: too long")
-            self.expect(4, *command, **fault, FAKE_PT_MESSAGE="more than this device can bind",
-                        error="pt: more than this device can bind")
+        command = "render", COURSEWORK, "-o", "a.png"
+        self.expect(3, *command, **fault, FAKE_PT_RULE="spheres,0,motion,-1,,(1; 2; 3),too far",
+                    error=place_in_coursework('"center":') + ": spheres[0].motion = (1; 2; 3): too far")
+        self.expect(3, *command, **length,
+                    error=place_in_coursework('"max_path_length":') + ": render.max_path_length = 6: too long")
+        self.expect(2, *command, "--max-path-length", "6", **length, error="pt: --max-path-length = 6: too long")
+        self.expect(4, *command, **fault, FAKE_PT_MESSAGE="more than this device can bind",
+                    error="pt: more than this device can bind")
         self.expect(4, "render", COURSEWORK, "-o", "a.png", "--device", "7",
                     FAKE_PT_FAIL=f"create:{RESULT['NO_DEVICE']}", FAKE_PT_RULE="create,-1,device,-1,,7,too large",
                     error="pt: --device = 7: too large")
@@ -317,11 +316,6 @@ class Outputs(CommandLineTest):
         stats = json.loads(self.read("s.json"))
         self.assertEqual((stats["scene"], stats["device"]["name"], stats["spp"]), ("sc\ufffdne.json", "d\ufffdvice", 3))
 
-        self.expect(0, "bench", scene, "--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2",
-                    "--json", "b.json", **bad_device)
-        bench = json.loads(self.read("b.json"))
-        self.assertEqual((bench["scene"], len(bench["cells"])), ("sc\ufffdne.json", 1))
-
         self.run_pt("selftest", "--json", "t.json", **bad_device)
         self.assertEqual(json.loads(self.read("t.json"))["device"]["name"], "d\ufffdvice")
         self.expect(0, "devices", "--json", **bad_device)
@@ -372,9 +366,8 @@ class RealDevice(CommandLineTest):
         self.write("s.json", '{"camera": {"position": [0, 0, 0], "look_at": [0, 1, 0], "up": [1, 0, 0]},\n'
                              ' "materials": {"floor": {}},\n "spheres": [\n'
                              '{"center": [0, -1e7, 0], "radius": 1e7, "motion": [4e5, 0, 0], "material": "floor"}]}')
-        for command in (("render", "s.json", "-o", "a.png"), ("bench", "s.json", "--rounds", "1")):
-            self.expect(3, *command, "--size", "2x2", "--spp", "1",
-                        error="pt: s.json:4: spheres[0].motion = (400000, 0, 0): a sphere whose surface")
+        self.expect(3, "render", "s.json", "-o", "a.png", "--size", "2x2", "--spp", "1",
+                    error="pt: s.json:4: spheres[0].motion = (400000, 0, 0): a sphere whose surface")
         self.assertEqual(self.files(), ["s.json"])
 
     def test_an_empty_scene_is_black(self):

@@ -23,7 +23,6 @@ LINES = {
     "pt render scene.json -o so": "pt render scene.json -o sound.exr ",
     "pt render scene.json --checkpoint s": "pt render scene.json --checkpoint sums.ptfilm ",
     "pt render scene.json --shader-dir ": "pt render scene.json --shader-dir glsl/",
-    "pt bench scene.json --samplers random,hal": "pt bench scene.json --samplers random,halton",
     "pt merge s": "pt merge sums.ptfilm ",
     "pt tonemap s": "pt tonemap sound.exr ",
     "pt completion z": "pt completion zsh ",

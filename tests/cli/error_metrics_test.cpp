@@ -4,13 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
-#include <vector>
 
 namespace {
 
 using cli::image_error;
-using cli::noise_of_halves;
 
 TEST(ErrorMetrics, EqualImagesHaveNoError) {
     const std::array image{0.0F, 0.5F, 1e30F};
@@ -33,44 +30,6 @@ TEST(ErrorMetrics, TheReferenceIsTheDivisor) {
     const std::array bright{10.0F};
     EXPECT_GT(image_error(bright, dark).relative_mse, 1000.0 * image_error(dark, bright).relative_mse);
     EXPECT_EQ(image_error(bright, dark).mse, image_error(dark, bright).mse);
-}
-
-// Whatever the share, the estimate is the variance of the mean of all samples: 1 / count for samples of variance 1.
-TEST(ErrorMetrics, NoiseOfTheReference) {
-    constexpr std::uint32_t count = 8;
-    constexpr std::size_t values = 20000;
-    for (const std::uint32_t first_count : {2U, 4U, 7U}) {
-        std::mt19937 generator(first_count);
-        std::normal_distribution<float> normal;
-        std::vector<float> first(values);
-        std::vector<float> whole(values);
-        for (std::size_t i = 0; i < values; ++i) {
-            for (std::uint32_t sample = 0; sample < count; ++sample) {
-                const float value = normal(generator);
-                first[i] += sample < first_count ? value / static_cast<float>(first_count) : 0.0F;
-                whole[i] += value / count;
-            }
-        }
-        // A mean of 20000 squares of normal numbers has the relative standard deviation sqrt(2 / 20000) = 0.01.
-        EXPECT_NEAR(noise_of_halves(first, first_count, whole, count).mse * count, 1.0, 0.05) << first_count;
-        EXPECT_GT(std::abs(image_error(first, whole).mse * count - 1.0), first_count == 4 ? -1.0 : 0.5); // unscaled
-    }
-}
-
-TEST(ErrorMetrics, SlopesAndEfficiency) {
-    EXPECT_DOUBLE_EQ(cli::convergence_slope(1.0, 16, 0.25, 64).value(), -1.0);
-    EXPECT_DOUBLE_EQ(cli::convergence_slope(1.0, 16, 1.0, 64).value(), 0.0);
-    EXPECT_EQ(cli::convergence_slope(0.0, 16, 1.0, 64), std::nullopt);
-    EXPECT_EQ(cli::convergence_slope(1.0, 16, 0.5, 16), std::nullopt);
-    EXPECT_EQ(cli::convergence_slope(1.0, 16, 0.0, 64), std::nullopt);
-    EXPECT_DOUBLE_EQ(cli::efficiency(0.5, 4.0).value(), 0.5);
-    EXPECT_EQ(cli::efficiency(0.0, 4.0), std::nullopt);
-}
-
-TEST(ErrorMetrics, Median) {
-    EXPECT_EQ(cli::median(std::array{7.0}), 7.0);
-    EXPECT_EQ(cli::median(std::array{100.0, 1.0, 2.0}), 2.0);
-    EXPECT_EQ(cli::median(std::array{4.0, 100.0, 1.0, 2.0}), 3.0);
 }
 
 } // namespace

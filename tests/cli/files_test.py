@@ -14,7 +14,6 @@ import unittest
 from command_line import COURSEWORK, PATIENCE, RESULT, CommandLineTest, default_signals, main, read_exr_attributes
 
 SCENE = '{"film": {"width": 4, "height": 3}, "render": {"spp": 2}}'
-BENCH = ("--samplers", "random", "--spp", "1", "--rounds", "1", "--size", "2x2")
 
 
 class StandardStreams(CommandLineTest):
@@ -32,8 +31,7 @@ class StandardStreams(CommandLineTest):
         self.assertIn("pt: standard input:1: ", self.errors)
         self.pipe(3, "", "render", "-", "-o", "a.png")
         self.assertIn("pt: standard input:1:1: syntax error", self.errors)
-        self.pipe(0, SCENE, "bench", "-", *BENCH, "--json", "b.json")
-        self.assertEqual(self.files(), ["a.png", "b.json", "s.json"])
+        self.assertEqual(self.files(), ["a.png", "s.json"])
 
     def test_a_closed_standard_input_is_told(self):
         done = subprocess.run(["sh", "-c", '"$0" render - -o a.png <&-', self.program], cwd=self.folder,
@@ -43,7 +41,6 @@ class StandardStreams(CommandLineTest):
 
     def test_reports_have_standard_output_to_themselves(self):
         for arguments, line in ((("render", COURSEWORK, "-o", "a.png", "--spp", "2", "--stats", "-"), "wrote a.png: "),
-                                (("bench", COURSEWORK, *BENCH, "--json", "-"), "reference: 64 spp"),
                                 (("selftest", "--json", "-"), "device  fake device")):
             with self.subTest(command=arguments[0]):
                 self.run_pt(*arguments)
@@ -52,8 +49,6 @@ class StandardStreams(CommandLineTest):
                 self.assertTrue(all(text.startswith("pt: ") for text in self.errors.splitlines()), self.errors)
         self.expect(0, "render", COURSEWORK, "-o", "a.png", "--spp", "2", "--stats", "-", "-q")
         self.assertEqual(self.errors, "")
-        self.expect(0, "bench", COURSEWORK, *BENCH, "--csv", "-", "-q")
-        self.assertEqual(len(self.output.splitlines()), 2)
         self.assertEqual(self.files(), ["a.png"])
 
     def test_a_full_standard_output_is_told(self):
@@ -105,22 +100,12 @@ class SameFiles(CommandLineTest):
                 self.refuse(f"-o {name}: is the same file as the scene s.png", "s.png", "-o", name)
                 self.refuse(f"--stats {name}: is the same file as the scene soft.png", "soft.png", "-o", "a.png",
                             "--stats", name)
-                self.refuse(f"--csv {name}: is the same file as the scene s.png", "s.png", "--csv", name,
-                            command="bench")
         self.refuse("-o s.png: is the same file as the scene s.png", "s.png", "--watch", "-o", "s.png")
         with open(self.path("s.png"), encoding="utf-8") as scene:
             done = subprocess.run([self.program, "render", "-", "-o", "s.png", "--spp", "1"], cwd=self.folder,
                                   stdin=scene, capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (2, "pt: -o s.png: is the same file as the scene -\n"))
         self.assertEqual(self.read("s.png"), SCENE)
-
-    def test_the_reference_is_kept(self):
-        self.expect(0, "render", "s.png", "-o", "r.exr", "--size", "2x2")
-        for option in ("--csv", "--json"):
-            done = subprocess.run([self.program, "bench", "s.png", "--reference", "r.exr", option, "./r.exr", *BENCH],
-                                  cwd=self.folder, capture_output=True, text=True, check=False)
-            self.assertEqual((done.returncode, done.stderr),
-                             (2, f"pt: {option} ./r.exr: is the same file as --reference r.exr\n"))
 
     def test_no_output_is_written_twice(self):
         os.symlink("to-be.exr", self.path("dangling.exr"))
@@ -132,9 +117,6 @@ class SameFiles(CommandLineTest):
                                 second)
                 self.refuse(f"--stats {second}: is the same file as --standard-error {first}", "s.png", "-o", "a.jpg",
                             "--standard-error", first, "--stats", second)
-                self.refuse(f"--json {second}: is the same file as --csv {first}", "s.png", "--csv", first, "--json",
-                            second, command="bench")
-        self.refuse("--json -: is the same file as --csv -", "s.png", "--csv", "-", "--json", "-", command="bench")
 
     def test_shaders_are_kept(self):
         os.mkdir(self.path("shaders"))
@@ -157,7 +139,7 @@ class SameFiles(CommandLineTest):
         self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
                     "a.json")
         with open("/dev/null", encoding="utf-8") as null:  # may be all three streams
-            done = subprocess.run([self.program, "bench", "-", *BENCH, "--json", "-"], stdin=null,
+            done = subprocess.run([self.program, "render", "-", "-o", "b.png", "--stats", "-"], stdin=null,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
 

@@ -134,7 +134,7 @@ class RealDevice(CommandLineTest):
             words = command[1:command.index(">")] if ">" in command else command[1:]
             if "--watch" not in command:  # which does not end by itself
                 self.expect(0, *words, *smaller)
-        for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg", "bench.json":
+        for name in "picture.png", "picture.exr", "error.exr", "figures.json", "darker.jpg":
             self.assertIn(name, self.files())
 
     def test_the_first_scene_of_the_readme(self):
@@ -198,20 +198,17 @@ class RealDevice(CommandLineTest):
         self.assertEqual(found, 9)
 
     def test_ranges_of_options(self):
-        found = 0
-        for command, needed in ("render", ["-o", "a.png"]), ("bench", []):
-            ranges = {row[0].strip("`"): range_of(row[2]) for row in rows_after(f"\n## `pt {command}`\n")}
-            ranges = {option: ends for option, ends in ranges.items() if ends}
-            found += len(ranges)
-            for option, ends in ranges.items():
-                for number in beyond(*ends):
-                    self.expect(2, command, "scene.json", *needed, f"{option}={number}", error=option)
-            if command == "render":
-                ranges["--spp"] = (1, 1)  # the most would take a while
-                for end in 0, 1:
-                    options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
-                    self.expect(0, command, "scene.json", *needed, "--size", "4x2", *options)
-        self.assertEqual(found, 14)
+        ranges = {row[0].strip("`"): range_of(row[2]) for row in rows_after("\n## `pt render`\n")}
+        ranges = {option: ends for option, ends in ranges.items() if ends}
+        for option, ends in ranges.items():
+            for number in beyond(*ends):
+                self.expect(2, "render", "scene.json", "-o", "a.png", f"{option}={number}", error=option)
+        found = len(ranges)
+        ranges["--spp"] = (1, 1)  # the most would take a while
+        for end in 0, 1:
+            options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
+            self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "4x2", *options)
+        self.assertEqual(found, 10)
 
     def test_reports_have_the_keys_that_are_told(self):
         self.expect(0, "render", "scene.json", *self.small, "--stats", "s.json", "--progress", "json")

@@ -217,7 +217,7 @@ class Steps:
             require("pt-image-formats" in said and "libopenimageio-dev" in said, f"without the module: {said}")
             require("fraction" not in said, f"rendered before the module was missed: {said}")
             require(not (folder / name).exists(), f"{name} was written without the module")
-        said = run(program, "bench", scene, "--reference", folder / "only.exr", expect=6, **environment)
+        said = run(program, "compare", folder / "only.png", folder / "only.exr", expect=6, **environment)
         require("pt-image-formats" in said, f"without the module: {said}")
 
     def program(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plots the JSON of `pt bench`: relative MSE against seconds, a line for every sampler and estimator.
+"""Plots the JSON of error_and_time.py: relative MSE against seconds, a line for every sampler and estimator.
 
 Lower and further left is better. A hollow mark is within 3 times the reference's own error, which bounds what can be
 told. Writes OUT.png and OUT.svg. Needs matplotlib.
@@ -79,7 +79,7 @@ def plot(bench):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("json", help="file that `pt bench --json` wrote")
+    parser.add_argument("json", help="file that error_and_time.py --json wrote")
     parser.add_argument("output", metavar="OUT", help="name of the plots, without extension")
     arguments = parser.parse_args()
     with open(arguments.json, encoding="utf-8") as file:

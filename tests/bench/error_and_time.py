@@ -1,0 +1,215 @@
+"""Measures the error and the time of samplers and estimators: a table for people, and JSON.
+
+    PT_LIBRARY=build/lib/libpt.so python3 tests/bench/error_and_time.py cli/scenes/coursework.json --size 64x32 \\
+        --samplers random,sobol --spp 4,16 --rounds 1 --json bench.json
+    python3 tests/bench/plot_error.py bench.json bench
+
+Every sampler, estimator and number of samples or target error is rendered in every round, in turn, so that a disturbed
+machine is so for all alike. Round k has the seed + k.
+
+seconds, cpu s  of the sampling alone, the clock's and those of all threads, medians of the rounds; kernels are built before
+mse, rel_mse    mean of (x - r)^2 and of (x - r)^2 / (r^2 + 0.01) against the reference r, means of the rounds
+efficiency      1 / (rel_mse seconds)
+slope           of log MSE against log N since the count above; -1 for independent samples. halton has the same points in
+                every pixel, whatever the seed: its rounds differ little
+"""
+
+import argparse
+import itertools
+import json
+import math
+import os
+import pathlib
+import statistics
+import sys
+import time
+
+import numpy as np
+from table import print_table
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scene_file import read_scene  # noqa: E402
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
+
+MOST_SAMPLES = 65536  # with a target error, as in pt render
+REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if its square falls as 1 / N
+NOISE_MARGIN = 3
+PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
+
+
+def names(known):
+    """Of --samplers and --estimators: names with commas, each once."""
+    def read(text):
+        chosen = list(dict.fromkeys(text.split(",")))
+        for name in chosen:
+            if name not in known:
+                raise argparse.ArgumentTypeError(f'"{name}" is none of {", ".join(known)}')
+        return chosen
+    return read
+
+
+def counts(text):
+    chosen = sorted(set(map(int, text.split(","))))
+    if chosen[0] < 1:
+        raise argparse.ArgumentTypeError(f"{chosen[0]}: must be at least 1")
+    return chosen
+
+
+def shares(text):
+    chosen = sorted({float(each.removesuffix("%")) / (100 if each.endswith("%") else 1) for each in text.split(",")})
+    if not chosen[0] > 0:
+        raise argparse.ArgumentTypeError(f"{chosen[0]}: must be above 0")
+    return chosen[::-1]
+
+
+def size(text):
+    width, height = map(int, text.split("x"))
+    return width, height
+
+
+def parse_arguments(arguments=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scene")
+    parser.add_argument("--size", type=size, metavar="WxH", help="default: the scene's, else 512x512")
+    parser.add_argument("--max-path-length", type=int, metavar="L", help="default: the scene's, else 6")
+    parser.add_argument("--samplers", type=names(SAMPLERS), default=list(SAMPLERS), metavar="NAME,...")
+    parser.add_argument("--estimators", type=names(ESTIMATORS), default=["best"], metavar="NAME,...")
+    aims = parser.add_mutually_exclusive_group()
+    aims.add_argument("--spp", type=counts, default=[16, 64, 256, 1024], metavar="N,...")
+    aims.add_argument("--errors", type=shares, metavar="E,...",
+                      help="until the stated error is at or below these, like 4%%,1%%; with a reference")
+    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--device", help="on which to render (default: the best)")
+    references = parser.add_mutually_exclusive_group()
+    references.add_argument("--reference", metavar="EXR", help="image to compare with (default: rendered first)")
+    references.add_argument("--reference-spp", type=int, metavar="N", help="of one that is rendered (default: 64 times --spp)")
+    parser.add_argument("--json", metavar="FILE", help="write the table and all conditions")
+    parser.add_argument("--quiet", action="store_true", help="print no table")
+    options = parser.parse_args(arguments)
+    if options.errors and not (options.reference or options.reference_spp):
+        parser.error("--errors: needs --reference or --reference-spp, as it is not known how many samples they take")
+    return options
+
+
+def read_exr(path):
+    import OpenImageIO
+    image = OpenImageIO.ImageBuf(path)
+    if image.has_error:
+        raise SystemExit(f"{path}: {image.geterror()}")
+    return image.get_pixels(OpenImageIO.FLOAT)[..., :3].astype(np.float64)
+
+
+def image_error(image, reference):
+    square = (image - reference) ** 2
+    return float(square.mean()), float((square / (reference ** 2 + 0.01)).mean())
+
+
+class Bench:
+    def __init__(self, options):
+        # As the program does: Mesa's cache does not tell widths apart, so that it is left out of the matter.
+        if "avx512vl" in pathlib.Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace"):
+            os.environ.setdefault("LP_NATIVE_VECTOR_WIDTH", "512")
+        os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")
+        scene = read_scene(options.scene)
+        film, render = scene.get("film", {}), scene.get("render", {})
+        self.options = options
+        self.size = options.size or (film.get("width", 512), film.get("height", 512))
+        self.length = options.max_path_length or render.get("max_path_length", 6)
+        device = {"device": options.device.encode()} if options.device else {}
+        self.renderer = SceneRenderer(scene, **device)
+
+    def set_render(self, sampler, estimator, seed):
+        self.renderer.set_render(*self.size, max_path_length=self.length, seed=seed, sampler=sampler, estimator=estimator)
+
+    def image(self):
+        return np.array(self.renderer.image(), np.float64).reshape(*self.size[::-1], 3)
+
+    def reference(self):
+        """The image to compare with, and what is told of it; of one that is rendered its own error too, from how its
+        halves differ."""
+        if self.options.reference:
+            image = read_exr(self.options.reference)
+            if image.shape[1::-1] != tuple(self.size):
+                raise SystemExit(f"--reference {self.options.reference}: is {image.shape[1]}x{image.shape[0]}, the picture "
+                                 f"is {self.size[0]}x{self.size[1]}")
+            return image, {"path": self.options.reference}
+        samples = self.options.reference_spp or REFERENCE_FACTOR * self.options.spp[-1]
+        half = samples // 2
+        self.set_render(0, 0, self.options.seed)
+        self.renderer.accumulate(half)
+        first = self.image()
+        self.renderer.accumulate(samples - half)
+        whole = self.image()
+        mse, rel_mse = (error * half / (samples - half) for error in image_error(first, whole))
+        return whole, {"spp": samples, "seed": self.options.seed, "mse": mse, "rel_mse": rel_mse}
+
+    def measure(self, sampler, estimator, aim, seed, reference):
+        """One run: samples of a pixel, seconds of the clock and of all threads, MSE and relMSE."""
+        samples, target = (MOST_SAMPLES, aim) if self.options.errors else (aim, 0.0)
+        for warm_up in True, False:  # the second set_render discards the samples of the first run
+            self.set_render(SAMPLERS[sampler], ESTIMATORS[estimator], seed)
+            if warm_up:
+                self.renderer.call("pt_prepare")
+                self.renderer.accumulate(16 if target else 1, target)
+        start, cpu_start = time.perf_counter(), time.process_time()
+        self.renderer.accumulate(samples, target)
+        seconds, cpu_seconds = time.perf_counter() - start, time.process_time() - cpu_start
+        taken = self.renderer.stats().mean_sample_count if target else samples
+        return taken, seconds, cpu_seconds, *image_error(self.image(), reference)
+
+
+def cells_of(runs, by_target, near):
+    """Rows of the table, from the runs of each sampler, estimator, and number of samples or target error."""
+    cells, before = [], None
+    for (sampler, estimator, aim), of_rounds in runs.items():
+        columns = list(zip(*of_rounds))
+        samples, seconds, cpu_seconds = map(statistics.median, columns[:3])
+        mse, rel_mse = map(statistics.fmean, columns[3:])
+        follows = before and before[:2] == (sampler, estimator) and mse > 0 and before[3] > 0 and samples > before[2]
+        cells.append({
+            "sampler": sampler, "estimator": estimator, "target_error": aim if by_target else None, "spp": samples, "rounds": len(of_rounds),
+            "seconds": seconds, "processor_seconds": cpu_seconds, "mse": mse, "rel_mse": rel_mse,
+            "efficiency": 1 / (rel_mse * seconds) if rel_mse * seconds > 0 else None,
+            "slope": math.log(mse / before[3]) / math.log(samples / before[2]) if follows else None,
+            "near_reference_noise": mse < NOISE_MARGIN * near[0] or rel_mse < NOISE_MARGIN * near[1]})
+        before = sampler, estimator, samples, mse
+    return cells
+
+
+def print_cells(cells):
+    def text(value, form):
+        return "" if value is None else format(value, form)
+
+    print_table([["sampler", "estimator", "spp", "seconds", "cpu s", "MSE", "relMSE", "efficiency", "slope"]] + [
+        [cell["sampler"], cell["estimator"], f"{cell['spp']:.6g}", f"{cell['seconds']:.4f}",
+         f"{cell['processor_seconds']:.4f}", f"{cell['mse']:.4g}",
+         f"{cell['rel_mse']:.4g}" + ("*" if cell["near_reference_noise"] else ""), text(cell["efficiency"], ".4g"),
+         text(cell["slope"], ".2f")] for cell in cells])
+    if any(cell["near_reference_noise"] for cell in cells):
+        print(f"* within {NOISE_MARGIN} times the reference's own error")
+
+
+def main():
+    options = parse_arguments()
+    bench = Bench(options)
+    reference, told = bench.reference()
+    runs = {}
+    for number, *cell in itertools.product(range(options.rounds), options.samplers, options.estimators,
+                                           options.errors or options.spp):
+        run = bench.measure(*cell, options.seed + 1 + number, reference)
+        runs.setdefault(tuple(cell), []).append(run)
+    cells = cells_of(runs, bool(options.errors), (told.get("mse", 0.0), told.get("rel_mse", 0.0)))
+    device = bench.renderer.device()
+    if not options.quiet:
+        print_cells(cells)
+    if options.json:
+        report = {"scene": options.scene, "width": bench.size[0], "height": bench.size[1], "max_path_length": bench.length,
+                  "seed": options.seed, "reference": told, "cells": cells,
+                  "device": {"name": device.name.decode(), "driver": device.driver.decode(),
+                             "is_cpu": device.kind == PT_DEVICE_CPU}}
+        pathlib.Path(options.json).write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
