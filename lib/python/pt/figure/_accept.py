@@ -1,0 +1,105 @@
+"""What users have, as particles: files, arrays, tables and objects of other packages."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from pt.figure._errors import DataError
+from pt.figure._particles import Particles
+from pt.figure.readers import open_frames
+from pt.figure.readers._frames import Frames, Listed, one_frame
+from pt.figure.readers._numpy import frames_of_array, frames_of_arrays
+from pt.figure.readers._objects import of_ase, of_mdanalysis, of_ovito
+
+ROLES = ("x", "y", "z", "radius", "diameter", "element", "type", "red", "green", "blue")
+
+Columns = Mapping[str, str] | str | None
+
+
+def load(data: Any, *, frame: int | None = None, columns: Columns = None, format: str | None = None,
+         drop_nonfinite: bool = False) -> Particles:
+    """Particles of one frame.
+
+    data            the name of a file, "-" for standard input; an array of shape (n, 3), (n, 2) or, of frames,
+                    (t, n, 3); a dict of columns; a frame of pandas or polars; ASE's Atoms or a list of them; a universe
+                    or a group of atoms of MDAnalysis; a data collection of OVITO; or Particles
+    frame           from 0, or from -1 backwards; None: the last one, and of MDAnalysis the current one
+    columns         names in place of those that are looked for: {"x": "lon", "y": "lat"} or "x=lon,y=lat", for
+                    x, y, z, radius, diameter, element, type, red, green, blue
+    format          of a file, in place of that which its first bytes and its name say
+    drop_nonfinite  leaves out particles whose position or radius is not finite, which are an error otherwise
+
+    Arrays of float32 and float64 are read in place. Raises DataError.
+    """
+    if isinstance(data, Particles):
+        return data
+    source = _opened(data, columns, format, drop_nonfinite)
+    if frame is None and isinstance(source, Listed) and source.current is not None:
+        return source.read(source.current)
+    return source.read(_index(source, -1 if frame is None else frame))
+
+
+def frame_count(data: Any, *, format: str | None = None) -> int:
+    return 1 if isinstance(data, Particles) else _opened(data, None, format, False).count()
+
+
+def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
+           drop_nonfinite: bool = False) -> Iterator[Particles]:
+    """Frames from the first to the last one, which is among them; a file is read on from frame to frame."""
+    if isinstance(data, Particles):
+        yield data
+        return
+    source = _opened(data, columns, format, drop_nonfinite)
+    begin = _index(source, first)
+    end = _index(source, last)
+    if end < begin:
+        raise DataError(f"{source.name}: frames {first} to {last}: the last one comes before the first one")
+    for index in range(begin, end + 1):
+        yield source.read(index)
+
+
+def _index(source: Frames, frame: int) -> int:
+    """Counted from 0; files are looked through only where it takes the number of frames."""
+    if frame >= 0 and source.has(frame):
+        return frame
+    count = source.count()
+    if not -count <= frame < count:
+        said = f"the data have {count} frames, from 0 or {-count} to {count - 1}" if count else "the data have no frame"
+        raise DataError(f"{source.name}: frame {frame}: {said.replace('1 frames', '1 frame') if count == 1 else said}")
+    return frame % count
+
+
+def _mapping(columns: Columns) -> dict[str, str]:
+    if isinstance(columns, str):
+        pairs = [pair.partition("=")[::2] for pair in columns.split(",")]
+        columns = {role.strip(): name.strip() for role, name in pairs}
+    for role, name in (columns or {}).items():
+        if role not in ROLES or not name:
+            raise DataError(f"columns: {role}={name}: must be like x=pos_x, for one of {', '.join(ROLES)}")
+    return dict(columns or {})
+
+
+def _opened(data: Any, columns: Columns, format: str | None, drop_nonfinite: bool) -> Frames:
+    mapping = _mapping(columns)
+    if isinstance(data, (str, os.PathLike)):
+        return open_frames(os.fspath(data), format, mapping, drop_nonfinite)
+    options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
+    package = type(data).__module__.partition(".")[0]
+    name = f"{package}.{type(data).__name__}" if package not in ("builtins", "numpy") else "array"
+    if package == "MDAnalysis":
+        return of_mdanalysis(data, name, options)
+    if package == "ovito":
+        return one_frame(name, lambda: of_ovito(data, name, options))
+    if package == "ase":
+        return one_frame(name, lambda: of_ase(data, name, options))
+    if package in ("pandas", "polars") and hasattr(data, "columns"):
+        return frames_of_arrays(name, {str(key): data[key].to_numpy() for key in data.columns}, mapping, drop_nonfinite)
+    if isinstance(data, Mapping):
+        return frames_of_arrays("data", data, mapping, drop_nonfinite)
+    if isinstance(data, Sequence) and data and type(data[0]).__module__.startswith("ase."):
+        return Listed(name, len(data), lambda index: of_ase(data[index], f"{name}[{index}]", options))
+    return frames_of_array(name, np.asarray(data), mapping, drop_nonfinite)

@@ -1,0 +1,110 @@
+"""Chemical elements: which one a label names, radii and colors."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+
+SYMBOLS: Final = tuple(
+    "? H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb "
+    "Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au "
+    "Hg Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm".split())
+"""By atomic number; 0 is no known element, here and in the tables below."""
+
+# Angstroms, 0 where there is none: Alvarez, Dalton Trans. 42 (2013) 8617.
+VAN_DER_WAALS_RADII: Final = np.array((
+    0,
+    1.2, 1.43, 2.12, 1.98, 1.91, 1.77, 1.66, 1.5, 1.46, 1.58, 2.5, 2.51, 2.25, 2.19, 1.9, 1.89, 1.82, 1.94, 2.73,
+    2.62, 2.58, 2.46, 2.42, 2.45, 2.45, 2.44, 2.4, 2.4, 2.38, 2.39, 2.32, 2.29, 1.88, 1.82, 1.86, 2.07, 3.21, 2.84,
+    2.75, 2.52, 2.56, 2.45, 2.44, 2.46, 2.44, 2.15, 2.53, 2.49, 2.43, 2.42, 2.47, 1.99, 2.04, 2.28, 3.48, 3.03, 2.98,
+    2.88, 2.92, 2.95, 0, 2.9, 2.87, 2.83, 2.79, 2.87, 2.81, 2.83, 2.79, 2.8, 2.74, 2.63, 2.53, 2.57, 2.49, 2.48, 2.41,
+    2.29, 2.32, 2.45, 2.47, 2.6, 2.54, 0, 0, 2.4, 0, 0, 2.8, 2.93, 2.88, 2.71, 2.82, 2.81, 2.83, 3.05), np.float32)
+
+# Angstroms: Cordero et al., Dalton Trans. (2008) 2832; of C sp3, of Mn, Fe and Co low spin.
+COVALENT_RADII: Final = np.array((
+    0,
+    0.31, 0.28, 1.28, 0.96, 0.84, 0.76, 0.71, 0.66, 0.57, 0.58, 1.66, 1.41, 1.21, 1.11, 1.07, 1.05, 1.02, 1.06, 2.03,
+    1.76, 1.7, 1.6, 1.53, 1.39, 1.39, 1.32, 1.26, 1.24, 1.32, 1.22, 1.22, 1.2, 1.19, 1.2, 1.2, 1.16, 2.2, 1.95, 1.9,
+    1.75, 1.64, 1.54, 1.47, 1.46, 1.42, 1.39, 1.45, 1.44, 1.42, 1.39, 1.39, 1.38, 1.39, 1.4, 2.44, 2.15, 2.07, 2.04,
+    2.03, 2.01, 1.99, 1.98, 1.98, 1.96, 1.94, 1.92, 1.92, 1.89, 1.9, 1.87, 1.87, 1.75, 1.7, 1.62, 1.51, 1.44, 1.41,
+    1.36, 1.36, 1.32, 1.45, 1.46, 1.48, 1.4, 1.5, 1.5, 2.6, 2.21, 2.15, 2.06, 2, 1.96, 1.9, 1.87, 1.8, 1.69), np.float32)
+
+# sRGB, those of Jmol.
+COLORS: Final = np.frombuffer(bytes.fromhex(
+    "ff1493 "
+    "ffffff d9ffff cc80ff c2ff00 ffb5b5 909090 3050f8 ff0d0d 90e050 b3e3f5 ab5cf2 8aff00 bfa6a6 f0c8a0 ff8000 ffff30 "
+    "1ff01f 80d1e3 8f40d4 3dff00 e6e6e6 bfc2c7 a6a6ab 8a99c7 9c7ac7 e06633 f090a0 50d050 c88033 7d80b0 c28f8f 668f8f "
+    "bd80e3 ffa100 a62929 5cb8d1 702eb0 00ff00 94ffff 94e0e0 73c2c9 54b5b5 3b9e9e 248f8f 0a7d8c 006985 c0c0c0 ffd98f "
+    "a67573 668080 9e63b5 d47a00 940094 429eb0 57178f 00c900 70d4ff ffffc7 d9ffc7 c7ffc7 a3ffc7 8fffc7 61ffc7 45ffc7 "
+    "30ffc7 1fffc7 00ff9c 00e675 00d452 00bf38 00ab24 4dc2ff 4da6ff 2194d6 267dab 266696 175487 d0d0e0 ffd123 b8b8d0 "
+    "a6544d 575961 9e4fb5 ab5c00 754f45 428296 420066 007d00 70abfa 00baff 00a1ff 008fff 0080ff 006bff 545cf2 785ce3"),
+    np.uint8).reshape(-1, 3)
+
+_NUMBERS: Final = {symbol.lower(): number for number, symbol in enumerate(SYMBOLS) if number} | {"d": 1, "t": 1}
+
+# Atom names of the Protein Data Bank and of water models that are no elements, as "CB" is none: where one of them is
+# among capital labels, CA is a carbon and HG a hydrogen.
+_ATOM_NAMES: Final = frozenset("CB CG CZ CM HA HB HT HW OW OT OXT NZ NH".split())
+_IONS: Final = {"NA": 11, "CL": 17, "MG": 12, "ZN": 30, "FE": 26, "MN": 25, "BR": 35, "LI": 3, "SE": 34, "SOD": 11,
+                "CLA": 17, "POT": 19, "CAL": 20}
+_MOST_LETTERS: Final = 3  # of an atom's name
+
+
+def distinct(labels: Array) -> tuple[Array, Array]:
+    """The different labels, in the order in which they come, and for each particle the index of its label."""
+    codes = np.full(len(labels), -1, np.int32)
+    values: list[Any] = []
+    while (first := int(np.argmin(codes))) < len(labels) and codes[first] < 0:
+        if len(values) == 64:  # comparing with each is faster than sorting only for few
+            unique, indices = np.unique(labels, return_inverse=True)
+            return unique, indices.astype(np.int32).reshape(-1)
+        codes[labels == labels[first]] = len(values)
+        values.append(labels[first])
+    return np.array(values, labels.dtype), codes
+
+
+def _letters(label: str) -> str:
+    """Without digits, charges and what follows them: Fe of Fe2+, H of 1HB2, C of C_3."""
+    found = re.match(r"[\d\s]*([A-Za-z]*)", label)
+    return found.group(1) if found else ""
+
+
+def _number(label: str, is_atom_name: bool) -> int:
+    if label.strip().isdecimal():
+        return int(label) if int(label) < len(SYMBOLS) else 0
+    letters = _letters(label)
+    if is_atom_name and letters.isupper() and len(letters) <= _MOST_LETTERS:
+        return _IONS.get(letters, _NUMBERS[letters[0].lower()] if letters[0] in "HCNOSPD" else 0)
+    return _NUMBERS.get(letters.lower(), 0)
+
+
+def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
+    """Atomic numbers, shape (n,), uint8, 0 for what is no element; None if nothing is one. With notes for the user.
+
+    labels  shape (n,): symbols in any case, also with digits or charges; D and T; names of atoms as in PDB files;
+            or atomic numbers
+    """
+    values, codes = distinct(labels)
+    names = [str(value) for value in values]
+    is_atom_name = bool(_ATOM_NAMES.intersection(map(_letters, names)))
+    numbers = [_number(name, is_atom_name) for name in names]
+    if not any(numbers):
+        return None, []
+    notes = []
+    unknown = [name for name, number in zip(names, numbers) if not number]
+    if unknown:
+        notes.append(f"no elements: {listed(unknown)}; the radius and color of these are not known")
+    if is_atom_name:
+        read = [f"{name} is {SYMBOLS[number]}" for name, number in zip(names, numbers) if number]
+        notes.append(f"labels are taken for names of atoms: {listed(read)}")
+    return np.array(numbers, np.uint8)[codes], notes
+
+
+def listed(names: list[str], most: int = 8) -> str:
+    """Names for a message, the first of them where they are many."""
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

@@ -1,0 +1,367 @@
+"""Particles as a figure draws them: positions, columns, and what the data say of elements, types, radii and colors."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figure._elements import elements_of, listed
+from pt.figure._errors import DataError
+
+Array = npt.NDArray[Any]
+
+NEGLIGIBLE: Final = 1e-12  # of the largest coordinate: a hundred thousandth of what float32 can tell apart
+MANY_COLUMNS: Final = 1000
+MOST_COMPARED: Final = 2_000_000  # particles among which those in one place are looked for
+
+# Columns of positions, best first: a letter, with a stem before or after it, or a stem with a number.
+_STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",
+                 "center", "centre", "centroid", "location", "loc", "xyz")
+_LAMMPS: Final = ("u", "s", "su")  # after the letter: unwrapped, and as fractions of the cell
+_SCALED: Final = _LAMMPS[1:]
+_TABLES: Final = (*_STEMS[1:], "vertices", "r", "x", "arr0")  # of two or three columns
+_COLORS: Final = (("red", "green", "blue", "alpha"), ("r", "g", "b", "a"),
+                  ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
+                  *(tuple(f"{name}[{i}]" for i in range(4)) for name in ("color", "colors", "rgb", "rgba")),
+                  *(tuple(f"{name}:{i}" for i in range(4)) for name in ("color", "rgb")))
+_HARMONICS: Final = ("f_dc_0", "f_dc_1", "f_dc_2")  # Gaussian splats: spherical harmonics of degree 0
+_HARMONIC: Final = 0.5 / np.sqrt(np.pi)
+_ELEMENTS: Final = ("element", "elements", "species", "symbol", "symbols", "elem", "numbers", "atomic_number",
+                    "atomic_numbers")
+_TYPES: Final = ("type", "types", "particle_type", "atom_type", "label", "name", "names")
+LABELS: Final = frozenset(_ELEMENTS + _TYPES)
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A simulation cell, triclinic or not.
+
+    origin    shape (3,)
+    vectors   shape (3, 3): a row for each edge
+    periodic  shape (3,): whether the cell repeats along each edge
+    """
+
+    origin: Array
+    vectors: Array
+    periodic: Array
+
+    @staticmethod
+    def of(vectors: npt.ArrayLike, origin: npt.ArrayLike = (0, 0, 0), periodic: npt.ArrayLike = True) -> Cell | None:
+        """None where the vectors are all 0, or span no volume: then there is no cell."""
+        rows = np.array(vectors, np.float64)
+        rows = np.diag(rows) if rows.shape == (3,) else rows.reshape(3, 3)
+        if not np.isfinite(rows).all() or np.linalg.det(rows) == 0:
+            return None
+        return Cell(np.array(origin, np.float64), rows, np.broadcast_to(np.array(periodic, bool), (3,)).copy())
+
+
+@dataclass
+class Particles:
+    """n particles, n >= 1, and what the data say of them.
+
+    positions  shape (n, 3), float32 or float64, finite
+    columns    every column of the data under its own name, shape (n,), numbers or str; those of positions are views
+    elements   shape (n,), uint8: atomic numbers, 0 for an unknown element; None: the data have no elements
+    types      shape (n,), int or str: labels that are not elements
+    radii      shape (n,): a column "radius", or half a column "diameter"
+    colors     shape (n, 3) or (n, 4), float32: sRGB in [0, 1]
+    name       of the data, for messages
+    notes      warnings for the user
+    """
+
+    positions: Array
+    columns: dict[str, Array] = field(default_factory=dict)
+    elements: Array | None = None
+    types: Array | None = None
+    radii: Array | None = None
+    colors: Array | None = None
+    cell: Cell | None = None
+    name: str = "array"
+    notes: list[str] = field(default_factory=list)
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    def column(self, name: str) -> Array:
+        """Of that name, or the only one whose name differs in case alone."""
+        return self.columns[_found(self.columns, name, self.name)]
+
+    def select(self, mask: Array) -> Particles:
+        """Those of a mask, a slice or indices, in that order. Particles that are all kept are not copied."""
+        if mask.dtype == bool and mask.all():
+            return self
+        chosen = {key: None if value is None else value[mask] for key, value in
+                  (("elements", self.elements), ("types", self.types), ("radii", self.radii), ("colors", self.colors))}
+        return self._moved(self.positions[mask], mask, **chosen)
+
+    def wrapped(self) -> Particles:
+        """With all particles moved into the cell along the edges in which it is periodic."""
+        if self.cell is None:
+            raise DataError(f"{self.name}: has no cell into which particles could be wrapped")
+        positions = self.positions.copy()
+        inverse = np.linalg.inv(self.cell.vectors)
+        block = 1 << 16  # rows, so that what is computed on the way stays small
+        for first in range(0, len(positions), block):
+            rows = positions[first:first + block]
+            turns = np.floor((rows - self.cell.origin) @ inverse) * self.cell.periodic
+            rows -= (turns @ self.cell.vectors).astype(rows.dtype)
+        return self._moved(positions, slice(None))
+
+    def _moved(self, positions: Array, rows: Any, **changed: Any) -> Particles:
+        """With other positions, of which columns of coordinates stay views, and these rows of the other columns."""
+        axes = {self.positions[:, axis].ctypes.data: axis for axis in range(3)}
+        columns = {}
+        for name, values in self.columns.items():
+            is_view = np.shares_memory(values[:1], self.positions[:1])
+            columns[name] = positions[:, axes[values.ctypes.data]] if is_view else values[rows]
+        return dataclasses.replace(self, positions=positions, columns=columns, notes=list(self.notes), **changed)
+
+
+def assembled(name: str, columns: Mapping[str, npt.ArrayLike], *, mapping: Mapping[str, str] | None = None,
+              cell: Cell | None = None, is_text: bool = False, drop_nonfinite: bool = False,
+              notes: list[str] | None = None) -> Particles:
+    """Particles of columns, found by their names.
+
+    columns  one or two dimensions each; of positions also as one column of two or three components
+    mapping  names of columns in place of those that are looked for: {"x": "pos_x", "radius": "r"}
+    is_text  numbers have no type that says the scale of colors
+    """
+    notes = list(notes or [])
+    parts, table = _split(name, columns)
+    chosen = {role: _found(parts, source, name) for role, source in (mapping or {}).items()}
+    positions = _positions(name, parts, table, chosen, cell, notes)
+    if len(positions) == 0:
+        raise DataError(f"{name}: has no particles")
+    found = Particles(positions, parts, cell=cell, name=name, notes=notes)
+    found.colors = _colors(parts, chosen, is_text, notes)
+    _put_radii(found, chosen)
+    _put_labels(found, chosen)
+    if len(parts) > MANY_COLUMNS:
+        notes.append(f"{len(parts):,} columns, of which a figure uses few: is this a table of particles in rows?")
+    return _finite(found, drop_nonfinite)
+
+
+def _split(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, Array], Array | None]:
+    """Columns of one dimension each; and the table of positions, if there is one, as it is."""
+    arrays = {key: _without_objects(np.asarray(values)) for key, values in columns.items()}
+    count = next((array.shape[:1] for array in arrays.values()), ())
+    for key, array in arrays.items():
+        if array.shape[:1] != count or array.ndim not in (1, 2):
+            raise DataError(f"{name}: column {key} has the shape {array.shape}: must have {count[0] if count else 'n'} "
+                            "rows and one or two dimensions")
+    tables = [key for key, array in arrays.items() if array.ndim == 2 and array.shape[1] in (2, 3)]
+    known = sorted((key for key in tables if _plain(key) in _TABLES), key=lambda key: _TABLES.index(_plain(key)))
+    chosen = known[0] if known else tables[0] if len(tables) == len(arrays) == 1 else None
+    parts: dict[str, Array] = {}
+    for key, array in arrays.items():
+        if array.ndim == 1:
+            parts[key] = array
+        elif key == chosen:
+            parts.update(zip("xyz", array.T))
+        else:
+            parts.update((f"{key}[{i}]", column) for i, column in enumerate(array.T))
+    return parts, None if chosen is None else arrays[chosen]
+
+
+def _without_objects(array: Array) -> Array:
+    """What pandas and others keep as objects: numbers, or else words."""
+    if array.dtype != object:
+        return array
+    try:
+        return array.astype(np.float64)
+    except (TypeError, ValueError):
+        return array.astype(str)
+
+
+def _plain(name: str) -> str:
+    """In small letters, without units in brackets, separators and quotes: posx of "Pos_X [m]"."""
+    name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
+    return re.sub(r"[^a-z0-9]", "", name.lower())
+
+
+def _found(columns: Mapping[str, Array], name: str, data: str) -> str:
+    """A column's name: as it is, or in another case, or by its number from 1 where names have none."""
+    if name in columns:
+        return name
+    similar = [each for each in columns if each.lower() == name.lower()]
+    if len(similar) == 1:
+        return similar[0]
+    if name.isdecimal() and 1 <= int(name) <= len(columns):
+        return list(columns)[int(name) - 1]
+    raise DataError(f"{data}: there is no column {name!r}: the columns are {listed(list(columns), 30) or 'none'}")
+
+
+def _first(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
+    """The first of these names that is there, exactly rather than in another case."""
+    folded: dict[str, str] = {}
+    for each in columns:
+        folded.setdefault(each.lower(), each)
+    exact = (name for name in names if name in columns)
+    return next(exact, next((folded[name] for name in names if name in folded), None))
+
+
+def coordinate_names(names: list[str]) -> tuple[list[str], bool]:
+    """Which columns are positions, two or three or none, and whether they are fractions of the cell. Exact names come
+    first, so that beside x, y and z a column Z is the atomic number that it mostly is."""
+    if all(axis in names for axis in "xyz"):
+        return ["x", "y", "z"], False
+    plain: dict[str, str] = {}
+    for name in names:
+        plain.setdefault(_plain(name), name)
+    plain.update((name, name) for name in names if name in ("x", "y", "z"))
+    for stem in (*_STEMS, *_LAMMPS):
+        ways = [[axis + stem for axis in "xyz"]]
+        if stem in _STEMS[1:]:
+            ways += [[stem + axis for axis in axes] for axes in ("xyz", "012", "123")]
+        for keys in ways:
+            if all(key in plain for key in keys[:2]):
+                return [plain[key] for key in keys if key in plain], stem in _SCALED
+    return [], False
+
+
+def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: dict[str, str], cell: Cell | None,
+               notes: list[str]) -> Array:
+    """Shape (n, 3); the columns that hold them become views of it."""
+    axes, scaled = coordinate_names(list(parts)) if table is None else (list("xyz")[:table.shape[1]], False)
+    if any(axis in chosen for axis in "xyz"):
+        axes, scaled = [chosen.get(axis, axis) for axis in "xyz" if axis in chosen or axis in axes], False
+        table = None
+    if len(axes) < 2:
+        raise DataError(f"{name}: no columns of positions, such as x, y, z: the columns are {listed(list(parts), 30)}; "
+                        "say which by columns, like x=lon,y=lat,z=height")
+    for axis in axes:
+        if parts[axis].dtype.kind not in "fiub":
+            raise DataError(f"{name}: column {axis} has words, {str(parts[axis][0])!r}: positions must be numbers")
+    is_usual = [_plain(axis) for axis in axes] in (["x", "y", "z"], ["x", "y"], ["pos0", "pos1", "pos2"])
+    if not is_usual or len({axis.islower() for axis in axes}) > 1:
+        notes.append(f"positions are the columns {', '.join(axes)}")
+    if len(axes) == 2:
+        notes.append(f"positions have two coordinates, {axes[0]} and {axes[1]}: the third one is 0")
+    kind = np.result_type(*(parts[axis].dtype for axis in axes))
+    kind = np.dtype(np.float32 if kind.kind == "f" and kind.itemsize <= 4 else np.float64)
+    if table is not None and table.shape[1] == 3 and table.dtype == kind and table.dtype.isnative:
+        positions = table
+    else:
+        positions = np.zeros((len(parts[axes[0]]), 3), kind)
+        for i, axis in enumerate(axes):
+            positions[:, i] = parts[axis]
+    if scaled:
+        if cell is None:
+            raise DataError(f"{name}: {', '.join(axes)} are fractions of a cell, and there is none")
+        positions = positions @ cell.vectors + cell.origin
+    positions = _flushed(positions)
+    for i, axis in enumerate("xyz"):
+        if not scaled and i < len(axes):
+            parts[axes[i]] = positions[:, i]
+        parts.setdefault(axis, positions[:, i])
+    return positions
+
+
+def _flushed(positions: Array) -> Array:
+    """With 0 for what is negligible beside the largest coordinate: rounding leaves numbers like 3e-19."""
+    largest = max((float(np.nanmax(np.abs(column), where=np.isfinite(column), initial=0)) for column in positions.T))
+    result = positions
+    for axis, column in enumerate(positions.T):
+        small = (np.abs(column) < NEGLIGIBLE * largest) & (column != 0)
+        if small.any():
+            if result is positions:
+                result = positions.copy()  # it may be the user's own
+            result[small, axis] = 0
+    return result
+
+
+def _finite(particles: Particles, drop: bool) -> Particles:
+    """Names the first row that cannot be drawn, or leaves such rows out."""
+    good = np.isfinite(particles.positions[:, 0])
+    for column in (*particles.positions.T[1:], *(() if particles.radii is None else (particles.radii,))):
+        good &= np.isfinite(column)
+    if good.all():
+        _note_coinciding(particles)
+        return particles
+    count = int(len(good) - good.sum())
+    if drop and count < len(good):
+        particles.notes.append(f"{count:,} of {len(good):,} particles are left out: not finite")
+        particles = particles.select(good)
+        _note_coinciding(particles)
+        return particles
+    row = int(np.argmin(good))
+    values = dict(zip("xyz", particles.positions[row].tolist()))
+    if particles.radii is not None:
+        values["radius"] = float(particles.radii[row])
+    said = ", ".join(f"{key} = {value}" for key, value in values.items() if not np.isfinite(value))
+    raise DataError(f"{particles.name}: particle {row + 1:,} of {len(good):,}: {said}: must be finite" + (
+        "" if drop else f"; drop_nonfinite leaves {'it' if count == 1 else f'the {count:,} such'} out"))
+
+
+def _note_coinciding(particles: Particles) -> None:
+    """Counts particles in the place of another one, by a random projection in which others do not fall together."""
+    if len(particles) <= MOST_COMPARED:
+        places = particles.positions @ np.array((0.6180339887498949, 0.7548776662466927, 0.8191725133961645))
+        places.sort()
+        count = int((places[1:] == places[:-1]).sum())
+        if count:
+            particles.notes.append(f"{count:,} of {len(particles):,} particles lie exactly where another one does")
+
+
+def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:
+    for name, factor in (("radius", 1.0), ("radii", 1.0), ("diameter", 0.5), ("diameters", 0.5)):
+        source = chosen.get(name) or _first(particles.columns, (name,))
+        if source is not None and particles.columns[source].dtype.kind in "fiu":
+            radii = particles.columns[source]
+            particles.radii = radii if factor == 1 else radii * factor
+            return
+
+
+def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
+    """Elements, or else types: of columns of types those are elements that have words, mostly known ones."""
+    columns = particles.columns
+    element, kind = (chosen.get(role) or _first(columns, names) for role, names in
+                     (("element", _ELEMENTS), ("type", _TYPES)))
+    for source in (element, kind):
+        if source is None or (source == kind and columns[source].dtype.kind not in "US"):
+            continue
+        elements, notes = elements_of(columns[source])
+        if elements is not None and (source == element or 2 * np.count_nonzero(elements) >= len(elements)):
+            particles.elements = elements
+            particles.notes += notes
+            return
+    source = kind or element
+    particles.types = None if source is None else columns[source]
+
+
+def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
+    """The scale comes from the type; integers without one and numbers from text are judged by the largest."""
+    choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
+    found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
+                  if None not in names[:3]), None)
+    if found is None:
+        if not all(name in columns for name in _HARMONICS):
+            return None
+        notes.append("colors are those of splats seen from all sides: f_dc_0, f_dc_1, f_dc_2")
+        colors: Array = np.clip(0.5 + _HARMONIC * np.stack([columns[name] for name in _HARMONICS], 1), 0, 1)
+        return colors.astype(np.float32)
+    names = [name for name in found if name is not None]
+    parts = [columns[name] for name in names]
+    if any(part.dtype.kind not in "fiu" for part in parts):
+        return None
+    kinds = {part.dtype for part in parts}
+    known = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
+    if kinds <= known.keys():
+        scale = max(known[kind] for kind in kinds)
+    elif not is_text and all(kind.kind == "f" for kind in kinds):
+        scale = 1.0
+    else:
+        largest = max(float(np.nanmax(part, initial=0)) for part in parts[:3])
+        # Tolerant of rounding: a component of 1.0000001 does not make all of them bytes.
+        scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
+        notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
+    colors = np.empty((len(parts[0]), len(parts)), np.float32)
+    for i, part in enumerate(parts):
+        np.clip(np.nan_to_num(part / scale, nan=0.0), 0, 1, out=colors[:, i])
+    return colors

@@ -1,0 +1,84 @@
+"""Files of particles in all formats: which one it is, and who reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, Final
+
+from pt.figure._elements import listed
+from pt.figure._errors import DataError
+from pt.figure._particles import Particles
+from pt.figure.readers import _other
+from pt.figure.readers._frames import Frames, one_frame
+from pt.figure.readers._lammps import LammpsDump
+from pt.figure.readers._lines import Lines, ending
+from pt.figure.readers._numpy import read_npy, read_npz
+from pt.figure.readers._pcd import read_pcd
+from pt.figure.readers._ply import read_ply
+from pt.figure.readers._table import read_table
+from pt.figure.readers._xyz import Xyz
+
+Read = Callable[[Lines, Mapping[str, str], bool], Frames]
+
+
+def _single(read: Callable[[Lines, Mapping[str, str], bool], Particles]) -> Read:
+    return lambda lines, mapping, drop: one_frame(lines.name, lambda: read(lines, mapping, drop))
+
+
+FORMATS: Final[dict[str, Read]] = {"lammps": LammpsDump, "xyz": Xyz, "table": _single(read_table), "npy": read_npy,
+                                   "npz": read_npz, "ply": _single(read_ply), "pcd": _single(read_pcd)}
+"""Read by this package, by the name of their format."""
+
+OTHERS: Final[dict[str, Callable[[str, Mapping[str, Any]], Frames]]] = {
+    "ase": _other.read_ase, "mdanalysis": _other.read_mdanalysis, "pyvista": _other.read_pyvista,
+    "trimesh": _other.read_trimesh, "laspy": _other.read_laspy}
+"""Other packages, by name, which read files by their own means."""
+
+_FIRST_BYTES: Final = ((b"\x93NUMPY", "npy"), (b"PK\3\4", "npz"), (b"PK\5\6", "npz"), (b"ply\n", "ply"), (b"ply\r", "ply"),
+                       (b"ITEM: ", "lammps"), (b"# .PCD", "pcd"), (b"VERSION ", "pcd"), (b"# vtk", "pyvista"),
+                       (b"LASF", "laspy"))
+_ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".extxyz": "xyz", ".ply": "ply",
+                   ".pcd": "pcd", ".npy": "npy", ".npz": "npz",
+                   **dict.fromkeys((".csv", ".tsv", ".txt", ".dat", ".asc", ".pts", ".xyzrgb", ".3d"), "table"),
+                   **dict.fromkeys((".vtk", ".vtp", ".vtu", ".vti", ".vts", ".vtr", ".vtm", ".pvd"), "pyvista"),
+                   **dict.fromkeys((".obj", ".stl", ".off", ".glb", ".gltf", ".3mf"), "trimesh"),
+                   **dict.fromkeys((".las", ".laz"), "laspy"),
+                   **dict.fromkeys((".mol2", ".pqr", ".pdbqt", ".mmtf", ".tpr", ".gsd"), "mdanalysis")}
+
+
+def open_frames(path: str, format: str | None, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+    lines = Lines(path)
+    format = format or _format_of(lines)
+    if format in FORMATS:
+        return FORMATS[format](lines, mapping, drop_nonfinite)
+    if format not in OTHERS:
+        raise DataError(f"{lines.name}: format {format!r}: must be one of {listed([*FORMATS, *OTHERS], 20)}")
+    lines.close()
+    if not lines.is_file:
+        raise DataError(f"{lines.name}: {format} reads files: standard input must be one of {listed(list(FORMATS))}")
+    return OTHERS[format](path, {"mapping": mapping, "drop_nonfinite": drop_nonfinite})
+
+
+def _format_of(lines: Lines) -> str:
+    """By the first bytes, then by the name, then by what the first line looks like."""
+    start = lines.peek(4096)
+    for magic, format in _FIRST_BYTES:
+        if start.startswith(magic):
+            return format
+    if not start:
+        raise DataError(f"{lines.name}: is empty")
+    name = ending(lines.path)
+    first = start.split(b"\n", 1)[0].decode("utf-8", "replace").strip()
+    if name in (".xyz", ".extxyz") and not first.isdecimal():
+        return "table"  # points without their number
+    if name in _ENDINGS:
+        return _ENDINGS[name]
+    if not lines.is_file or (name in ("", ".gz") and _is_table(start)):
+        return "xyz" if first.isdecimal() and name != ".pts" else "table"
+    return "ase"
+
+
+def _is_table(start: bytes) -> bool:
+    """Whether it is text and all lines have as many words."""
+    rows = [line.replace(b",", b" ").split() for line in start.split(b"\n")[:-1] if line[:1] != b"#"]
+    return len(rows) > 1 and b"\0" not in start and len({len(row) for row in rows[1:]}) == 1

@@ -1,0 +1,112 @@
+"""Files of frames, read in their order, so that each frame is looked for once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol
+
+from pt.figure._errors import DataError
+from pt.figure._particles import Particles
+from pt.figure.readers._lines import Lines
+
+
+class Frames(Protocol):
+    """What a file or an object holds."""
+
+    name: str
+
+    def count(self) -> int: ...
+
+    def has(self, index: int) -> bool:
+        """Whether there is that frame, index >= 0: for which a file need not be read to its end."""
+
+    def read(self, index: int) -> Particles:
+        """0 <= index < count()."""
+
+
+class Listed:
+    """Frames that are all at hand, or are read by their number; the current one is that of a moving object."""
+
+    def __init__(self, name: str, count: int, read: Callable[[int], Particles], current: int | None = None) -> None:
+        self.name = name
+        self.current = current
+        self.read = read
+        self._count = count
+
+    def count(self) -> int:
+        return self._count
+
+    def has(self, index: int) -> bool:
+        return index < self._count
+
+
+def one_frame(name: str, read: Callable[[], Particles]) -> Listed:
+    return Listed(name, 1, lambda index: read())
+
+
+class TextFrames:
+    """Formats whose frames have a head that says how many lines follow."""
+
+    def __init__(self, lines: Lines) -> None:
+        self.lines = lines
+        self.name = lines.name
+        self._places = [lines.place()]  # of the frames that are known, and of the one behind them
+        self._is_whole = False
+
+    def head(self) -> int | None:
+        """Reads the head of the next frame: how many particles it has; None at the end of the file."""
+        raise NotImplementedError
+
+    def body(self, count: int) -> Particles:
+        """Reads the rows behind the head."""
+        raise NotImplementedError
+
+    def count(self) -> int:
+        while self._pass():
+            pass
+        return len(self._places) - 1
+
+    def has(self, index: int) -> bool:
+        while len(self._places) <= index and self._pass():
+            pass
+        if len(self._places) > index + 1:
+            return True
+        self.lines.go_to(self._places[-1])
+        return len(self._places) > index and not self._is_whole and bool(self.lines.peek(1).strip())
+
+    def _pass(self) -> bool:
+        """Finds the end of one more frame."""
+        if self._is_whole:
+            return False
+        lines = self.lines
+        lines.go_to(self._places[-1])
+        index = len(self._places) - 1
+        try:
+            count = self.head()
+        except DataError:
+            if index:
+                self.read(index - 1)  # which names a line too many there rather than one that is too late
+            raise
+        if count is None:
+            self._is_whole = True
+            return False
+        passed = lines.skip(count)
+        if passed < count:
+            before = f"; frame {index - 1} is whole" if index else ""
+            raise lines.refuse(f"the file ends after {passed:,} of {count:,} particles of frame {index}: it was cut "
+                               f"short{before}")
+        self._places.append(lines.place())
+        return True
+
+    def read(self, index: int) -> Particles:
+        self.lines.go_to(self._places[index])
+        count = self.head()
+        if count is None:
+            raise DataError(f"{self.name}: there is no frame {index}: the file has {index}")
+        if count == 0:
+            before = f"; frame {index - 1} may have some" if index else ""
+            raise self.lines.refuse(f"frame {index} has no particles{before}")
+        particles = self.body(count)
+        if len(self._places) == index + 1:
+            self._places.append(self.lines.place())
+        return particles

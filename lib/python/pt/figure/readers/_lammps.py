@@ -1,0 +1,95 @@
+"""Dumps of atoms by LAMMPS (docs.lammps.org/dump.html)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figure._particles import Cell, Particles, assembled, coordinate_names
+from pt.figure.readers._frames import TextFrames
+from pt.figure.readers._lines import Lines
+from pt.figure.readers._rows import Layout, Rows, is_number, shown
+
+_HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
+
+
+class LammpsDump(TextFrames):
+    def __init__(self, lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> None:
+        super().__init__(lines)
+        self._options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
+        self._names: list[str] = []
+        self._cell: Cell | None = None
+
+    def head(self) -> int | None:
+        lines = self.lines
+        count = None
+        self._cell = None
+        is_first = True
+        while (line := lines.line()) is not None:
+            if is_first and not line.strip():
+                continue  # at the end of a file
+            is_first = False
+            if not line.startswith("ITEM: "):
+                raise lines.refuse(f"{shown(line)}: must begin with ITEM:, which a new frame does: are there more lines "
+                                   "than particles, or is one a comment?")
+            item = line.removeprefix("ITEM: ").strip()
+            if item == "NUMBER OF ATOMS":
+                text = self._line().strip()
+                if not text.isdecimal():
+                    raise lines.refuse(f"{shown(text)}: must be the number of atoms")
+                count = int(text)
+            elif item.startswith("BOX BOUNDS"):
+                self._cell = self._box(item.split()[2:])
+            elif item in ("TIMESTEP", "UNITS", "TIME"):
+                self._line()
+            elif item.startswith("ATOMS"):
+                self._names = item.split()[1:]
+                if count is None:
+                    raise lines.refuse("ITEM: ATOMS comes before ITEM: NUMBER OF ATOMS")
+                if len(set(self._names)) < max(1, len(self._names)):
+                    raise lines.refuse(f"{shown(line)}: must have the names of columns, each of them once")
+                return count
+            else:
+                raise lines.refuse(f"{shown(line)}: is none of a dump of atoms, which has positions")
+        if is_first:
+            return None
+        raise lines.refuse(_HEAD_ENDS)
+
+    def body(self, count: int) -> Particles:
+        rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))
+        rows.read(count)
+        return assembled(self.name, rows.columns(), cell=self._cell, is_text=True, notes=rows.notes, **self._options)
+
+    def _line(self) -> str:
+        line = self.lines.line()
+        if line is None:
+            raise self.lines.refuse(_HEAD_ENDS)
+        return line
+
+    def _numbers(self, count: int) -> list[float]:
+        line = self._line()
+        words = line.split()
+        if len(words) != count or not all(map(is_number, words)):
+            raise self.lines.refuse(f"{shown(line)}: the cell has {count} numbers in a line")
+        return [float(word) for word in words]
+
+    def _box(self, words: list[str]) -> Cell | None:
+        """Words: "pp pp ff", after "xy xz yz" if the cell is tilted, or "abc origin" if its edges are free."""
+        tilted, general = words[:3] == ["xy", "xz", "yz"], words[:2] == ["abc", "origin"]
+        flags = words[3 if tilted else 2 if general else 0:]
+        if len(flags) not in (0, 3):
+            raise self.lines.refuse(f"BOX BOUNDS {' '.join(words)}: must have three boundaries, like pp pp ff")
+        periodic = [flag == "pp" for flag in flags] or [True] * 3
+        rows: npt.NDArray[Any] = np.array([self._numbers(4 if general else 3 if tilted else 2) for _ in range(3)])
+        if general:
+            return Cell.of(rows[:, :3], rows[:, 3], periodic)
+        low, high = rows[:, 0].copy(), rows[:, 1].copy()
+        xy, xz, yz = rows[:, 2] if tilted else np.zeros(3)
+        # What a tilted cell's lines have are the bounds of the whole (docs.lammps.org/Howto_triclinic.html).
+        low -= min(0, xy, xz, xy + xz), min(0, yz), 0
+        high -= max(0, xy, xz, xy + xz), max(0, yz), 0
+        length = high - low
+        return Cell.of([[length[0], 0, 0], [xy, length[1], 0], [xz, yz, length[2]]], low, periodic)

@@ -1,0 +1,95 @@
+"""NPY and NPZ."""
+
+from __future__ import annotations
+
+import io
+import sys
+import zipfile
+import zlib
+from collections.abc import Mapping
+from types import SimpleNamespace
+from typing import Any, Final, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figure._errors import DataError
+from pt.figure._particles import Cell, assembled
+from pt.figure.readers._frames import Frames, Listed
+from pt.figure.readers._lines import Lines
+
+Array = npt.NDArray[Any]
+
+_CELLS: Final = ("cell", "box", "lattice")
+
+
+def read_npy(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+    """Read in place where the file is not packed."""
+    return frames_of_array(lines.name, _array(lines), mapping, drop_nonfinite)
+
+
+def read_npz(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+    """Arrays of as many rows as there are positions become columns."""
+    source: Any = lines.path if lines.is_file and not lines.is_packed else io.BytesIO(lines.take(sys.maxsize))
+    try:
+        with np.load(source, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+    except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile, NotImplementedError) as error:
+        raise DataError(f"{lines.name}: {error}: damaged, or no NPZ file of numbers") from None
+    return frames_of_arrays(lines.name, arrays, mapping, drop_nonfinite)
+
+
+def _array(lines: Lines) -> Array:
+    stream, npy = SimpleNamespace(read=lines.take), cast(Any, np.lib.format)
+    try:
+        is_first = npy.read_magic(stream) == (1, 0)
+        shape, is_fortran, kind = (npy.read_array_header_1_0 if is_first else npy.read_array_header_2_0)(stream)
+    except Exception as error:  # of many kinds, as NumPy takes the head for an expression of Python
+        raise DataError(f"{lines.name}: byte {lines.byte}: {error}: the head of an NPY file is damaged or was cut "
+                        "short") from None
+    if kind.hasobject or not kind.itemsize or min(shape, default=0) < 0:
+        raise DataError(f"{lines.name}: an array of {kind} with the shape {shape}: must have numbers")
+    count = int(np.prod(shape, dtype=object))
+    values = lines.mapped(kind, count)
+    if len(values) < count:
+        raise DataError(f"{lines.name}: byte {lines.byte + values.nbytes:,}: the file ends after {len(values):,} of "
+                        f"{count:,} numbers: it was cut short")
+    return values.reshape(shape[::-1]).T if is_fortran else values.reshape(shape)
+
+
+def frames_of_arrays(name: str, arrays: Mapping[str, Any], mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+    """Columns; positions and others may have a first dimension of frames."""
+    columns = {key: np.asarray(values) for key, values in arrays.items() if np.ndim(values)}
+    box = next((columns.pop(key) for key in list(columns) if key.lower() in _CELLS), None)
+    cell = Cell.of(box) if box is not None and box.shape in ((3,), (3, 3)) else None
+    frames = max((len(values) for values in columns.values() if values.ndim == 3), default=None)
+    if frames is not None:
+        def frame(index: int) -> dict[str, Array]:
+            return {key: values[index] if values.ndim == 3 else values for key, values in columns.items()}
+    else:
+        def frame(index: int) -> dict[str, Array]:
+            return columns
+
+    def read(index: int) -> Any:
+        rows = frame(index)
+        size = max((len(values) for values in rows.values() if values.ndim == 2), default=None)
+        if size is not None:
+            rows = {key: values for key, values in rows.items() if len(values) == size}
+        return assembled(name, rows, mapping=mapping, cell=cell, drop_nonfinite=drop_nonfinite)
+
+    return Listed(name, frames or 1, read)
+
+
+def frames_of_array(name: str, array: Array, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+    """Shape (n, 3), (n, 2), (n, k) with columns x, y, z, 4, ..., or (t, n, 3); or a structured array."""
+    if array.dtype.names:
+        return frames_of_arrays(name, {key: array[key] for key in array.dtype.names}, mapping, drop_nonfinite)
+    if array.dtype.kind not in "fiub" or array.ndim not in (2, 3) or not 2 <= array.shape[-1]:
+        raise DataError(f"{name}: an array of {array.dtype} with the shape {array.shape}: must have numbers and the shape "
+                        "(n, 3), (n, 2) or, of frames, (t, n, 3)")
+    if array.ndim == 3 and array.shape[2] > 3:
+        raise DataError(f"{name}: the shape {array.shape}: frames must have the shape (t, n, 3) or (t, n, 2)")
+    if array.shape[-1] <= 3:
+        return frames_of_arrays(name, {"positions": array}, mapping, drop_nonfinite)
+    names = ["x", "y", "z", *map(str, range(4, array.shape[1] + 1))]
+    return frames_of_arrays(name, dict(zip(names, array.T)), mapping, drop_nonfinite)

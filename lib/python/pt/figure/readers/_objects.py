@@ -1,0 +1,53 @@
+"""Objects of other packages, which are known by their names, so that none is imported for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from pt.figure._particles import Cell, Particles, assembled
+from pt.figure.readers._frames import Frames, Listed
+
+Options = Mapping[str, Any]
+
+
+def of_ase(atoms: Any, name: str, options: Options) -> Particles:
+    columns = {"positions": atoms.positions, **{key: values for key, values in atoms.arrays.items() if key != "positions"}}
+    return assembled(name, columns, cell=Cell.of(atoms.cell.array, periodic=atoms.pbc), **options)
+
+
+def of_mdanalysis(group: Any, name: str, options: Options) -> Frames:
+    """A universe or a group of atoms; lengths are in angstroms."""
+    atoms = group.atoms
+    trajectory = group.universe.trajectory
+
+    def read(index: int) -> Particles:
+        step = trajectory[index]
+        columns = {"positions": atoms.positions.copy()}  # which the next frame overwrites
+        for key, attribute in (("element", "elements"), ("name", "names"), ("type", "types"), ("radius", "radii"),
+                               ("mass", "masses"), ("charge", "charges"), ("resid", "resids"), ("resname", "resnames"),
+                               ("segid", "segids")):
+            values = getattr(atoms, attribute, None)
+            if values is not None and (key != "element" or any(values)):
+                columns[key] = values
+        cell = None if step.dimensions is None else Cell.of(step.triclinic_dimensions)
+        return assembled(name, columns, cell=cell, **options)
+
+    return Listed(name, len(trajectory), read, trajectory.frame)
+
+
+def of_ovito(data: Any, name: str, options: Options) -> Particles:
+    particles = data.particles
+    columns = {"positions" if key == "Position" else key: np.asarray(particles[key]) for key in particles.keys()}
+    kinds = particles.get("Particle Type")
+    if kinds is not None:
+        named = {each.id: each.name or str(each.id) for each in kinds.types}
+        columns["type"] = np.array([named.get(kind, str(kind)) for kind in np.asarray(kinds).tolist()])
+        del columns["Particle Type"]
+    cell = None
+    if data.cell is not None:
+        matrix = np.asarray(data.cell[...])  # columns are the edges and the origin
+        cell = Cell.of(matrix[:, :3].T, matrix[:, 3], data.cell.pbc)
+    return assembled(name, columns, cell=cell, **options)

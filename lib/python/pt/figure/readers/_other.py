@@ -1,0 +1,71 @@
+"""Formats that other packages read: ASE and MDAnalysis for atoms, pyvista, trimesh and laspy for points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from pt.figure._errors import DataError, module
+from pt.figure._particles import Particles, assembled
+from pt.figure.readers._frames import Frames, Listed, one_frame
+from pt.figure.readers._objects import of_ase, of_mdanalysis
+
+Options = Mapping[str, Any]
+
+
+def read_ase(path: str, options: Options) -> Frames:
+    read = module("ase.io", f"{path}: this format").read
+    images = _tried(path, "ASE", lambda: read(path, index=":"))
+    return Listed(path, len(images), lambda index: of_ase(images[index], path, options))
+
+
+def read_mdanalysis(path: str, options: Options) -> Frames:
+    mdanalysis = module("MDAnalysis", f"{path}: this format")
+    return of_mdanalysis(_tried(path, "MDAnalysis", lambda: mdanalysis.Universe(path)), path, options)
+
+
+def read_pyvista(path: str, options: Options) -> Frames:
+    pyvista = module("pyvista", f"{path}: this format")
+    mesh = _tried(path, "pyvista", lambda: pyvista.read(path))
+    while hasattr(mesh, "combine") and not hasattr(mesh, "points"):
+        mesh = mesh.combine()
+    columns = {key: np.asarray(mesh.point_data[key]) for key in mesh.point_data.keys()}
+    faces = 0 if mesh.n_cells == mesh.n_points else mesh.n_cells
+    return one_frame(path, lambda: _points(path, mesh.points, columns, faces, options))
+
+
+def read_trimesh(path: str, options: Options) -> Frames:
+    trimesh = module("trimesh", f"{path}: this format")
+    mesh = _tried(path, "trimesh", lambda: trimesh.load(path, process=False))
+    if hasattr(mesh, "to_mesh"):
+        mesh = mesh.to_mesh()
+    colors = getattr(getattr(mesh, "visual", None), "vertex_colors", getattr(mesh, "colors", None))
+    columns = {} if colors is None or np.shape(colors)[:1] != np.shape(mesh.vertices)[:1] else {"colors": colors}
+    return one_frame(path, lambda: _points(path, mesh.vertices, columns, len(getattr(mesh, "faces", ())), options))
+
+
+def read_laspy(path: str, options: Options) -> Frames:
+    laspy = module("laspy", f"{path}: this format")
+    las = _tried(path, "laspy", lambda: laspy.read(path))
+    names = [name for name in las.point_format.dimension_names if name not in ("X", "Y", "Z")]
+    columns = {name: np.asarray(las[name]) for name in names}
+    if "red" in columns and max(columns[key].max(initial=0) for key in ("red", "green", "blue")) <= 255:
+        columns.update((key, columns[key].astype(np.uint8)) for key in ("red", "green", "blue"))
+    return one_frame(path, lambda: _points(path, np.asarray(las.xyz), columns, 0, options))
+
+
+def _points(path: str, positions: Any, columns: dict[str, Any], faces: int, options: Options) -> Particles:
+    notes = [f"the {faces:,} faces of the mesh are not drawn: only its vertices are"] if faces else []
+    return assembled(path, {"positions": np.asarray(positions), **columns}, notes=notes, **options)
+
+
+def _tried(path: str, package: str, read: Callable[[], Any]) -> Any:
+    try:
+        return read()
+    except DataError:
+        raise
+    except Exception as error:  # each package has its own
+        words = " ".join(str(error).split()) or type(error).__name__
+        raise DataError(f"{path}: {package} cannot read it: {words}") from error

@@ -1,0 +1,235 @@
+"""Rows of text as columns: by pandas where there are many, else, and where a row is wrong, one by one."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figure._errors import DataError, module
+from pt.figure._particles import LABELS
+from pt.figure.readers._lines import Lines
+
+Array = npt.NDArray[Any]
+
+FEW_BYTES: Final = 1 << 16  # that are read before pandas has been imported
+MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
+_FORTRAN: Final = re.compile(r"([\d.])[dD]([+-]?\d)")
+
+
+@dataclass
+class Layout:
+    """What a row must have.
+
+    names      of the columns
+    positions  those of them that must be numbers, whatever the first row has
+    separator  "" for blanks
+    decimal    the character before the fraction
+    least      fields of a row; what is not there counts as missing, and further fields are left out
+    is_table   without a number of rows: blank lines and lines that begin with # are none, and columns of numbers, but
+               those of positions, may have words too
+    """
+
+    names: list[str]
+    positions: list[str] = field(default_factory=list)
+    separator: str = ""
+    decimal: str = "."
+    least: int | None = None
+    is_table: bool = False
+
+
+def number(text: str, decimal: str = ".") -> float:
+    """Also with Fortran's exponents, 1.5D+02, and of a missing value. Raises ValueError."""
+    if text in MISSING:
+        return np.nan
+    if "_" in text:
+        raise ValueError(text)  # Python takes it
+    return float(_FORTRAN.sub(r"\1e\2", text if decimal == "." else text.replace(decimal, ".")))
+
+
+def is_number(text: str, decimal: str = ".") -> bool:
+    try:
+        number(text, decimal)
+    except ValueError:
+        return False
+    return True
+
+
+def is_comment(line: str) -> bool:
+    return line.lstrip().startswith(("#", "//"))
+
+
+def fields_of(line: str, separator: str) -> list[str]:
+    """Raises csv.Error for a quoted field that does not end."""
+    if not separator:
+        return [word.strip('"') for word in line.split()]
+    if '"' not in line:
+        return [word.strip() for word in line.split(separator)]
+    return [word.strip() for word in next(csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True))]
+
+
+class Rows:
+    """Collects the columns of blocks of rows."""
+
+    def __init__(self, lines: Lines, layout: Layout) -> None:
+        self.lines = lines
+        self.layout = layout
+        self.count = 0
+        self.notes: list[str] = []
+        self._pieces: list[list[Array]] = [[] for _ in layout.names]
+        self._are_words: list[bool] = []
+
+    def read(self, count: int | None = None) -> None:
+        """Rows to the end of the file, or so many: fewer are an error."""
+        lines = self.lines
+        while count is None or self.count < count:
+            first = lines.number + 1
+            data, height = lines.block() if count is None else lines.block(count - self.count)
+            if not height:
+                if count is not None:
+                    raise lines.refuse(f"the file ends after {self.count:,} of {count:,} particles: it was cut short")
+                return
+            self.add(data, height, first)
+            if not lines.is_ended and not data[-1:].isspace():
+                self.notes.append("the last line does not end with a newline: its last number may be cut")
+
+    def add(self, data: bytes, height: int, first: int) -> None:
+        """Rows of a block whose lines are numbered from this one on."""
+        if not self._are_words:
+            self._find_words(data)
+        columns = self._by_pandas(data, height) if len(data) > FEW_BYTES else None
+        if columns is None:
+            columns = self._one_by_one(data, first)
+        self.count += len(columns[0])
+        for pieces, column in zip(self._pieces, columns):
+            pieces.append(column)
+
+    def columns(self) -> dict[str, Array]:
+        """All columns. Pieces are given up on the way, so that no more than one column is held twice."""
+        result = {}
+        for name, pieces in zip(self.layout.names, self._pieces):
+            if len({piece.dtype.kind == "U" for piece in pieces}) > 1:
+                pieces[:] = [piece.astype(str) for piece in pieces]
+            result[name] = np.concatenate(pieces) if len(pieces) > 1 else pieces[0] if pieces else np.empty(0)
+            pieces.clear()
+        return result
+
+    def _find_words(self, data: bytes) -> None:
+        """Columns that begin with a word have words, but not those of positions."""
+        layout = self.layout
+        lines = (line.decode("utf-8", "replace") for line in io.BytesIO(data))
+        first = next((line for line in lines if line.strip() and not (layout.is_table and is_comment(line))), "")
+        fields = [word.strip('"') for word in first.rstrip("\r\n").split(layout.separator or None)]
+        fields += [""] * len(layout.names)
+        self._are_words = [name not in layout.positions and not is_number(word.strip(), layout.decimal)
+                           for name, word in zip(layout.names, fields)]
+
+    def _may_mix(self, name: str) -> bool:
+        return name not in self.layout.positions and (self.layout.is_table or name.lower() in LABELS)
+
+    def _by_pandas(self, data: bytes, height: int) -> list[Array] | None:
+        """None for what wants a closer look: pandas takes short rows for missing values and names no lines."""
+        layout = self.layout
+        try:
+            pandas = module("pandas", "fast reading of large text")
+        except DataError as error:
+            self.notes[:] = [*(note for note in self.notes if note != str(error)), str(error)]
+            return None
+        if layout.is_table and (data.startswith(b"#") or b"\n#" in data):
+            data = re.sub(rb"(?m)^#.*\n?", b"", data)
+            height = data.count(b"\n") + (not data.endswith(b"\n"))
+        width = len(layout.names)
+        try:
+            frame = pandas.read_csv(
+                io.BytesIO(data), header=None, sep=layout.separator or r"\s+", decimal=layout.decimal,
+                skipinitialspace=True, quoting=csv.QUOTE_MINIMAL if layout.separator else csv.QUOTE_NONE,
+                dtype={i: "category" for i in range(width) if self._are_words[i]}, keep_default_na=False,
+                na_values={i: list(MISSING) for i in range(width) if not self._are_words[i]}, low_memory=False,
+                encoding_errors="replace", engine="c",
+                **({"float_precision": "round_trip"} if pandas.__version__ < "3" else {}))  # as all have it from 3 on
+        except (ValueError, OverflowError):  # which its errors of parsing are, too
+            return None
+        may_skip = layout.is_table and b'"' not in data  # blank lines
+        if frame.shape[1] != width or len(frame) > height or (len(frame) < height and not may_skip):
+            return None
+        columns: list[Array] = []
+        for i, is_words in enumerate(self._are_words):
+            if is_words:
+                values = frame[i].cat
+                words = np.array([str(word).strip() for word in values.categories] + [""])
+                columns.append(words[values.codes.to_numpy()])
+            elif frame[i].dtype.kind not in "if":
+                return None
+            else:
+                columns.append(frame[i].to_numpy(np.int64 if frame[i].dtype.kind == "i" else np.float64))
+        last = columns[-1]
+        return columns if self._has_all_fields(last == "" if last.dtype.kind == "U" else np.isnan(last), data, height) else None
+
+    def _has_all_fields(self, is_missing: Array, data: bytes, height: int) -> bool:
+        """Of rows whose last value is missing, whether there is a field for it."""
+        rows = np.flatnonzero(is_missing)
+        if not len(rows) or len(self.layout.names) == 1:
+            return True
+        lines = data.split(b"\n")[:height]
+        if len(lines) != len(is_missing):
+            lines = [line for line in lines if line.strip()]
+        return all(len(fields_of(lines[row].decode("utf-8", "replace"), self.layout.separator)) == len(self.layout.names)
+                   for row in rows)
+
+    def _one_by_one(self, data: bytes, first: int) -> list[Array]:
+        layout = self.layout
+        rows, places = [], []
+        text = data.decode("utf-8", "replace")
+        for place, line in enumerate(text.removesuffix("\n").split("\n"), first):
+            if layout.is_table and (not line.strip() or is_comment(line)):
+                continue
+            try:
+                row = fields_of(line, layout.separator)
+            except csv.Error:
+                raise self._error(place, f"{shown(line)}: a quoted field must end in the line in which it begins") from None
+            rows.append(self._complete(row, place, line))
+            places.append(place)
+        return [self._typed(i, [row[i] for row in rows], places) for i in range(len(layout.names))]
+
+    def _complete(self, row: list[str], place: int, line: str) -> list[str]:
+        width = len(self.layout.names)
+        if self.layout.least is not None and len(row) >= self.layout.least:
+            return (row + [""] * width)[:width]
+        if len(row) == width + 1 and self.layout.separator and not row[-1]:
+            return row[:-1]
+        if len(row) != width:
+            expected = f"must have {self.layout.least or width}" + (" or more" if self.layout.least else "")
+            raise self._error(place, f"{shown(line)}: has {len(row)} values, {expected}")
+        return row
+
+    def _typed(self, column: int, words: list[str], places: list[int]) -> Array:
+        name = self.layout.names[column]
+        if self._are_words[column]:
+            return np.array(words, str)
+        if all(word.lstrip("+-").isdecimal() and len(word) < 19 for word in words):
+            return np.array([int(word) for word in words], np.int64)
+        values = np.empty(len(words))
+        for i, word in enumerate(words):
+            try:
+                values[i] = number(word, self.layout.decimal)
+            except ValueError:
+                if not self._may_mix(name):
+                    raise self._error(places[i], f"{name} = {word!r}: must be a number") from None
+                if name.lower() not in LABELS:
+                    self.notes.append(f"column {name} is taken for words: {word!r} in line {places[i]} is no number")
+                return np.array(words, str)
+        return values
+
+    def _error(self, place: int, what: str) -> DataError:
+        return DataError(f"{self.lines.name}:{place}: {what}")
+
+
+def shown(line: str, most: int = 60) -> str:
+    """A line for a message."""
+    line = line.strip()
+    return repr(line if len(line) <= most else line[:most] + "...")

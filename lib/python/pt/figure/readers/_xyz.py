@@ -1,0 +1,83 @@
+"""XYZ, plain and extended (as ASE and OVITO write it)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from pt.figure._particles import Cell, Particles, assembled, coordinate_names
+from pt.figure.readers._frames import TextFrames
+from pt.figure.readers._lines import Lines
+from pt.figure.readers._rows import Layout, Rows, is_number, shown
+
+_PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\S*))""")
+_MOST_COLUMNS: Final = 65536
+_LEAST: Final = 4  # fields of a plain row: a label and a position
+
+
+class Xyz(TextFrames):
+    def __init__(self, lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> None:
+        super().__init__(lines)
+        self._options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
+        self._pairs: dict[str, str] = {}
+
+    def head(self) -> int | None:
+        lines = self.lines
+        while (line := lines.line()) is not None and not line.strip():
+            pass
+        if line is None:
+            return None
+        if not line.strip().isdecimal():
+            raise lines.refuse(f"{shown(line)}: must be the number of particles of a frame")
+        comment = lines.line()
+        if comment is None:
+            raise lines.refuse("the file ends after the number of particles: it was cut short")
+        self._pairs = {found[0]: "".join(found[1:]) for found in _PAIR.findall(comment)}
+        return int(line)
+
+    def body(self, count: int) -> Particles:
+        cell = self._cell()
+        names, least = self._names()
+        positions = coordinate_names(names)[0]
+        rows = Rows(self.lines, Layout(names, positions, least=least))
+        rows.read(count)
+        return assembled(self.name, rows.columns(), cell=cell, is_text=True, notes=rows.notes, **self._options)
+
+    def _names(self) -> tuple[list[str], int | None]:
+        """Of the columns; and how many a row must have at least, where more may follow."""
+        properties = self._pairs.get("Properties")
+        if properties is None:
+            first = self.lines.peek(1 << 16).split(b"\n", 1)[0].decode("utf-8", "replace").split()
+            if len(first) == 3 and all(map(is_number, first)):
+                return ["x", "y", "z"], None
+            return ["species", "x", "y", "z", *map(str, range(5, len(first) + 1))], _LEAST
+        parts = properties.split(":")
+        names: list[str] = []
+        for name, kind, count in zip(parts[::3], parts[1::3], parts[2::3]):
+            if not (name and kind in ("S", "R", "I", "L") and count.isdecimal() and 0 < int(count) < _MOST_COLUMNS):
+                break
+            names += [name] if count == "1" else [f"{name}[{i}]" for i in range(int(count))]
+        else:
+            if len(parts) % 3 == 0 and len(names) < _MOST_COLUMNS:
+                return names, None
+        raise self.lines.refuse(f"Properties = {shown(properties)}: must be name:type:count for each column, where the "
+                                "type is S, R, I or L")
+
+    def _numbers(self, key: str, count: int) -> Any:
+        words = re.split(r"[\s,]+", self._pairs[key].strip(" ,[]"))
+        if len(words) != count or not all(map(is_number, words)):
+            raise self.lines.refuse(f"{key} = {shown(self._pairs[key])}: must have {count} numbers")
+        return np.array(words, np.float64)
+
+    def _cell(self) -> Cell | None:
+        if "Lattice" not in self._pairs:
+            return None
+        flags = self._pairs.get("pbc", "T T T").replace(",", " ").split()
+        if len(flags) != 3:
+            raise self.lines.refuse(f"pbc = {shown(self._pairs['pbc'])}: must have three flags, like T T F")
+        origin = self._numbers("Origin", 3) if "Origin" in self._pairs else np.zeros(3)
+        periodic = [flag.lower() in ("t", "true", "1") for flag in flags]
+        return Cell.of(self._numbers("Lattice", 9), origin, periodic)
