@@ -37,10 +37,17 @@ struct Squares {
     float shares;
 };
 
+// The squares of gpu_layout.h's RegionError.
+const uint SQUARE = 0u;
+const uint RELATIVE_SQUARE = 1u;
+const uint MET_ONCE = 2u;
+const uint AS_LAMPS = 3u;
+const uint KINDS = 4u;
+
 // What a column of a tile, and then a tile, says of its pixels' errors.
 struct Errors {
-    Squares square;
-    Squares relative_square;
+    Squares squares[KINDS];
+    uint met_again; // values
     float unseen;
     vec2 own; // what the samples of its tile alone say: relative squares, and those of unseen light
     Findings findings;
@@ -204,53 +211,53 @@ Squares united(Squares a, Squares b)
                                   : 0.0);
 }
 
-Errors united(Errors a, Errors b)
-{
-    return Errors(united(a.square, b.square), united(a.relative_square, b.relative_square), a.unseen + b.unseen,
-                  a.own + b.own, united(a.findings, b.findings));
-}
-
-// Of all tiles of a region, with the part of the pixels of a whole tile that each has.
-ErrorSquares squares_of_tiles(Squares tiles[TILES_IN_REGION], float parts[TILES_IN_REGION])
+// Of all tiles of a region, which are in errors, with the part of the pixels of a whole tile that each has.
+ErrorSquares squares_of_tiles(uint kind, uvec2 size)
 {
     ErrorSquares all = ErrorSquares(0.0, 0.0, 0.0, 0.0);
     [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i)
-        all.sum += tiles[i].sum;
+        all.sum += errors[i].squares[kind].sum;
     if (all.sum > 0.0)
         [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i) {
-            float share = share_of(tiles[i].sum, all.sum);
-            all.pixel_shares += squared(share) * tiles[i].shares;
+            uvec2 corner = uvec2(i % TILES_IN_ROW, i / TILES_IN_ROW) * TILE_SIZE;
+            uvec2 in_region = min(size - min(size, corner), uvec2(TILE_SIZE));
+            float share = share_of(errors[i].squares[kind].sum, all.sum);
+            all.pixel_shares += squared(share) * errors[i].squares[kind].shares;
             all.tile_shares += squared(share);
-            all.part_share += share * parts[i];
+            all.part_share += share * (float(in_region.x * in_region.y) / float(TILE_SIZE * TILE_SIZE));
         }
     return all;
 }
 
-// Of the tiles in errors.
-RegionError region_error(uvec2 size)
+// Of the tiles in errors. An invocation has a kind of squares, and the first has all else.
+void write_region_error(uint region, uint invocation, uvec2 size)
 {
-    RegionError region;
-    Findings findings = Findings(uvec2(0u), 0u, 0u);
-    Squares squares[TILES_IN_REGION];
-    Squares relative_squares[TILES_IN_REGION];
-    float parts[TILES_IN_REGION];
-    region.unseen = 0.0;
-    [[unroll]] for (uint i = 0u; i < TILES_IN_REGION; ++i) {
-        squares[i] = errors[i].square;
-        relative_squares[i] = errors[i].relative_square;
-        region.unseen += errors[i].unseen;
-        findings = united(findings, errors[i].findings);
-        uvec2 corner = uvec2(i % TILES_IN_ROW, i / TILES_IN_ROW) * TILE_SIZE;
-        uvec2 in_region = min(size - min(size, corner), uvec2(TILE_SIZE));
-        parts[i] = float(in_region.x * in_region.y) / float(TILE_SIZE * TILE_SIZE);
+    if (invocation < KINDS) {
+        ErrorSquares squares = squares_of_tiles(invocation, size);
+        if (invocation == SQUARE)
+            estimated.regions[region].square = squares;
+        else if (invocation == RELATIVE_SQUARE)
+            estimated.regions[region].relative_square = squares;
+        else if (invocation == MET_ONCE)
+            estimated.regions[region].met_once = squares;
+        else
+            estimated.regions[region].as_lamps = squares;
     }
-    region.square = squares_of_tiles(squares, parts);
-    region.relative_square = squares_of_tiles(relative_squares, parts);
-    region.rejected = findings.rejected;
-    region.unknown_pixels = findings.unknown;
-    region.lost_pixels = findings.lost;
-    region.reserved = 0u;
-    return region;
+    if (invocation == 0u) {
+        Findings findings = Findings(uvec2(0u), 0u, 0u);
+        float unseen = 0.0;
+        uint met_again = 0u;
+        for (uint i = 0u; i < TILES_IN_REGION; ++i) {
+            unseen += errors[i].unseen;
+            met_again += errors[i].met_again;
+            findings = united(findings, errors[i].findings);
+        }
+        estimated.regions[region].unseen = unseen;
+        estimated.regions[region].met_again = met_again;
+        estimated.regions[region].rejected = findings.rejected;
+        estimated.regions[region].unknown_pixels = findings.unknown;
+        estimated.regions[region].lost_pixels = findings.lost;
+    }
 }
 
 void main()
@@ -291,12 +298,11 @@ void main()
     }
 
     const RelativeError relative = RelativeError(estimate.relative_offset, estimate.relative_scale);
-    float squares[TILE_SIZE]; // of all channels
-    float relative_squares[TILE_SIZE];
-    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
-        squares[i] = 0.0;
-        relative_squares[i] = 0.0;
-    }
+    float squares[KINDS][TILE_SIZE]; // of all channels
+    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
+        [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
+            squares[kind][i] = 0.0;
+    uint met_again = 0u;
     float unseen = 0.0;
     vec2 own = vec2(0.0);
     for (uint channel = 0u; channel < 3u; ++channel) {
@@ -356,32 +362,61 @@ void main()
                 above = row;
                 row = below;
                 const float around = max(near.median, level_about(mean, tile_set, region_set));
-                squares[i] += squared(standard_errors[i]);
-                relative_squares[i] += relative_square(standard_errors[i], mean, lessers[i], around, relative);
+                squares[SQUARE][i] += squared(standard_errors[i]);
+                const float square = relative_square(standard_errors[i], mean, lessers[i], around, relative);
+                const bool alone = stands_out(mean, around, relative);
+                const bool once = is_met_once(standard_errors[i], mean, lessers[i]);
+                if (alone && once) {
+                    squares[MET_ONCE][i] += square;
+                    squares[AS_LAMPS][i] += square_as_lamp(standard_errors[i], mean, relative);
+                } else
+                    squares[RELATIVE_SQUARE][i] += square;
+                met_again += alone && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
                 unseen += unseen_square(mean, near.largest, sample_count, relative.offset);
-                if (UNEVEN == 1u)
-                    own += vec2(relative_square(standard_errors[i], mean, lessers[i],
-                                                mean_besides_and_without_largest(tile_set, mean), relative),
+                if (UNEVEN == 1u) {
+                    const float level = mean_besides_and_without_largest(tile_set, mean);
+                    own += vec2(once && stands_out(mean, level, relative)
+                                    ? square_as_lamp(standard_errors[i], mean, relative)
+                                    : relative_square(standard_errors[i], mean, lessers[i], level, relative),
                                 unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
+                }
             }
         barrier(); // before the next channel's means
     }
 
     // Sums of columns of tiles, then of tiles, then of the region.
-    errors[invocation] = Errors(squares_of(squares), squares_of(relative_squares), unseen, own, findings);
+    [[unroll]] for (uint kind = 0u; kind < KINDS; ++kind)
+        errors[invocation].squares[kind] = squares_of(squares[kind]);
+    errors[invocation].met_again = met_again;
+    errors[invocation].unseen = unseen;
+    errors[invocation].own = own;
+    errors[invocation].findings = findings;
     barrier();
-    Errors of_tile;
-    if (sums_up_tile) {
-        of_tile = errors[first_column];
-        for (uint i = 1u; i < TILE_SIZE; ++i)
-            of_tile = united(of_tile, errors[first_column + i]);
-    }
-    barrier(); // all have read the columns
+    // An invocation has a kind of squares of a tile, and one of each tile all else.
+    const uint summed_tile = invocation % TILES_IN_REGION;
+    const uint kind = min(invocation / TILES_IN_REGION, KINDS - 1u);
+    const uint first = summed_tile / TILES_IN_ROW * REGION_SIZE + summed_tile % TILES_IN_ROW * TILE_SIZE;
+    Squares of_kind = errors[first].squares[kind];
+    for (uint i = 1u; i < TILE_SIZE; ++i)
+        of_kind = united(of_kind, errors[first + i].squares[kind]);
+    Errors of_tile = errors[first];
     if (sums_up_tile)
-        errors[invocation] = of_tile;
+        for (uint i = 1u; i < TILE_SIZE; ++i) {
+            of_tile.met_again += errors[first + i].met_again;
+            of_tile.unseen += errors[first + i].unseen;
+            of_tile.own += errors[first + i].own;
+            of_tile.findings = united(of_tile.findings, errors[first + i].findings);
+        }
+    barrier(); // all have read the columns
+    if (invocation < KINDS * TILES_IN_REGION)
+        errors[summed_tile].squares[kind] = of_kind;
+    if (sums_up_tile) {
+        errors[invocation].met_again = of_tile.met_again;
+        errors[invocation].unseen = of_tile.unseen;
+        errors[invocation].findings = of_tile.findings;
+    }
     barrier();
-    if (invocation == 0u)
-        estimated.regions[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x] = region_error(size);
+    write_region_error(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
     // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
     if (UNEVEN == 1u && sums_up_tile && all(lessThan(tile_place, size)))

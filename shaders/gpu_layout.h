@@ -314,11 +314,13 @@ struct ErrorSquares {
 // What a region says about the error of the image.
 struct RegionError {
     ErrorSquares square;          // of (x - r)^2, in film units
-    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2
+    ErrorSquares relative_square; // of (x - r)^2 / (r^2 + offset^2), times relative_scale^2, but for values met once
+    ErrorSquares met_once;        // the same of these
+    ErrorSquares as_lamps;        // likewise, by their own means
     float unseen;                 // the same of light that no sample met, not scaled
+    uint met_again;               // values
     uint unknown_pixels;          // without a sample in either part
     uint lost_pixels;             // whose samples a driver lost
-    uint reserved;
     uvec2 rejected;               // samples, low and high word
 };
 
@@ -432,7 +434,7 @@ static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_w
 static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
-static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 56 && offsetof(RegionError, rejected) == 48);
+static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
 static_assert(sizeof(AddConstants) == 28 && offsetof(AddConstants, added_stride) == 24);
 } // namespace pt::gpu
 #endif

@@ -77,6 +77,30 @@ struct RelativeError {
     float scale;  // of the root of the square, so that a square is a finite float
 };
 
+const float e_squared = 7.39; // where the logarithm of an edge passes 1, and a pixel begins to stand out
+
+bool stands_out(float mean, float around, RelativeError relative)
+{
+    float offset = squared(relative.offset);
+    return squared(mean) + offset > e_squared * (squared(around) + offset);
+}
+
+bool is_met_once(float standard_error, float mean, float lesser)
+{
+    return lesser <= 0.02 * mean && standard_error >= 0.99 * (mean - lesser);
+}
+
+bool is_met_again(float mean, float lesser)
+{
+    return lesser >= 0.25 * mean;
+}
+
+// The square of the error relative to the value's own mean, times scale^2.
+float square_as_lamp(float standard_error, float mean, RelativeError relative)
+{
+    return squared(standard_error * relative.scale * inversesqrt(squared(mean) + squared(relative.offset)));
+}
+
 // The square of the error relative to the value's limit, as far as the samples tell, times scale^2.
 float relative_square(float standard_error, float mean, float lesser, float around, RelativeError relative)
 {
@@ -85,7 +109,6 @@ float relative_square(float standard_error, float mean, float lesser, float arou
     float limit = squared(min(mean, max(lesser, around))) + squared(relative.offset);
     float known = squared(lesser) + squared(relative.offset);
     bool most_are_dark = standard_error >= 0.99 * (mean - lesser);
-    const float e_squared = 7.39; // where the logarithm passes 1
     bool at_edge = most_are_dark && around >= mean && limit > e_squared * known;
     return squared(standard_error * relative.scale * inversesqrt(limit)) * (at_edge ? 0.5 * log(limit / known) : 1.0);
 }

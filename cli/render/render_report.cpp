@@ -69,12 +69,14 @@ std::string percent_text(double share) {
 // Why the relative error may be far off; empty if there is no reason.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0) {
-        return ", uncertain: small lamps are found by chance";
+        return ", uncertain: few samples meet small lamps, more samples tell";
     }
     if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0) {
-        return ", uncertain: from few pixels";
+        return ", uncertain: a few bright pixels make most of it, more samples tell";
     }
-    return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: light may be unseen" : "";
+    return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: dark pixels may have light of brighter ones beside "
+                                                    "them that no sample has met, more samples tell"
+                                                  : "";
 }
 
 std::string estimate_text(const pt_stats &stats) {

@@ -12,9 +12,9 @@ namespace {
 
 constexpr std::uint64_t first_level = 16; // of fewer samples the difference of the film's parts says too little
 
-// Every tile holds a fourth of the mean or more: what its samples have not met yet they can only meet by being taken.
+// Every tile holds half of the mean or more: what its samples have not met yet they can only meet by being taken.
 // On scenes where tiles differ 2 to 3 times in what they need this costs a fiftieth of what uneven films gain.
-constexpr std::uint64_t floor_share = 4;
+constexpr std::uint64_t floor_share = 2;
 
 constexpr double root_of_half = 0.70710678118654752440;
 

@@ -22,8 +22,8 @@ constexpr double normal_95 = 1.96;
 // How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
 constexpr double uncertain_factor = 2.0;
 
-// An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(20)) = 11% or more as a rule.
-constexpr double few_pixels = 20.0;
+// An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(8)) = 18% or more as a rule.
+constexpr double few_pixels = 8.0;
 
 // Nor is it certain if light that no sample has met is expected to add more than this share, 5% of the root:
 // calibrated.
@@ -48,11 +48,35 @@ double pixel_count(const ErrorSquares &squares) {
     return squares.sum > 0.0 ? squared(squares.sum) / squares.of_pixels : infinity;
 }
 
-void add_squares(ErrorSquares &to, const ErrorSquares &other) {
-    to.sum += other.sum;
-    to.of_pixels += other.of_pixels;
-    to.of_tiles += other.of_tiles;
-    to.times_tile_sizes += other.times_tile_sizes;
+// factor: of each square.
+void add_squares(ErrorSquares &to, const ErrorSquares &other, double factor = 1.0) {
+    to.sum += factor * other.sum;
+    to.of_pixels += squared(factor) * other.of_pixels;
+    to.of_tiles += squared(factor) * other.of_tiles;
+    to.times_tile_sizes += factor * other.times_tile_sizes;
+}
+
+// Light of one kind that the samples of a pixel are expected to meet w times is met by neither half of them in a share
+// q^2 of the pixels, with q = e^(-w / 2), by one half in 2 q (1 - q), and by both in (1 - q)^2: so w is 2 ln(1 + 2 b)
+// with b the ratio of pixels that both have met to those that one has. Half a pixel more of either keeps a few from
+// saying much. A pixel of the mean T that was met once is then expected to have the limit w T, by which its error is
+// 1 / w times what it is by T. So lamps smaller than a pixel, of which as many were met again as once, are told from
+// rare bright samples, of which hardly any is met twice.
+double square_by_meetings(double met_once, double met_again) {
+    const double meetings = 2.0 * std::log1p(2.0 * (met_again + 0.5) / (met_once + 1.0));
+    return std::max(1.0, 1.0 / squared(meetings));
+}
+
+// With values met once: by what is known without them, or by how many were met again, if that is less.
+ErrorSquares relative_squares(const RegionErrors &all) {
+    constexpr double channels = 3.0;
+    const double factor = square_by_meetings(all.as_lamps.sum / channels, all.met_again / channels);
+    ErrorSquares squares = all.relative_square;
+    if (all.met_once.sum > factor * all.as_lamps.sum)
+        add_squares(squares, all.as_lamps, factor);
+    else
+        add_squares(squares, all.met_once);
+    return squares;
 }
 
 } // namespace
@@ -135,6 +159,9 @@ void ErrorEstimator::add(const RegionErrors &region) {
     all_.squares_of_tile_sizes += region.squares_of_tile_sizes;
     add_squares(all_.square, region.square);
     add_squares(all_.relative_square, region.relative_square);
+    add_squares(all_.met_once, region.met_once);
+    add_squares(all_.as_lamps, region.as_lamps);
+    all_.met_again += region.met_again;
     all_.unseen += region.unseen;
     all_.rejected += region.rejected;
 }
@@ -161,19 +188,20 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
 ErrorEstimate ErrorEstimator::result() {
     if (band_pixels_ > 0)
         finish_band();
+    const ErrorSquares relative = relative_squares(all_);
     std::uint32_t uncertain = 0;
     if (pixel_count(all_.square) < few_pixels)
         uncertain |= PT_UNCERTAIN_RMSE;
-    if (pixel_count(all_.relative_square) < few_pixels)
+    if (pixel_count(relative) < few_pixels)
         uncertain |= PT_UNCERTAIN_RELATIVE_RMSE;
-    if (all_.unseen > much_unseen * (all_.relative_square.sum + all_.unseen))
+    if (all_.unseen > much_unseen * (relative.sum + all_.unseen))
         uncertain |= PT_UNCERTAIN_UNSEEN;
     if (conditions_.may_miss_lamps)
         uncertain |= PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t rmse_bits = PT_UNCERTAIN_RMSE | PT_UNCERTAIN_UNMET;
     constexpr std::uint32_t relative_bits = PT_UNCERTAIN_RELATIVE_RMSE | PT_UNCERTAIN_UNSEEN | PT_UNCERTAIN_UNMET;
     return {root_mean(all_.square, 0.0, (uncertain & rmse_bits) != 0),
-            root_mean(all_.relative_square, all_.unseen, (uncertain & relative_bits) != 0), uncertain};
+            root_mean(relative, all_.unseen, (uncertain & relative_bits) != 0), uncertain};
 }
 
 } // namespace pt

@@ -28,7 +28,10 @@ struct Limit {
     double square;       // with the offset
     double known;        // square of the mean of the darker part, with the offset
     double light_beyond; // > 0: the pixel is at an edge, and the logarithm counts
+    double alone;        // > 0: the pixel stands out from what is about it
 };
+
+constexpr double e_squared = 7.39; // where the logarithm of an edge passes 1, and a pixel begins to stand out
 
 Limit limit_of(double standard_error, double mean, double lesser, double around) {
     const double square = less_of(squared(mean), squared(more_of(lesser, around))) + relative_offset;
@@ -37,8 +40,19 @@ Limit limit_of(double standard_error, double mean, double lesser, double around)
     // which is 1 for halves, but for the roundings of the three to float.
     const double most_are_dark = standard_error >= 0.99 * (mean - lesser) ? 1.0 : 0.0;
     const double bright_around = around >= mean ? 1.0 : 0.0;
-    constexpr double e_squared = 7.39; // where the logarithm passes 1
-    return {square, known, most_are_dark * bright_around * (square - e_squared * known)};
+    const double alone = squared(mean) + relative_offset - e_squared * (squared(around) + relative_offset);
+    return {square, known, most_are_dark * bright_around * (square - e_squared * known), alone};
+}
+
+// A pixel that stands out is a lamp or a highlight of about its size, which many of its samples meet, or a rare bright
+// sample. Nearly all of its light in one part of the film: it was met once, and nothing in the pixel tells which.
+// In both parts: it was met again (error_estimate.cpp compares how many are the one and the other).
+bool is_met_once(double standard_error, double mean, double lesser) {
+    return lesser <= 0.02 * mean && standard_error >= 0.99 * (mean - lesser);
+}
+
+bool is_met_again(double mean, double lesser) {
+    return lesser >= 0.25 * mean;
 }
 
 // Light of the mean M in a pixel beside may be in a share p of this one's samples too. None of N had it if their mean
@@ -88,6 +102,10 @@ struct RowValues {
 struct RowErrors {
     TileRow relative_square;
     TileRow unseen;
+    bool has_alone = false; // what follows is 0 where there are none
+    TileRow met_once{};
+    TileRow as_lamps{};
+    TileRow met_again{};
 };
 
 // The largest of a row's numbers.
@@ -99,25 +117,34 @@ double largest_of(const TileRow &row) {
     return more_of(more_of(largest[0], largest[1]), more_of(largest[2], largest[3]));
 }
 
-// Few values need a logarithm.
+// Few values need a logarithm, or stand out.
 void find_row_errors(const RowValues &row, const TileRow &around, const float *largest_beside, double sample_count,
                      RowErrors &to) {
-    TileRow logarithms; // > 0 where one is needed
+    TileRow special; // > 0 where one is
     for (std::size_t i = 0; i < tile_size; ++i) {
         const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
         const double beside = brighter_beside(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
         to.relative_square[i] = squared(row.standard_error[i]) / limit.square;
         to.unseen[i] = 0.0;
-        logarithms[i] = more_of(limit.light_beyond, beside);
+        special[i] = more_of(more_of(limit.light_beyond, limit.alone), beside);
     }
-    if (!(largest_of(logarithms) > 0.0))
+    if (!(largest_of(special) > 0.0))
         return;
     for (std::size_t i = 0; i < tile_size; ++i) {
-        if (!(logarithms[i] > 0.0))
+        if (!(special[i] > 0.0))
             continue;
         const Limit limit = limit_of(row.standard_error[i], row.mean[i], row.lesser[i], around[i]);
         if (limit.light_beyond > 0.0)
             to.relative_square[i] *= 0.5 * std::log(limit.square / limit.known);
+        if (limit.alone > 0.0 && is_met_once(row.standard_error[i], row.mean[i], row.lesser[i])) {
+            to.has_alone = true;
+            to.met_once[i] = to.relative_square[i];
+            to.as_lamps[i] = squared(row.standard_error[i]) / (squared(row.mean[i]) + relative_offset);
+            to.relative_square[i] = 0.0;
+        } else if (limit.alone > 0.0 && is_met_again(row.mean[i], row.lesser[i])) {
+            to.has_alone = true;
+            to.met_again[i] = 1.0;
+        }
         to.unseen[i] = unseen_square(row.mean[i], static_cast<double>(largest_beside[i]), sample_count);
     }
 }
@@ -188,7 +215,7 @@ PixelPlane means_of(const RegionValues &region, std::size_t channel) {
 void find_pixel_errors(const RegionValues &region, std::span<const double> sample_counts, PixelErrors &to) {
     const std::size_t columns = tile_columns(region);
     const SetsOfRegion sets = sets_of(region);
-    for (auto *const numbers : {&to.square, &to.relative_square, &to.unseen})
+    for (auto *const numbers : {&to.square, &to.relative_square, &to.met_once, &to.as_lamps, &to.met_again, &to.unseen})
         numbers->fill(0.0);
     Neighbourhoods near{};
     for (std::size_t channel = 0; channel < channel_count; ++channel) {
@@ -209,6 +236,11 @@ void find_pixel_errors(const RegionValues &region, std::span<const double> sampl
                     to.relative_square[first + i] += errors.relative_square[i];
                     to.unseen[first + i] += errors.unseen[i];
                 }
+                for (std::size_t i = 0; errors.has_alone && i < tile_size; ++i) {
+                    to.met_once[first + i] += errors.met_once[i];
+                    to.as_lamps[first + i] += errors.as_lamps[i];
+                    to.met_again[first + i] += errors.met_again[i];
+                }
             }
     }
 }
@@ -227,7 +259,7 @@ double own_square(const RegionValues &tile, double sample_count) {
             RowErrors of_row;
             find_row_errors(row, around, &largest[y * tile_size], sample_count, of_row);
             for (std::size_t i = 0; i < tile_size; ++i)
-                errors[y][channel][i] = of_row.relative_square[i] + of_row.unseen[i];
+                errors[y][channel][i] = of_row.relative_square[i] + of_row.as_lamps[i] + of_row.unseen[i];
         }
     }
     std::array<double, channel_count> sums{};

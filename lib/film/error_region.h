@@ -36,15 +36,18 @@ struct PixelErrors {
     using Numbers = std::array<double, region_size * region_size>;
 
     Numbers square;          // of (x - r)^2
-    Numbers relative_square; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell
+    Numbers relative_square; // of (x - r)^2 / (r^2 + 0.01), as far as the samples tell, but for values met once
+    Numbers met_once;        // the same of values met once, with what is known without the part that met them as limits
+    Numbers as_lamps;        // likewise, with their own means as limits
+    Numbers met_again;       // how many values stand out from what is about them in both parts of the film
     Numbers unseen; // the same of light beside the pixel that may be in it too, but that none of its samples met
 };
 
 // sample_counts: of a pixel, for each tile of the region, row by row.
 void find_pixel_errors(const RegionValues &region, std::span<const double> sample_counts, PixelErrors &to);
 
-// The sum of relative_square and unseen over the values of a tile, by what that tile alone knows; infinite if it is
-// unknown.
+// The sum of relative_square, as_lamps and unseen over the values of a tile, by what that tile alone knows; infinite if
+// it is unknown.
 double own_square(const RegionValues &tile, double sample_count);
 
 } // namespace pt

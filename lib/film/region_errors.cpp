@@ -26,21 +26,27 @@ RegionErrors region_errors(const RegionPixels &region) {
             const std::size_t bottom = std::min(top + tile_size, height);
             const std::size_t last = std::min(first + tile_size, width);
             const auto value_count = static_cast<double>(3 * (bottom - top) * (last - first));
-            double square = 0.0;
-            double relative_square = 0.0;
+            const auto add = [&](ErrorSquares &to, const PixelErrors::Numbers &of) {
+                double sum = 0.0;
+                for (std::size_t y = top; y < bottom; ++y)
+                    for (std::size_t x = first; x < last; ++x) {
+                        const double square = of[y * region_size + x];
+                        sum += square;
+                        to.of_pixels += squared(square);
+                    }
+                add_tile(to, sum, value_count);
+            };
+            add(errors.square, pixels.square);
+            add(errors.relative_square, pixels.relative_square);
+            add(errors.met_once, pixels.met_once);
+            add(errors.as_lamps, pixels.as_lamps);
             for (std::size_t y = top; y < bottom; ++y)
                 for (std::size_t x = first; x < last; ++x) {
-                    const std::size_t pixel = y * region_size + x;
-                    square += pixels.square[pixel];
-                    relative_square += pixels.relative_square[pixel];
-                    errors.square.of_pixels += squared(pixels.square[pixel]);
-                    errors.relative_square.of_pixels += squared(pixels.relative_square[pixel]);
-                    errors.unseen += pixels.unseen[pixel];
+                    errors.met_again += pixels.met_again[y * region_size + x];
+                    errors.unseen += pixels.unseen[y * region_size + x];
                 }
             errors.value_count += value_count;
             errors.squares_of_tile_sizes += squared(value_count);
-            add_tile(errors.square, square, value_count);
-            add_tile(errors.relative_square, relative_square, value_count);
         }
     return errors;
 }

@@ -23,7 +23,10 @@ struct RegionErrors {
     double value_count = 0.0;           // pixels times channels
     double squares_of_tile_sizes = 0.0; // sum over tiles of the squares of the numbers of their values
     ErrorSquares square;                // of (x - r)^2
-    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01)
+    ErrorSquares relative_square;       // of (x - r)^2 / (r^2 + 0.01), but for values met once (error_region.h)
+    ErrorSquares met_once;              // the same of these, by what is known without them
+    ErrorSquares as_lamps;              // likewise, by their own means: about 1 of each
+    double met_again = 0.0;             // values
     double unseen = 0.0;                // the same of light that no sample met
     std::uint64_t rejected = 0;         // samples left out
 };

@@ -67,7 +67,11 @@ RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::
     errors.squares_of_tile_sizes =
         9.0 * squares_of_pieces(width, gpu::TILE_SIZE) * squares_of_pieces(height, gpu::TILE_SIZE);
     errors.square = squares_of(found.square, unit * unit);
-    errors.relative_square = squares_of(found.relative_square, 1.0 / (scale * scale * units.factor));
+    const double relative_factor = 1.0 / (scale * scale * units.factor);
+    errors.relative_square = squares_of(found.relative_square, relative_factor);
+    errors.met_once = squares_of(found.met_once, relative_factor);
+    errors.as_lamps = squares_of(found.as_lamps, relative_factor);
+    errors.met_again = found.met_again;
     errors.unseen = static_cast<double>(found.unseen) / units.factor;
     errors.rejected = std::uint64_t{found.rejected.y} << 32 | found.rejected.x;
     if (found.unknown_pixels > 0)

@@ -20,4 +20,12 @@ bool may_miss_lamps(const Scene &scene, const Camera &camera, const RenderSettin
     return share && static_cast<double>(samples) * *share < enough_meetings;
 }
 
+bool may_miss_lamps_in_view(const Scene &scene, const Camera &camera, const RenderSettings &settings,
+                            std::uint64_t samples) {
+    constexpr double enough_meetings = 8.0; // of which a root is off by a third: calibrated
+    const std::optional<double> pixels =
+        pixels_of_smallest_lamp_in_view(scene, camera, settings.width, settings.height);
+    return pixels && static_cast<double>(samples) * *pixels < enough_meetings;
+}
+
 } // namespace pt

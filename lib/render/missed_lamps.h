@@ -13,4 +13,9 @@ namespace pt {
 // any.
 bool may_miss_lamps(const Scene &scene, const Camera &camera, const RenderSettings &settings, std::uint64_t samples);
 
+// Whether a lamp in view is so small that so many samples of a pixel are expected to meet it a few times at the most,
+// unless something hides it: the samples of a single pixel do not tell how bright that is.
+bool may_miss_lamps_in_view(const Scene &scene, const Camera &camera, const RenderSettings &settings,
+                            std::uint64_t samples);
+
 } // namespace pt

@@ -205,6 +205,9 @@ pt_stats Renderer::stats(bool with_error) {
     stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     set_error(stats, error);
+    if (with_error && readable && samples_.least() >= min_estimate_samples &&
+        may_miss_lamps_in_view(scene_->scene, ray_start(), *settings_, samples_.least()))
+        stats.uncertain |= PT_UNCERTAIN_UNMET; // said, but no bound that ends a rendering: films do not know of lamps
     return stats;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace pt {
@@ -14,6 +15,7 @@ namespace {
 constexpr double least_light = 0.01;
 
 struct Lamp {
+    SeenSphere sphere;
     double share; // of all directions
     double light;
 };
@@ -25,25 +27,47 @@ double share_of(const SeenSphere &sphere) {
     return sine * sine / (2.0 * (1.0 + cosine));
 }
 
-} // namespace
-
-std::optional<double> smallest_lamp_share(const Scene &scene, const Camera &camera) {
+std::vector<Lamp> lamps_that_matter(const Scene &scene, const Camera &camera) {
     std::vector<Lamp> lamps;
     double light = 0.0;
     for (const Sphere &sphere : scene.spheres) {
         const Material &material = scene.materials[sphere.material];
-        const SeenSphere seen(sphere, material, camera);
-        if (!seen.emits || seen.height() <= 0.0)
+        const double emission = std::max({material.emission.r, material.emission.g, material.emission.b});
+        if (!(emission > 0.0))
             continue;
-        const glm::dvec3 emission(material.emission);
+        const SeenSphere seen(sphere, material, camera);
+        if (seen.height() <= 0.0)
+            continue;
         const double share = share_of(seen);
-        lamps.push_back({share, share * std::max({emission.r, emission.g, emission.b})});
+        lamps.push_back({seen, share, share * emission});
         light += lamps.back().light;
     }
+    std::erase_if(lamps, [light](const Lamp &lamp) { return lamp.light < least_light * light; });
+    return lamps;
+}
+
+} // namespace
+
+std::optional<double> smallest_lamp_share(const Scene &scene, const Camera &camera) {
     std::optional<double> smallest;
-    for (const Lamp &lamp : lamps)
-        if (lamp.light >= least_light * light)
-            smallest = std::min(smallest.value_or(lamp.share), lamp.share);
+    for (const Lamp &lamp : lamps_that_matter(scene, camera))
+        smallest = std::min(smallest.value_or(lamp.share), lamp.share);
+    return smallest;
+}
+
+std::optional<double> pixels_of_smallest_lamp_in_view(const Scene &scene, const Camera &camera, std::uint32_t width,
+                                                      std::uint32_t height) {
+    std::optional<double> smallest;
+    for (const auto &[sphere, share, light] : lamps_that_matter(scene, camera)) {
+        const double depth = glm::dot(sphere.open, camera.forward);
+        const double half_height =
+            camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
+        const bool in_view = depth > 0.0 && std::abs(glm::dot(sphere.open, camera.up)) <= half_height &&
+                             std::abs(glm::dot(sphere.open, camera.right)) * height <= half_height * width;
+        const double radius = 0.5 * height * sphere.radius / half_height; // pixels
+        if (in_view && !sphere.hidden)
+            smallest = std::min(smallest.value_or(INFINITY), std::numbers::pi * radius * radius);
+    }
     return smallest;
 }
 

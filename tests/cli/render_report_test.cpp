@@ -156,11 +156,14 @@ TEST(RenderReport, AnUncertainErrorIsCalledSo) {
         return cli::error_text(report);
     };
     EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)"); // the relative one is known
-    EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE), "error 0.42% (0.4% to 0.44%), uncertain: from few pixels");
-    EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN), "error 0.42% (0.4% to 0.44%), uncertain: light may be unseen");
-    EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: small lamps are found by chance");
+    EXPECT_EQ(text_with(PT_UNCERTAIN_RELATIVE_RMSE),
+              "error 0.42% (0.4% to 0.44%), uncertain: a few bright pixels make most of it, more samples tell");
+    EXPECT_EQ(text_with(PT_UNCERTAIN_UNSEEN),
+              "error 0.42% (0.4% to 0.44%), uncertain: dark pixels may have light of brighter ones beside them that no "
+              "sample has met, more samples tell");
+    EXPECT_EQ(text_with(15), "error 0.42% (0.4% to 0.44%), uncertain: few samples meet small lamps, more samples tell");
     set_error(report, infinity, 0.0, infinity);
-    EXPECT_EQ(cli::error_text(report), "error unknown, uncertain: small lamps are found by chance");
+    EXPECT_EQ(cli::error_text(report), "error unknown, uncertain: few samples meet small lamps, more samples tell");
     EXPECT_EQ(cli::stats_json(report).at("uncertain"),
               (std::vector<std::string>{"rmse", "relative_rmse", "unseen", "unmet"}));
 }

@@ -2,6 +2,7 @@
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -17,10 +18,11 @@ constexpr uint32_t height = 32;
 // directions.
 class UncertainTest : public ContextFixture {
 protected:
-    void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2) {
+    void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
+                const std::array<double, 3> &place = {0.0, 100.0, 0.0}, double depth = 1.0) {
         const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
-        const pt_sphere lamp[] = {{{0.0, 100.0, 0.0}, lamp_radius, {}, 1, 0}};
-        const pt_plane floor[] = {{{0.0, 1.0, 0.0}, 1.0, 0, 0}};
+        const pt_sphere lamp[] = {{{place[0], place[1], place[2]}, lamp_radius, {}, 1, 0}};
+        const pt_plane floor[] = {{{0.0, 1.0, 0.0}, depth, 0, 0}};
         const pt_scene scene = scene_of(materials, lamp, floor);
         pt_camera camera{};
         camera.struct_size = sizeof camera;
@@ -55,6 +57,17 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     }
     set_up(20.0, PT_ESTIMATOR_BSDF, 1); // without directions that could meet it
     EXPECT_EQ(after(16) & unmet, 0U);
+}
+
+// A lamp in the middle of the view that covers a 20th of a pixel: 16 samples are expected to meet it .8 times, 256 do
+// 13 times. Beside the view it does not count.
+TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
+    const double pixel = 2.0 * std::tan(0.5) / height; // at the distance 1
+    for (const bool in_view : {true, false}) {
+        set_up(10.0 * pixel * std::sqrt(0.05 / 3.14159), PT_ESTIMATOR_MIS, 2, {in_view ? 0.0 : 6.0, -10.0, 0.0}, 20.0);
+        EXPECT_EQ(after(16) & unmet, in_view ? unmet : 0U);
+        EXPECT_EQ(after(240) & unmet, 0U);
+    }
 }
 
 // Of a lamp that covers 2.5e-9 nothing is met: a black picture whose parts agree, and no sample says that it is right.

@@ -46,11 +46,11 @@ TEST(ErrorEstimate, IsTheRootOfTheMeanOfSquares) {
 TEST(ErrorEstimate, IsUncertainIfItComesFromFewPixels) {
     std::vector<float> errors(3 * 32 * 32, 0.0F);
     const std::vector<float> radiance(errors.size(), 1.0F);
-    for (int pixel = 0; pixel < 19; ++pixel)
+    for (int pixel = 0; pixel < 7; ++pixel)
         errors[3 * 50 * static_cast<std::size_t>(pixel)] = 0.1F;
     const pt::ErrorEstimate few = estimate(32, radiance, errors);
     EXPECT_EQ(few.uncertain, unsigned{PT_UNCERTAIN_RMSE} | unsigned{PT_UNCERTAIN_RELATIVE_RMSE});
-    errors[3 * 50 * 19] = errors[3 * 50 * 20] = 0.1F;
+    errors[3 * 50 * 7] = errors[3 * 50 * 8] = 0.1F;
     EXPECT_EQ(estimate(32, radiance, errors).uncertain, 0U);
 }
 
@@ -68,6 +68,33 @@ TEST(ErrorEstimate, IsUncertainWhereLampsMayBeMissed) {
     const std::vector<float> black(errors.size(), 0.0F);
     EXPECT_EQ(estimate(32, black, black).relative_rmse.high, 0.0);
     EXPECT_TRUE(std::isinf(estimate(32, black, black, PT_SAMPLER_RANDOM, true).relative_rmse.high));
+}
+
+// Pixels on black ground that one half of the samples met, or both. Where most were met once, each counts by the black
+// about it; where both halves met as many as one, by the 2 ln 3 times that a pixel is expected to be met.
+TEST(ErrorEstimate, TellsLampsFromRareSamples) {
+    constexpr std::size_t side = 64;
+    const auto relative_square = [](std::size_t met_once, std::size_t met_again) {
+        std::vector<float> radiance(3 * side * side, 0.0F);
+        std::vector<float> errors(radiance.size(), 0.0F);
+        for (std::size_t i = 0; i < met_once + met_again; ++i)
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                const std::size_t pixel = i % 8 * 8 + 4 + (i / 8 * 8 + 4) * side; // one in each tile
+                radiance[3 * pixel + channel] = 100.0F;
+                errors[3 * pixel + channel] = i < met_once ? 100.0F : 0.0F;
+            }
+        const pt::ErrorEstimate found = estimate(side, radiance, errors);
+        const double count = static_cast<double>(met_once);
+        const double square = found.relative_rmse.estimate / raised(1.0, count);
+        return square * square * side * side / count; // of one of those met once
+    };
+    const auto expected = [](double met_once, double met_again) {
+        const double meetings = 2.0 * std::log(1.0 + 2.0 * (met_again + 0.5) / (met_once + 1.0));
+        return std::max(1.0, 1.0 / (meetings * meetings));
+    };
+    for (const auto &[once, again] : {std::pair{40, 0}, {40, 4}, {20, 20}, {8, 50}, {1, 0}})
+        EXPECT_NEAR(relative_square(once, again), expected(once, again), 2e-3 * expected(once, again)) << once;
+    EXPECT_GT(expected(40, 0), 300.0);
 }
 
 // One bright column on black ground, after 16 samples: the columns beside it may have unseen parts of its light.

@@ -133,10 +133,26 @@ double unseen(double mean, double largest, double samples) {
     return mean >= brightest ? 0.0 : 0.5 / samples * std::log1p(brightest * brightest / (mean * mean + 0.01));
 }
 
+bool stands_out(const Value &value, double around) {
+    return value.mean * value.mean + 0.01 - 7.39 * (around * around + 0.01) > 0.0;
+}
+
+bool is_met_once(const Value &value, double around) {
+    return stands_out(value, around) && value.lesser <= 0.02 * value.mean &&
+           value.standard_error >= 0.99 * (value.mean - value.lesser);
+}
+
+double as_lamp(const Value &value) {
+    return value.standard_error * value.standard_error / (value.mean * value.mean + 0.01);
+}
+
 // Summed over channels.
 struct Errors {
     double square;
     double relative_square;
+    double met_once;
+    double as_lamps;
+    double met_again;
     double unseen;
 };
 
@@ -164,13 +180,21 @@ TEST(ErrorRegionBits, AreThoseOfEachValue) {
                 for (std::size_t channel = 0; channel < 3; ++channel) {
                     const Value value = region.value(channel, x, y);
                     expected.square += value.standard_error * value.standard_error;
-                    expected.relative_square += relative_square(value, around(region, channel, x, y));
+                    const double level = around(region, channel, x, y);
+                    const bool once = is_met_once(value, level);
+                    (once ? expected.met_once : expected.relative_square) += relative_square(value, level);
+                    expected.as_lamps += once ? as_lamp(value) : 0.0;
+                    expected.met_again +=
+                        !once && stands_out(value, level) && value.lesser >= 0.25 * value.mean ? 1.0 : 0.0;
                     expected.unseen +=
                         unseen(value.mean, means_about(region, channel, x, y, all).back(), region.sample_count(x, y));
                 }
                 const std::size_t pixel = y * pt::region_size + x;
                 EXPECT_EQ(found.square[pixel], expected.square) << x << " " << y;
                 EXPECT_EQ(found.relative_square[pixel], expected.relative_square) << x << " " << y;
+                EXPECT_EQ(found.met_once[pixel], expected.met_once) << x << " " << y;
+                EXPECT_EQ(found.as_lamps[pixel], expected.as_lamps) << x << " " << y;
+                EXPECT_EQ(found.met_again[pixel], expected.met_again) << x << " " << y;
                 EXPECT_EQ(found.unseen[pixel], expected.unseen) << x << " " << y;
             }
     }
@@ -187,7 +211,7 @@ TEST(ErrorRegionBits, OfTilesAreSumsOfEachValue) {
                 for (std::size_t x = 0; x < size.width; ++x) {
                     const Value value = tile.value(channel, x, y);
                     const double level = mean_besides(means_of(tile, channel, all), value.mean, true);
-                    sum += relative_square(value, level) +
+                    sum += (is_met_once(value, level) ? as_lamp(value) : relative_square(value, level)) +
                            unseen(value.mean, means_about(tile, channel, x, y, all).back(), tile.sample_count(0, 0));
                 }
             expected += sum;

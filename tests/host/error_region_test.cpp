@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace {
@@ -56,7 +57,8 @@ pt::PixelErrors errors(const Channel &channel, double samples) {
 }
 
 double relative_square(const Channel &channel, std::size_t pixel) {
-    return errors(channel, many_samples).relative_square[pixel];
+    const pt::PixelErrors found = errors(channel, many_samples);
+    return found.relative_square[pixel] + found.met_once[pixel];
 }
 
 constexpr std::size_t middle = 13 * side + 11;
@@ -78,6 +80,26 @@ TEST(ErrorRegion, AFireflyIsMeasuredByWhatIsAboutIt) {
     EXPECT_DOUBLE_EQ(relative_square(channel, middle), 7.5 * 7.5 / (0.25 + 0.01));
     light_in_one_part(channel, middle, 8.0F, 0.0F); // the other part knows less than the pixels about
     EXPECT_DOUBLE_EQ(relative_square(channel, middle), 64.0 / 0.26);
+}
+
+// All of the light in one part of the film, or at least a quarter of the mean in either; not where it is as bright
+// about.
+TEST(ErrorRegion, WhatStandsOutIsMetOnceOrAgain) {
+    for (const auto &[ground, lesser, once, again] : {std::tuple{0.5F, 0.0F, 1.0, 0.0},
+                                                      {0.5F, 0.0625F, 1.0, 0.0},
+                                                      {0.5F, 0.25F, 0.0, 0.0},
+                                                      {0.5F, 2.0F, 0.0, 1.0},
+                                                      {4.0F, 0.0F, 0.0, 0.0},
+                                                      {4.0F, 2.0F, 0.0, 0.0}}) {
+        Channel channel = flat(ground);
+        light_in_one_part(channel, middle, 8.0F, lesser);
+        const pt::PixelErrors found = errors(channel, many_samples);
+        const double error = 8.0 - static_cast<double>(lesser);
+        EXPECT_DOUBLE_EQ(found.as_lamps[middle], once * error * error / 64.01) << ground << " " << lesser;
+        EXPECT_EQ(found.met_once[middle] > 0.0, once > 0.0);
+        EXPECT_EQ(found.relative_square[middle] > 0.0, once == 0.0);
+        EXPECT_EQ(found.met_again[middle], again);
+    }
 }
 
 // Where hits are rare and most pixels are black, the level is the mean of the tile, of 64 pixels, without the brightest

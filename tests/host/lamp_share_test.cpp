@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace {
@@ -44,6 +45,22 @@ TEST(LampShare, IsThatOfTheSmallestLampThatMatters) {
     std::vector<pt::Sphere> with_a_speck = spheres;
     with_a_speck.push_back(sphere_at(80, 1, lamp));
     EXPECT_DOUBLE_EQ(pt::smallest_lamp_share(scene_of(with_a_speck), camera).value(), smallest);
+}
+
+// With a view of 90 degrees and 200 rows a lamp at the depth d has 100 r / d pixels as its radius.
+TEST(LampShare, InPixelsIsThatOfLampsInView) {
+    const auto pixels = [](const pt::Camera &seen_by, const glm::dvec3 &place) {
+        const std::vector<pt::Sphere> spheres{{camera.position + place, 0.5, glm::dvec3(0), lamp}};
+        return pt::pixels_of_smallest_lamp_in_view(scene_of(spheres), seen_by, 400, 200).value_or(0.0);
+    };
+    EXPECT_DOUBLE_EQ(pixels(camera, {19, 9, -10}), 25.0 * std::numbers::pi);
+    EXPECT_EQ(pixels(camera, {19, 11, -10}), 0.0);
+    EXPECT_EQ(pixels(camera, {21, 9, -10}), 0.0);
+    EXPECT_EQ(pixels(camera, {1, 1, 10}), 0.0) << "behind";
+    pt::Camera parallel = camera;
+    parallel.vertical_extent = 20.0;
+    EXPECT_DOUBLE_EQ(pixels(parallel, {19, 9, -1000}), 25.0 * std::numbers::pi);
+    EXPECT_EQ(pixels(parallel, {19, 11, -1000}), 0.0);
 }
 
 TEST(LampShare, IsNothingWithoutLampsToMiss) {

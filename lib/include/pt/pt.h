@@ -259,7 +259,7 @@ enum {
     PT_SAMPLING_UNIFORM = 1, /**< to all pixels alike */
     /** where they lessen the error most, which takes a target error: as long as tiles of 8 x 8 pixels are much alike,
      * to all pixels alike; else a tile gets as many samples again while what that gains for its cost exceeds a bound,
-     * which falls until the image has the target error. Whenever it falls, all pixels have a fourth of the mean or get
+     * which falls until the image has the target error. Whenever it falls, all pixels have half of the mean or get
      * it. */
     PT_SAMPLING_ADAPTIVE = 2
 };

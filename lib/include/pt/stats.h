@@ -24,15 +24,15 @@ enum {
 };
 
 /** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further
- * factor of two. */
+ * factor of two, but for small lamps in view. More samples make an error certain. */
 enum {
-    PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 20 pixels: rare bright samples, or a small lamp */
-    PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 20 pixels */
+    PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
+    PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
     /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
      * pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** uniform, cosine and bsdf find lamps by chance, and as large as the camera sees it, one of those that matter is
-     * expected to have been met less than a thousand times by the samples of all pixels together. */
+    /** A lamp that matters is in view, and a pixel's samples are expected to meet it fewer than 8 times; or uniform,
+     * cosine and bsdf, which find lamps by chance, have met one less than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 

@@ -1,0 +1,42 @@
+"""Prints the bias of pictures with a target error, in per cent of the picture's mean, with its standard error.
+
+    PT_LIBRARY=build/lib/libpt.so python3 tests/render/adaptive_bias.py SCENE TARGET [SEEDS]   # caustic 0.1 96
+
+SCENE is one of cli/scenes or calibration_scenes.py. Each picture is compared with an even one of the same seed and many
+more samples, which has no bias, and whose first samples it shares, so that less noise is left.
+"""
+
+import math
+import pathlib
+import statistics
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from error_calibration import SceneRenderer, all_scenes  # noqa: E402
+
+WIDTH, HEIGHT = 96, 48
+EVEN_SAMPLES = 2048
+
+
+def main():
+    name, target, seeds = sys.argv[1], float(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 96
+    scene = all_scenes()[name]
+    differences, means, samples = [], [], []
+    with SceneRenderer(scene) as renderer:
+        for seed in range(300, 300 + seeds):
+            found = []
+            for most, error in ((EVEN_SAMPLES, target), (EVEN_SAMPLES, 0.0)):
+                renderer.set_render(WIDTH, HEIGHT, max_path_length=scene["render"]["max_path_length"], seed=seed)
+                renderer.accumulate(most, error)
+                found.append(math.fsum(renderer.image()))
+                samples.append(renderer.stats().mean_sample_count)
+            differences.append(found[0] - found[1])
+            means.append(found[1])
+    scale = 100 / statistics.fmean(means)
+    print(f"{name} {target}: bias {scale * statistics.fmean(differences):+.3f}% "
+          f"+- {scale * statistics.stdev(differences) / math.sqrt(seeds):.3f}, "
+          f"{statistics.fmean(samples[::2]):.1f} samples")
+
+
+if __name__ == "__main__":
+    main()
