@@ -47,7 +47,7 @@ const FilmTile &tile_of(const pt_film *film, std::uint32_t index) {
 
 // Whether lamps are found by chance, which says nothing of how large they are: only the scene does.
 bool may_miss_lamps(const FilmFacts &facts) {
-    return facts.max_path_length > 1 && facts.estimator != PT_ESTIMATOR_LIGHT && facts.estimator != PT_ESTIMATOR_MIS;
+    return finds_lamps_by_chance(facts.estimator, facts.max_path_length);
 }
 
 // Pixels without samples, to begin with.

@@ -67,12 +67,14 @@ double square_by_meetings(double met_once, double met_again) {
     return std::max(1.0, 1.0 / squared(meetings));
 }
 
-// With values met once: by what is known without them, or by how many were met again, if that is less.
-ErrorSquares relative_squares(const RegionErrors &all) {
+// With values met once: by what is known without them, or by how many were met again, if that is less. Where lamps are
+// found by chance, rare samples are of all kinds, and how many of the less rare were met again says nothing of the
+// others.
+ErrorSquares relative_squares(const RegionErrors &all, bool finds_lamps_by_chance) {
     constexpr double channels = 3.0;
     const double factor = square_by_meetings(all.as_lamps.sum / channels, all.met_again / channels);
     ErrorSquares squares = all.relative_square;
-    if (all.met_once.sum > factor * all.as_lamps.sum)
+    if (!finds_lamps_by_chance && all.met_once.sum > factor * all.as_lamps.sum)
         add_squares(squares, all.as_lamps, factor);
     else
         add_squares(squares, all.met_once);
@@ -115,6 +117,11 @@ double exaggeration(std::uint32_t sampler) {
     // of N / 2 points that make up one of N is 2^p - 1 of it: exact for p = 1, the slowest that is usual, and too
     // much by 3 for p = 2.
     return sampler == PT_SAMPLER_RANDOM ? 1.0 : std::sqrt(3.0);
+}
+
+bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length) {
+    return max_path_length > 1 &&
+           (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
 }
 
 void ErrorEstimator::add(const PixelEstimates &pixels) {
@@ -188,7 +195,7 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
 ErrorEstimate ErrorEstimator::result() {
     if (band_pixels_ > 0)
         finish_band();
-    const ErrorSquares relative = relative_squares(all_);
+    const ErrorSquares relative = relative_squares(all_, conditions_.finds_lamps_by_chance);
     std::uint32_t uncertain = 0;
     if (pixel_count(all_.square) < few_pixels)
         uncertain |= PT_UNCERTAIN_RMSE;

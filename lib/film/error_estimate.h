@@ -48,12 +48,16 @@ bool is_check(std::uint64_t sample_count);
 // Factor >= 1 by which the error that the film's parts show may exceed the true one, with a sampler of pt.h.
 double exaggeration(std::uint32_t sampler);
 
+// Whether an estimator of pt.h, not the default, samples no lamps, so that paths of such a length meet them by chance.
+bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_length);
+
 // What an image's samples were.
 struct SampleConditions {
     std::uint32_t width; // pixels
     std::uint64_t sample_count;
     std::uint32_t sampler;
     bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
+    bool finds_lamps_by_chance = false;
 };
 
 class ErrorEstimator {

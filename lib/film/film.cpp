@@ -269,7 +269,8 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
     const std::optional<TileSamples> tiles = tile_samples(header_.tiles, bounds_);
     if (tiles && !tiles->even())
         return uneven_error(*tiles, may_miss_lamps);
-    ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps});
+    ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps,
+                              finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
     read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
@@ -278,7 +279,8 @@ ErrorEstimate Film::error(bool may_miss_lamps) const {
 ErrorEstimate Film::uneven_error(const TileSamples &samples, bool may_miss_lamps) const {
     if (samples.least() < min_estimate_samples)
         return unknown_error();
-    ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps});
+    ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps,
+                              finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
     const auto read_rows = [&](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
     for (const RegionErrors &region : errors_.regions(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows))
         estimator.add(region);

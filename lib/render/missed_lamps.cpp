@@ -1,8 +1,7 @@
 #include "lib/render/missed_lamps.h"
 
+#include "lib/film/error_estimate.h"
 #include "lib/scene/lamp_share.h"
-
-#include <pt/pt.h>
 
 #include <optional>
 
@@ -10,11 +9,7 @@ namespace pt {
 
 bool may_miss_lamps(const Scene &scene, const Camera &camera, const RenderSettings &settings, std::uint64_t samples) {
     constexpr double enough_meetings = 1000.0; // calibrated (shaders/README.md, section 11)
-    const std::uint32_t estimator = settings.estimator;
-    const bool by_chance =
-        settings.max_path_length > 1 &&
-        (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
-    if (!by_chance)
+    if (!finds_lamps_by_chance(settings.estimator, settings.max_path_length))
         return false;
     const std::optional<double> share = smallest_lamp_share(scene, camera);
     return share && static_cast<double>(samples) * *share < enough_meetings;

@@ -33,7 +33,8 @@ const ErrorEstimate &Renderer::error() {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.total();
         ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                                  may_miss_lamps(scene_->scene, ray_start(), *settings_, samples)});
+                                  may_miss_lamps(scene_->scene, ray_start(), *settings_, samples),
+                                  finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
         if (!samples_.even() || (job_ && job_->uneven))
             view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
         else

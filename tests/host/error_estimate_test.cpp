@@ -97,6 +97,23 @@ TEST(ErrorEstimate, TellsLampsFromRareSamples) {
     EXPECT_GT(expected(40, 0), 300.0);
 }
 
+// Not where lamps are found by chance: there each that was met once counts by what is about it, here 0.
+TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
+    std::vector<float> radiance(3 * 32 * 32, 0.0F);
+    std::vector<float> errors(radiance.size(), 0.0F);
+    for (const std::size_t i : {4 + 4 * 32, 12 + 20 * 32, 28 + 12 * 32}) {
+        radiance[3 * i] = 100.0F;
+        errors[3 * i] = i == 4 + 4 * 32 ? 100.0F : 0.0F;
+    }
+    for (const bool by_chance : {false, true}) {
+        pt::ErrorEstimator estimator({32, sample_count, PT_SAMPLER_RANDOM, false, by_chance});
+        estimator.add(pixels_of(radiance, errors));
+        const double error =
+            estimator.result().relative_rmse.estimate * std::sqrt(3.0 * 32.0 * 32.0) / raised(1.0, 1.0);
+        EXPECT_NEAR(error, by_chance ? 100.0 / 0.1 : 1.0, 1e-3);
+    }
+}
+
 // One bright column on black ground, after 16 samples: the columns beside it may have unseen parts of its light.
 TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
     std::vector<float> radiance(3 * 32 * 32, 0.0F);
