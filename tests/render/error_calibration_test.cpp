@@ -5,6 +5,7 @@
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/scene_of.h"
 
 #include <pt/film.h>
 
@@ -145,6 +146,47 @@ INSTANTIATE_TEST_SUITE_P(
                     CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_SOBOL, of_rare, PT_ESTIMATOR_BSDF},
                     CalibrationCase{"coursework_L6", false, 6, PT_SAMPLER_RANDOM, of_rare, PT_ESTIMATOR_UNIFORM}),
     [](const auto &instance) { return name_of(instance.param); });
+
+// A hundred lamps that each cover a 70th of a pixel: 64 samples of a pixel meet one about once, and many are met twice,
+// which no firefly is. Taken for fireflies they made the stated error more than ten times too large.
+TEST_F(ErrorCalibration, OfLampsBelowAPixelIsThatByManySamples) {
+    constexpr uint32_t width = 64;
+    constexpr uint32_t height = 32;
+    const pt_material lamp[] = {{{}, {}, {2000.0F, 2000.0F, 2000.0F}, 0.0F}};
+    constexpr double fov = 0.7;
+    const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at the distance 1
+    std::vector<pt_sphere> lamps;
+    for (int i = 7; i < static_cast<int>(width * height); i += 20) { // in the middle of every twentieth pixel
+        const double x = i % static_cast<int>(width) + 0.5 - 0.5 * width;
+        const double y = i / static_cast<int>(width) + 0.5 - 0.5 * height;
+        lamps.push_back({{x * pixel, y * pixel, -1.0}, std::sqrt(1.0 / 70.0 / 3.14159) * pixel, {}, 0, 0});
+    }
+    const pt_scene scene = scene_of(lamp, lamps, {});
+    pt_camera camera{};
+    camera.struct_size = sizeof camera;
+    camera.target[2] = -1.0;
+    camera.vertical_fov = fov;
+    ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
+    ASSERT_EQ(pt_set_camera(context(), &camera), PT_OK) << pt_last_error(context());
+    const auto image_of = [&](uint32_t seed, uint32_t samples) {
+        pt_render render = render_of(width, height, 1);
+        render.seed = seed;
+        EXPECT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
+        accumulate(samples);
+        Image image(width * height * 3);
+        readback(image);
+        return image;
+    };
+    const Image reference = image_of(99, 4096);
+    for (const uint32_t seed : {1U, 2U, 3U}) {
+        const double truth = relative_rmse(image_of(seed, 64), reference);
+        const pt_stats stated = stats();
+        std::printf("stated / true error %.3f\n", stated.relative_rmse / truth);
+        EXPECT_TRUE((Judgement{0.5, 2.0}).accepts(stated.relative_rmse / truth))
+            << stated.relative_rmse << " " << truth;
+        EXPECT_EQ(stated.uncertain & PT_UNCERTAIN_UNMET, unsigned{PT_UNCERTAIN_UNMET});
+    }
+}
 
 // Films of other samples than the first: a range that begins later, or several with gaps, put together by pt_add_film.
 struct RangesCase {
