@@ -29,8 +29,8 @@ namespace pt {
 
 namespace {
 
-// This thread's last call on a context, if it was refused because the context was in use. The message is kept here,
-// because the context's own belongs to the call that is under way.
+// This thread's last call on a context, if it was refused because of what other calls do, or of the process. The
+// message is kept here, because the context's own belongs to the call that is under way.
 struct Refusal {
     const pt_context *context = nullptr;
     const char *message = nullptr;
@@ -108,9 +108,10 @@ SamplesWanted samples_wanted(const pt_accumulate_info &info) {
 }
 
 // What is in use cannot be freed, so that pt_destroy can only say so. It does once: the log function itself may call
-// pt_destroy.
+// pt_destroy. A child of fork is told nothing: it may hold the context by no wish of its own, and another thread may
+// have had the log's locks.
 void refuse_to_destroy(pt_context &context, const char *reason) noexcept {
-    const bool told = refusal.context == &context;
+    const bool told = refusal.context == &context || context.in_use.not_of_this_process();
     refusal = {&context, reason};
     if (!told)
         guard(thread_last_error, [&] {
@@ -272,8 +273,19 @@ pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction) {
     });
 }
 
+// Beside any call that is under way, in which nothing else of the context is touched.
 pt_result pt_cancel(pt_context *context) {
-    return pt::guard_any_time(context, [](pt::Renderer &renderer) { renderer.cancel(); });
+    if (!context)
+        return pt::guard(pt::thread_last_error, [] { pt::require_not_null(nullptr, "context"); });
+    const char *reason = context->in_use.not_of_this_process();
+    if (!reason && !context->renderer.cancel())
+        reason = pt::Renderer::nothing_under_way;
+    if (reason) {
+        pt::refusal = {context, reason};
+        return PT_ERROR_INVALID_STATE;
+    }
+    pt::refusal.forget(context);
+    return PT_OK;
 }
 
 pt_result pt_readback(pt_context *context, const pt_image *image) {

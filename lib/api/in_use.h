@@ -1,8 +1,10 @@
-// Which thread has a call on a context under way: neither the film nor Vulkan allows two calls at a time.
+// Which thread has a call on a context under way: neither the film nor Vulkan allows two calls at a time. And which
+// process has the context: after fork the driver's threads are missing in the child.
 #pragma once
 
 #include <atomic>
 #include <thread>
+#include <unistd.h>
 
 namespace pt {
 
@@ -10,6 +12,8 @@ class InUse {
 public:
     // Takes the context for a call of this thread and returns NULL, or returns why that is not possible.
     const char *take() noexcept {
+        if (const char *reason = not_of_this_process())
+            return reason;
         std::thread::id user; // nobody
         if (user_.compare_exchange_strong(user, std::this_thread::get_id(), std::memory_order_acquire))
             return nullptr;
@@ -24,7 +28,13 @@ public:
         return user_.load(std::memory_order_relaxed) == std::this_thread::get_id(); // only this thread makes it so
     }
 
+    // Why no call of this process may touch the context, or NULL. From any thread.
+    const char *not_of_this_process() const noexcept {
+        return getpid() == process_ ? nullptr : "this context belongs to the process that this one was forked from";
+    }
+
 private:
+    const pid_t process_ = getpid();
     std::atomic<std::thread::id> user_{};
 };
 

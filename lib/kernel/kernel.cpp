@@ -115,10 +115,14 @@ void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &s
     seconds_ = 0.0;
 }
 
-void Kernel::build(TracePipelines &pipelines) const {
+void Kernel::build(TracePipelines &pipelines, bool by_tile) const {
     pipelines.trace(features_, sharers_, gpu_scene_->words, seconds_);
     pipelines.commit();
     pipelines.fold();
+    if (by_tile) {
+        pipelines.trace(features_, TracePipelines::of_tile_list, gpu_scene_->words, seconds_);
+        pipelines.fold_tiles();
+    }
 }
 
 void Kernel::dispatch_nothing() {

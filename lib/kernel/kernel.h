@@ -38,9 +38,9 @@ public:
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // Builds what this kernel runs of other pipelines than its own, of the same device. Throws PT_ERROR_SHADER if the
-    // driver refuses that.
-    void build(TracePipelines &pipelines) const;
+    // Builds what this kernel runs of pipelines of the same device, be they other ones than its own; by_tile: for lists
+    // of tiles too. Throws PT_ERROR_SHADER if the driver refuses that.
+    void build(TracePipelines &pipelines, bool by_tile) const;
 
     // Dispatches no work at all: some drivers compile a kernel no sooner than it is dispatched. None may be under way.
     void dispatch_nothing();

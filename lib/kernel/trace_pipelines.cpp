@@ -110,7 +110,7 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
             return *kept;
         if (own_) // has one already, for other pixels
             return build(std::move(own));
-        if (kept_.empty() || ahead_ || clock_.is_time(seconds)) {
+        if (kept_.empty() || ahead_ || (!as_they_are_ && clock_.is_time(seconds))) {
             OwnKernel next{own, seconds, 0.0};
             const vulkan::ComputePipeline &built = build(std::move(own));
             own_ = std::move(next);

@@ -56,6 +56,9 @@ public:
         TracePipelines &pipelines_;
     };
 
+    // Whether scenes wait for kernels of their own until this is taken back: polls build nothing.
+    void keep_kernels_as_they_are(bool keep) { as_they_are_ = keep; }
+
     // The kernel that adds a split pass to the film.
     const vulkan::ComputePipeline &commit();
 
@@ -88,6 +91,7 @@ private:
     OwnKernelClock clock_;
     std::optional<OwnKernel> own_;
     bool ahead_ = false;
+    bool as_they_are_ = false;
     std::optional<vulkan::ComputePipeline> commit_;
     std::optional<vulkan::ComputePipeline> fold_;
     std::optional<vulkan::ComputePipeline> fold_tiles_;

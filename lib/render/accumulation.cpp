@@ -6,9 +6,10 @@
 namespace pt {
 
 Accumulation::Accumulation(const Devices &devices, const SampleSet &samples, std::uint32_t first_sample,
-                           std::uint32_t wanted, const Progress &progress, DeviceWork &work) :
+                           std::uint32_t wanted, const Progress &progress, const Cancellation &cancellation,
+                           DeviceWork &work) :
     SampleDealing(devices, {std::uint64_t{wanted} * devices.front()->pixel_count() - devices.front()->pass_pixels()},
-                  progress, work),
+                  progress, cancellation, work),
     first_sample_(first_sample),
     dealt_(samples) {
     if (const SampleRange pass = devices.front()->pass(); !pass.empty())

@@ -11,10 +11,10 @@ namespace pt {
 
 class Accumulation : public SampleDealing {
 public:
-    // Devices and work must outlive it. samples: those that the films hold. wanted: how many are to be added to them,
-    // at the most, which the progress is about.
+    // Devices, cancellation and work must outlive it. samples: those that the films hold. wanted: how many are to be
+    // added to them, at the most, which the progress is about.
     Accumulation(const Devices &devices, const SampleSet &samples, std::uint32_t first_sample, std::uint32_t wanted,
-                 const Progress &progress, DeviceWork &work);
+                 const Progress &progress, const Cancellation &cancellation, DeviceWork &work);
 
     // How many samples the films are to have, and whether their error is to be estimated then.
     struct Goal {

@@ -74,7 +74,7 @@ void RenderDevice::discard_samples() noexcept {
 std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &code) {
     auto pipelines = std::make_unique<TracePipelines>(device_, code);
     if (kernel_)
-        kernel_->build(*pipelines);
+        kernel_->build(*pipelines, false);
     return pipelines;
 }
 
@@ -120,6 +120,7 @@ void RenderDevice::save_kernels() noexcept {
 // The schedule goes on where it was if the kernel does: what a sample costs is much the same. For another kernel it
 // begins with what this device manages, as far as that is known.
 void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
+    pipelines_->keep_kernels_as_they_are(false);
     if (kernel_ && &kernel_->scene() == scene.get())
         return;
     if (kernel_ && kernel_->can_show(*scene)) {
@@ -164,12 +165,22 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
 void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     const TracePipelines::Ahead ahead(*pipelines_);
     prepare(scene, settings);
-    kernel_->build(*pipelines_);
+    kernel_->build(*pipelines_, false);
     kernel_->dispatch_nothing();
     if (device_.policy().resolve_on_device) {
         resolve_pipelines().of(PT_FORMAT_RGB32F);
         estimate_pipeline();
     }
+}
+
+void RenderDevice::prepare_for_polls(bool by_tile, bool with_errors) {
+    kernel_->build(*pipelines_, by_tile);
+    if (with_errors && device_.policy().resolve_on_device) {
+        estimate_pipeline();
+        if (by_tile)
+            uneven_estimate_pipeline();
+    }
+    pipelines_->keep_kernels_as_they_are(true);
 }
 
 DeviceFilm &RenderDevice::film() {

@@ -99,6 +99,10 @@ public:
     // The same, with all that the kernel will need, as fast as it can be.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
+    // Builds all that samples of the scene need from here on, until the next prepare(): of tiles, and where errors are
+    // looked at.
+    void prepare_for_polls(bool by_tile, bool with_errors);
+
     // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
     std::uint32_t pass_pixels() const { return pass_pixels_; }
 

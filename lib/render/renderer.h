@@ -12,6 +12,7 @@
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/render/accumulation.h"
+#include "lib/render/cancellation.h"
 #include "lib/render/film_view.h"
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
@@ -108,8 +109,9 @@ public:
     // way any more.
     Advance poll(std::uint64_t nanoseconds);
 
-    // No more samples are begun; poll() says when those under way have ended.
-    void cancel();
+    // No more samples are begun; poll() says when those under way have ended. False if none are. From any thread.
+    bool cancel() noexcept { return cancellation_.ask(); }
+    static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
     bool is_under_way() const { return job_.has_value(); }
 
@@ -166,7 +168,9 @@ private:
     bool is_adaptive(const SamplesWanted &wanted) const;
     std::uint64_t adaptive_from() const;
     void require_tiles(const SamplesWanted &wanted) const;
-    void begin(const SamplesWanted &wanted, const Progress &progress);
+    void begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
+    void make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
+    void end_job() noexcept;
     void tell_tiles_apart();
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
@@ -197,7 +201,8 @@ private:
     std::vector<double> tile_squares_;    // likewise, if they are uneven or may come to be, and a kernel finds them
     std::vector<std::byte> mapped_image_; // as far as the host makes images that are mapped
     DeviceWork work_;
-    std::optional<Job> job_; // while samples are under way
+    Cancellation cancellation_; // of what job_ is, or is about to be
+    std::optional<Job> job_;    // while samples are under way
 };
 
 } // namespace pt

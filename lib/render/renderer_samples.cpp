@@ -68,28 +68,44 @@ void Renderer::require_tiles(const SamplesWanted &wanted) const {
         throw Error(PT_ERROR_UNSUPPORTED, "accumulate.tile_samples: this device holds films in parts that cut tiles");
 }
 
-void Renderer::begin(const SamplesWanted &wanted, const Progress &progress) {
+void Renderer::begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
+    cancellation_.begin();
+    try {
+        make_job(wanted, progress, is_polled);
+    } catch (...) {
+        end_job(); // nothing has been begun
+        throw;
+    }
+}
+
+// Of samples that are polled all kernels are built here, of others when they are needed.
+void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
     require_settings();
     require_tiles(wanted);
     require_room_for(wanted.count);
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
+    if (is_polled) {
+        const bool by_tile = is_adaptive(wanted) || !wanted.by_tile.empty() || !samples_.even();
+        for (const auto &device : devices_)
+            device->prepare_for_polls(by_tile, wanted.target_error > 0.0);
+        view_.prepare();
+    }
     const std::uint64_t most = samples_.most() + wanted.count;
     const std::uint64_t apart_from = is_adaptive(wanted) ? adaptive_from() : most;
     Job job{wanted, progress, most, std::min(most, apart_from), nullptr, nullptr, {}};
     const bool is_even = wanted.by_tile.empty() && samples_.even() && samples_.of(0).count() < job.even_count;
     if (is_even)
         job.even = std::make_unique<Accumulation>(devices_, samples_.of(0), settings_->first_sample, wanted.count,
-                                                  progress, work_);
+                                                  progress, cancellation_, work_);
     job_ = std::move(job);
-    if (is_even)
-        return;
-    try {
+    if (!is_even)
         tell_tiles_apart();
-    } catch (...) {
-        job_.reset(); // nothing has been begun
-        throw;
-    }
+}
+
+void Renderer::end_job() noexcept {
+    job_.reset();
+    cancellation_.end();
 }
 
 // A look takes the time of more samples where paths are short.
@@ -115,7 +131,7 @@ void Renderer::tell_tiles_apart() {
     job_->uneven = std::make_unique<TileAccumulation>(
         devices_, samples_, settings_->first_sample,
         SampleDealing::Amount{amount_of(job_->wanted, samples_.grid()), job_->even ? job_->even->pixels_done() : 0},
-        job_->progress, work_);
+        job_->progress, cancellation_, work_);
     job_->even.reset();
 }
 
@@ -127,7 +143,7 @@ Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
         const pt_result result = advance(now + std::chrono::nanoseconds(std::min(nanoseconds, most)));
         const Advance advanced{result, job_->dealing().fraction()};
         if (result != PT_PENDING)
-            job_.reset();
+            end_job();
         return advanced;
     } catch (...) {
         give_up();
@@ -137,13 +153,13 @@ Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
 
 pt_result Renderer::accumulate(const SamplesWanted &wanted, const Progress &progress) {
     const KernelsKept kept(devices_);
-    begin(wanted, progress);
+    begin(wanted, progress, false);
     return go_on(UINT64_MAX).result;
 }
 
 pt_result Renderer::start(const SamplesWanted &wanted) {
     const KernelsKept kept(devices_);
-    begin(wanted, {nullptr, nullptr});
+    begin(wanted, {nullptr, nullptr}, true);
     return go_on(0).result;
 }
 
@@ -153,14 +169,9 @@ Renderer::Advance Renderer::poll(std::uint64_t nanoseconds) {
     return go_on(nanoseconds);
 }
 
-void Renderer::cancel() {
-    require_under_way();
-    job_->dealing().stop();
-}
-
 void Renderer::require_under_way() const {
     if (!job_)
-        throw Error(PT_ERROR_INVALID_STATE, "no samples are under way: call pt_start first");
+        throw Error(PT_ERROR_INVALID_STATE, nothing_under_way);
 }
 
 // With a target error in runs, from each number of samples at which the error is looked at to the next.
@@ -264,7 +275,7 @@ void Renderer::give_up() noexcept {
     } catch (...) {
         discard_samples();
     }
-    job_.reset();
+    end_job();
 }
 
 } // namespace pt

@@ -6,10 +6,12 @@
 
 namespace pt {
 
-SampleDealing::SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress, DeviceWork &work) :
+SampleDealing::SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress,
+                             const Cancellation &cancellation, DeviceWork &work) :
     devices_(devices),
     work_(work),
     progress_(progress),
+    cancellation_(cancellation),
     amount_(amount) {}
 
 // Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
@@ -19,16 +21,23 @@ bool SampleDealing::go_on(Clock::time_point until) {
     const bool begins = !is_under_way();
     for (const auto &device : devices_)
         device->look();
-    deal();
+    deal_unless_cancelled();
     if (begins && Clock::now() >= until)
         return !is_under_way();
     while (RenderDevice *const device = next_to_finish(until)) {
         finish_slice(*device);
         if (Clock::now() < until)
-            deal();
+            deal_unless_cancelled();
     }
-    deal();
+    deal_unless_cancelled();
     return !is_under_way();
+}
+
+// It may be asked for at any time, and counts from here on.
+void SampleDealing::deal_unless_cancelled() {
+    if (cancellation_.is_asked())
+        stop();
+    deal();
 }
 
 bool SampleDealing::is_under_way() const {

@@ -3,6 +3,7 @@
 // pt_accumulate or pt_start, owned by Renderer: an Accumulation, or a TileAccumulation.
 #pragma once
 
+#include "lib/render/cancellation.h"
 #include "lib/render/render_device.h"
 
 #include <pt/pt.h>
@@ -57,8 +58,9 @@ public:
     std::uint64_t pixels_done() const { return amount_.done; }
 
 protected:
-    // Devices and work must outlive it.
-    SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress, DeviceWork &work);
+    // Devices, cancellation and work must outlive it.
+    SampleDealing(const Devices &devices, const Amount &amount, const Progress &progress,
+                  const Cancellation &cancellation, DeviceWork &work);
 
     // Deals, and takes in what ends, until nothing is left. False if something is still under way at a time.
     bool go_on(Clock::time_point until);
@@ -69,12 +71,14 @@ protected:
     const Devices &devices() const { return devices_; }
 
 private:
+    void deal_unless_cancelled();
     RenderDevice *next_to_finish(Clock::time_point until) const;
     void finish_slice(RenderDevice &device);
 
     const Devices &devices_;
     DeviceWork &work_;
     Progress progress_;
+    const Cancellation &cancellation_;
     Amount amount_;
     bool stopped_ = false; // by the caller, or by a failure
 };

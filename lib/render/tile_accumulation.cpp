@@ -7,8 +7,9 @@
 namespace pt {
 
 TileAccumulation::TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
-                                   const Amount &amount, const Progress &progress, DeviceWork &work) :
-    SampleDealing(devices, amount, progress, work),
+                                   const Amount &amount, const Progress &progress, const Cancellation &cancellation,
+                                   DeviceWork &work) :
+    SampleDealing(devices, amount, progress, cancellation, work),
     samples_(samples),
     first_sample_(first_sample) {}
 

@@ -15,9 +15,10 @@ namespace pt {
 
 class TileAccumulation : public SampleDealing {
 public:
-    // Devices and work must outlive it. samples: those that the films hold.
+    // Devices, cancellation and work must outlive it. samples: those that the films hold.
     TileAccumulation(const Devices &devices, const TileSamples &samples, std::uint32_t first_sample,
-                     const Amount &amount, const Progress &progress, DeviceWork &work);
+                     const Amount &amount, const Progress &progress, const Cancellation &cancellation,
+                     DeviceWork &work);
 
     // Sets what is to be done next: those of the tiles that have fewer samples than they are to have take more, as far
     // as a part of the film stays the same: some may have fewer than that afterwards, and are to be set again. False if

@@ -11,7 +11,9 @@
 
 #include <functional>
 #include <string>
+#include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace api {
@@ -119,6 +121,27 @@ TEST_F(InUseTest, AnotherContextIsFree) {
         result = pt_set_scene(other.get(), &scene);
     });
     EXPECT_EQ(result, PT_OK);
+}
+
+// The driver's threads are not in the child, where a call that reached it would wait for ever.
+TEST_F(InUseTest, AChildOfForkIsRefused) {
+    set_all();
+    const std::string not_ours = "this context belongs to the process that this one was forked from";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        bool all_refused = true;
+        for (const auto &[call, outcome] : outcomes_of_every_call(context()))
+            all_refused = all_refused && outcome == "PT_ERROR_INVALID_STATE: " + not_ours;
+        const bool cancel_refused = pt_cancel(context()) == PT_ERROR_INVALID_STATE;
+        pt_destroy(context());
+        _exit(all_refused && cancel_refused && pt_last_error(context()) == not_ours ? 0 : 1);
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    accumulate(1);
+    expect_image(1);
 }
 
 using Lines = std::vector<std::string>;

@@ -104,6 +104,16 @@ TEST_F(TracePipelinesTest, WhoPreparesKernelsGetsTheFastest) {
     EXPECT_EQ(trace({{0, 0, -6, 1}, {1, 1, 1, 1}, {0, 0, 0, 0}}, 0.0), any);
 }
 
+TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
+    use(true);
+    trace(ball, 0.0);
+    const ComputePipeline *any = trace(other_ball, 0.0);
+    pipelines_->keep_kernels_as_they_are(true);
+    EXPECT_EQ(trace(other_ball, 100.0), any);
+    pipelines_->keep_kernels_as_they_are(false);
+    EXPECT_NE(trace(other_ball, 100.0), any);
+}
+
 // What was used longest ago is built anew. Not told by its place, which may be that of one that went.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);

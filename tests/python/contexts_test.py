@@ -24,7 +24,7 @@ class Lives(unittest.TestCase):
         patch.start()
         self.addCleanup(patch.stop)
 
-    def destroy(self, loaded, handle, process, log):
+    def destroy(self, loaded, handle, log):
         self.destroyed.append(handle.value)
         loaded.pt_destroy(handle)
 

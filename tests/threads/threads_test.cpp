@@ -4,6 +4,7 @@
 #include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>
+#include <pt/async.h>
 #include <pt/pt.h>
 #include <pt/stats.h>
 
@@ -90,6 +91,37 @@ TEST(ThreadsTest, AnotherThreadStopsACall) {
     progress.stop = true;
     renders.join();
     EXPECT_EQ(result, PT_CANCELLED);
+}
+
+// While it polls, and in a call that waits; and sooner or later than there is something to cancel.
+TEST(ThreadsTest, AnyThreadCancels) {
+    pt_context *const context = ready_context(0);
+    ASSERT_NE(context, nullptr);
+    const pt_accumulate_info info{sizeof info, 1U << 30, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
+    for (const bool polls : {false, true, false, true}) {
+        std::atomic<bool> ended{false};
+        pt_result result = PT_OK;
+        std::thread renders([&] {
+            result = polls ? pt_start(context, &info) : pt_accumulate(context, &info);
+            while (result == PT_PENDING)
+                result = pt_poll(context, 1'000'000, nullptr);
+            ended = true;
+        });
+        pt_result cancelled = PT_ERROR_INVALID_STATE;
+        while (!ended) {
+            const pt_result now = pt_cancel(context);
+            if (now == PT_OK)
+                cancelled = now;
+            else
+                EXPECT_EQ(now, PT_ERROR_INVALID_STATE);
+        }
+        renders.join();
+        EXPECT_EQ(cancelled, PT_OK);
+        EXPECT_EQ(result, PT_CANCELLED) << pt_last_error(context);
+        EXPECT_EQ(pt_cancel(context), PT_ERROR_INVALID_STATE);
+        EXPECT_STREQ(pt_last_error(context), "no samples are under way: call pt_start first");
+    }
+    pt_destroy(context);
 }
 
 // Against the contract, and still without a race: what comes second is refused.

@@ -16,7 +16,8 @@
  * - Threads: the library starts none. Between calls the devices work on what they have been given, two submissions each
  *   at the most (pt_create_info.submit_milliseconds), and nothing happens on the host: they are given more by pt_poll
  *   alone. A program that lets pt_poll wait for the time that it has to spare keeps them busy; one that does not is
- *   better off with submissions that are longer than the time between two polls. Any thread may poll, one at a time.
+ *   better off with submissions that are longer than the time between two polls. Any thread may poll, one at a time,
+ * and cancel, also while another one polls.
  * - While samples are under way, from a pt_start that returns PT_PENDING to the first pt_poll that returns anything
  *   else, other calls on the context are refused (PT_ERROR_INVALID_STATE) and change nothing, but for pt_cancel,
  *   pt_get_context_device, pt_last_error and pt_get_broken_rule, and pt_destroy, which waits for the submissions under
@@ -42,8 +43,8 @@ extern "C" {
 /** Begins to add samples to every pixel, and waits for none of them.
  *
  * Returns PT_PENDING where they are under way now, to be polled. PT_TARGET_REACHED: the image is good enough already,
- * and nothing is under way. Kernels that are missing are built here (pt_prepare builds them ahead), and where the image
- * has a number of samples at which a target error is looked at, that is done first.
+ * and nothing is under way. All kernels that the samples may need are built here (pt_prepare builds most of them
+ * ahead), and where the image has a number of samples at which a target error is looked at, that is done first.
  *
  * One thread at a time per context. Fails as pt_accumulate does, and with PT_ERROR_INVALID_ARGUMENT where info.progress
  * is not NULL. */
@@ -52,8 +53,9 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 /** Takes in what devices have done since the last call, gives them more, and waits for them, for so many nanoseconds at
  * the most.
  *
- * With 0 it does not wait, with UINT64_MAX until all is done. It may take longer where it builds a kernel of the
- * scene's own (PT_CREATE_NO_SCENE_KERNELS declines these) and where a target error is looked at, which reads the image.
+ * With 0 it does not wait, with UINT64_MAX until all is done. It may take longer where a target error is looked at,
+ * which reads the image. It never builds a kernel: a scene that has been rendered for long enough to get one of its own
+ * (PT_CREATE_NO_SCENE_KERNELS) gets it by the next pt_start.
  *
  * fraction may be NULL. Else it receives the share of the samples that is done, in [0, 1], which never falls, unless
  * the call fails.
@@ -65,10 +67,12 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  * PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
-/** Begins no more samples, and returns at once. What is under way ends by pt_poll, as after a pt_progress_fn that asks
- * to stop: with PT_CANCELLED, or with PT_OK if no sample was left to begin. Again it does nothing more.
+/** Begins no more samples, and returns at once. What pt_start began ends by pt_poll, and a pt_accumulate that is under
+ * way by itself, as after a pt_progress_fn that asks to stop: with PT_CANCELLED, or with PT_OK if no sample was left to
+ * begin. Again it does nothing more.
  *
- * One thread at a time per context. PT_ERROR_INVALID_STATE: nothing is under way. */
+ * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.
+ * PT_ERROR_INVALID_STATE: nothing is under way, which a caller beside a thread that polls may well meet. */
 PT_API pt_result pt_cancel(pt_context *context);
 
 #ifdef __cplusplus

@@ -21,13 +21,13 @@
  *   see pt_last_error. Any function can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL, and with
  *   PT_ERROR_INVALID_ARGUMENT where a pointer is NULL or a struct_size is absurd.
  * - Threads: different contexts are independent; one context is used by one thread at a time. While one thread is in a
- *   call on a context, calls of other threads on it are refused (PT_ERROR_INVALID_STATE). The library starts no
- *   threads (drivers do), prints nothing, reads no files but those of pt_create_info.shader_dir and has no globals.
- *   Calls need less than 256 KiB of stack on Mesa's lavapipe.
- * - Processes: after fork a child may make contexts of its own, but must not use those of its parent, nor destroy them:
- *   the threads of their driver are not in the child, and a call may wait for them for ever.
- * - Callbacks: run inside the call, on the calling thread, must not call back into the same context, which is refused
- *   (PT_ERROR_INVALID_STATE), and must not throw.
+ *   call on a context, calls of others on it are refused (PT_ERROR_INVALID_STATE), but for pt_cancel (pt/async.h). The
+ *   library starts no threads (drivers do), prints nothing, reads no files but those of pt_create_info.shader_dir and
+ *   has no globals. Calls need less than 256 KiB of stack on Mesa's lavapipe.
+ * - Processes: after fork a child may make contexts of its own. Its calls on those of its parent are refused
+ *   (PT_ERROR_INVALID_STATE), and pt_destroy leaves them alone: the driver's threads are not in the child.
+ * - Callbacks: run inside the call, on the calling thread. Calls on the same context, but for pt_cancel, are refused
+ *   (PT_ERROR_INVALID_STATE). They must not throw.
  * - Floating point: calls, and callbacks in them, round to nearest, and the caller's mode is back when they return.
  *   Exceptions must not be trapped.
  */
@@ -394,7 +394,7 @@ enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
     /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again,
      * and the first scene of a context gets one, as does each that is rendered for some time, a second at first;
-     * building it takes a third of a second. Without, a moving camera and spheres that move build nothing. */
+     * building it takes a third of a second, and pt_poll builds none. Without, moving cameras build nothing. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -457,7 +457,7 @@ PT_API const char *pt_last_error(const pt_context *context);
  * fails.
  *
  * In a callback of the context, or while another thread is in a call on it, nothing is freed: the context stays as it
- * is, to be destroyed later, and the log and pt_last_error say so. */
+ * is, to be destroyed later, and the log and pt_last_error say so. In a child of fork nothing is freed either. */
 PT_API void pt_destroy(pt_context *context);
 
 /** Takes over a scene, and discards the samples accumulated so far.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import os
 import weakref
 from types import TracebackType
 from typing import Any
@@ -57,7 +56,6 @@ class Context:
                  scene_kernels: bool = True, submit_milliseconds: int = 50) -> None:
         self._library = library()
         self._in_call = False
-        self._process = os.getpid()
         self._shape: tuple[int, int] | None = None
         self._log = log
         # The function that the library has must outlive the context, and must not keep it alive: log may refer to it.
@@ -79,7 +77,7 @@ class Context:
             result = self._library.pt_create(info, handle)
         checked(self._library, result)
         self._handle: ctypes.c_void_p | None = handle
-        self._finalizer = weakref.finalize(self, _destroy, self._library, handle, self._process, log_pointer)
+        self._finalizer = weakref.finalize(self, _destroy, self._library, handle, log_pointer)
         guard.raise_caught()
 
     def close(self) -> None:
@@ -226,8 +224,6 @@ class Context:
     def _call(self, function: str, *arguments: Any, guard: CallbackGuard | None = None) -> Result:
         """Calls a function on the context, and raises what a callback raised, or the library's error."""
         handle, guard = self._handle, guard or self._guard()
-        if self._process != os.getpid():
-            raise InvalidStateError("the context is of the process that this one was forked from")
         if handle is None:
             raise InvalidStateError("the context is closed")
         # A flag and not a lock: Python raises KeyboardInterrupt when a lock's acquire() returns, but never between this
@@ -245,7 +241,6 @@ class Context:
             self._in_call = False
 
 
-def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, process: int, _log: object) -> None:
-    """Not in a child of fork, where the threads of the driver are missing and this would wait for them for ever."""
-    if process == os.getpid():
-        loaded.pt_destroy(handle)
+def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
+    """With what the library may call until then."""
+    loaded.pt_destroy(handle)

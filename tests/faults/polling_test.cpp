@@ -1,0 +1,118 @@
+// What pt_start builds so that pt_poll builds nothing: told by the pipelines that Vulkan is asked for.
+#include "tests/faults/clock.h"
+#include "tests/faults/vulkan_calls.h"
+#include "tests/support/image_target.h"
+#include "tests/support/scene_of.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/async.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <vector>
+
+namespace {
+
+using namespace faults;
+
+struct Way {
+    bool gpu; // see pose_as_gpu
+    uint32_t device_count;
+    uint32_t submit_milliseconds;
+    double target_error;
+    bool by_tile;
+};
+
+// Short submissions cut passes of an image that they cannot take in, and clear it in pieces.
+constexpr Way ways[] = {{false, 1, 50, 0, false},    {false, 1, 1, 0, false},    {false, 2, 1, 0, false},
+                        {false, 1, 50, 0.05, false}, {false, 1, 50, 0, true},    {false, 2, 50, 0.05, false},
+                        {true, 1, 50, 0, false},     {true, 1, 1, 0, false},     {true, 2, 50, 0, false},
+                        {true, 1, 50, 0.05, false},  {true, 2, 50, 0.05, false}, {true, 1, 50, 0, true}};
+
+constexpr uint32_t polled_size = 48;
+
+// A floor, a ball on it and a ball within that, which all but coincide, a lamp.
+struct PolledScene {
+    std::array<pt_material, 2> materials = {
+        {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0}}};
+    std::array<pt_sphere, 3> spheres = {{{{0, 1, -4}, 1, {0, 0, 0}, 0, 0},
+                                         {{0, 1, -4}, 1 - 1e-5, {0, 0, 0}, 0, 0},
+                                         {{2, 4, -3}, 0.5, {0, 0, 0}, 1, 0}}};
+    std::array<pt_plane, 1> planes = {{{{0, 1, 0}, 0, 0, 0}}};
+
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
+};
+
+// Above the floor, on it and below, in the ball and on it.
+constexpr double places[][3] = {{0, 1, 0}, {0, 0, 0}, {0, -1, 0}, {0, 1, -4.5}, {0, 1, -3}, {0, 1.5, 0}};
+
+long pipelines() {
+    const auto live = live_objects();
+    const auto found = live.find("vkCreateComputePipelines");
+    return found == live.end() ? 0 : found->second;
+}
+
+// Moves the camera from place to place, with samples under way at each for seconds by the library's clock.
+void expect_nothing_built_by_polls(const Way &way) {
+    pose_as_gpu(way.gpu);
+    pt_create_info info{};
+    info.struct_size = sizeof info;
+    info.submit_milliseconds = way.submit_milliseconds;
+    pt_context *made = nullptr;
+    ASSERT_EQ(create_shared(way.device_count, info, &made, way.gpu, 16), PT_OK) << pt_last_error(nullptr);
+    const std::unique_ptr<pt_context, void (*)(pt_context *)> context(made, &pt_destroy);
+    const PolledScene scene;
+    const pt_scene the_scene = scene.scene();
+    const pt_render render = render_of(polled_size, polled_size, 3);
+    ASSERT_EQ(pt_set_scene(made, &the_scene), PT_OK) << pt_last_error(made);
+    ASSERT_EQ(pt_set_render(made, &render), PT_OK) << pt_last_error(made);
+    const std::vector<uint32_t> tiles((polled_size / 8) * (polled_size / 8), 40);
+    for (const auto &place : places) {
+        pt_camera camera{};
+        camera.struct_size = sizeof camera;
+        std::copy(std::begin(place), std::end(place), camera.position);
+        camera.target[1] = 1;
+        camera.target[2] = -6;
+        ASSERT_EQ(pt_set_camera(made, &camera), PT_OK) << pt_last_error(made);
+        if (&place == std::begin(places)) {
+            EXPECT_EQ(pt_prepare(made), PT_OK) << pt_last_error(made);
+        }
+        pt_accumulate_info samples{};
+        samples.struct_size = sizeof samples;
+        samples.sample_count = way.by_tile ? 40 : 1U << 20;
+        samples.target_error = way.target_error;
+        samples.tile_samples = way.by_tile ? tiles.data() : nullptr;
+        samples.tile_count = way.by_tile ? static_cast<uint32_t>(tiles.size()) : 0;
+        pt_result result = pt_start(made, &samples);
+        const long built = pipelines();
+        for (int i = 0; result == PT_PENDING && i < 60; ++i) {
+            pass_time(std::chrono::milliseconds{1});
+            result = pt_poll(made, 0, nullptr);
+            ASSERT_EQ(pipelines(), built) << "poll " << i << " at " << place[1] << ", " << place[2];
+        }
+        if (result == PT_PENDING) {
+            EXPECT_EQ(pt_cancel(made), PT_OK);
+            result = pt_poll(made, UINT64_MAX, nullptr);
+        }
+        EXPECT_GE(result, PT_OK) << pt_last_error(made);
+        EXPECT_EQ(pipelines(), built);
+    }
+}
+
+TEST(PollingTest, PollsBuildNothing) {
+    for (const Way &way : ways) {
+        SCOPED_TRACE(testing::Message() << (way.gpu ? "gpu" : "cpu") << ", " << way.device_count << " devices, "
+                                        << way.submit_milliseconds << " ms, target " << way.target_error
+                                        << (way.by_tile ? ", by tile" : ""));
+        expect_nothing_built_by_polls(way);
+    }
+    pose_as_gpu(false);
+}
+
+} // namespace
