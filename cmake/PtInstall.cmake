@@ -37,13 +37,22 @@ install(
   COMPONENT pt_development
 )
 
+# pt.pc, and pt-static.pc with all that the static library needs: where both are installed a linker takes the shared
+# one for -lpt, whatever pkg-config --static adds.
 list(TRANSFORM pt_cxx_runtime PREPEND -l OUTPUT_VARIABLE pt_cxx_runtime_flags)
 list(JOIN pt_cxx_runtime_flags " " pt_cxx_runtime_flags)
 file(RELATIVE_PATH pt_prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" pt_prefix_from_pc "${pt_prefix_from_pc}")
+set(pt_pc_name pt)
+set(pt_pc_libs -lpt)
+set(pt_pc_requires "")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in pt.pc @ONLY)
+set(pt_pc_name pt-static)
+set(pt_pc_libs "-l:libpt.a ${pt_cxx_runtime_flags}")
+set(pt_pc_requires vulkan)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/pt.pc.in pt-static.pc @ONLY)
 install(
-  FILES ${CMAKE_CURRENT_BINARY_DIR}/pt.pc
+  FILES ${CMAKE_CURRENT_BINARY_DIR}/pt.pc ${CMAKE_CURRENT_BINARY_DIR}/pt-static.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
   COMPONENT pt_development
 )

@@ -76,8 +76,8 @@ class Steps:
         path.mkdir(parents=True)
         return path
 
-    def pkg_config(self, *arguments):
-        return run("pkg-config", *arguments, "pt", **self.pc).split()
+    def pkg_config(self, *arguments, package="pt"):
+        return run("pkg-config", *arguments, package, **self.pc).split()
 
     def install(self):
         shutil.rmtree(self.work, ignore_errors=True)
@@ -116,9 +116,7 @@ class Steps:
         check_linkage(folder / "shared", shared=True)
         check_enclosure(folder / "shared", LD_LIBRARY_PATH=str(self.library))
 
-        flags = self.pkg_config("--static", "--cflags", "--libs")
-        flags = ["-l:libpt.a" if flag == "-lpt" else flag for flag in flags]
-        run(*strict, enclosure, *flags, "-o", folder / "static")
+        run(*strict, enclosure, *self.pkg_config("--cflags", "--libs", package="pt-static"), "-o", folder / "static")
         check_linkage(folder / "static", shared=False)
         check_enclosure(folder / "static")
 
@@ -130,7 +128,12 @@ class Steps:
         said = run(folder / "ball", LD_LIBRARY_PATH=str(self.library))
         require(said == "radiance in the middle: 1\n", f"the README's program says {said}")
 
-        require(self.pkg_config("--modversion") == [self.options.version], "pt.pc has another version")
+        for package in "pt", "pt-static":
+            require(self.pkg_config("--modversion", package=package) == [self.options.version],
+                    f"{package}.pc has another version")
+        if (self.library / "pt" / "libpt-glsl.so").exists():  # with the sources that it compiles
+            shaders, = self.pkg_config("--variable=shaderdir")
+            require((pathlib.Path(shaders) / "pathtrace.comp").is_file(), f"there are no shaders in {shaders}")
 
     def package(self):
         """find_package in C++ with both libraries, and in C alone with the static one."""

@@ -9,6 +9,7 @@
 #include "lib/kernel/scene_features.h"
 #include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/lamp_tree.h"
 #include "lib/scene/scene.h"
 
 #include <pt/stats.h>
@@ -135,6 +136,17 @@ bool is_within(const glm::vec4 &word, float largest) {
     return size.x <= largest && size.y <= largest && size.z <= largest && size.w <= largest;
 }
 
+// Of the tree of lamps: lengths, but for powers, of which a lamp has at most twice the size of the scene, and spreads,
+// which are squares of lengths (lamp_tree_words.cpp).
+float largest_in_lamp_tree(std::uint64_t word, const pt::Features &features) {
+    const std::uint64_t group_words = pt::gpu::lamp_tree_group_words(features.motion ? 1 : 0);
+    if (word >= group_words * pt::LampTreeShape(features.lamp_count).all_groups())
+        return largest_length;
+    if (word % group_words == 3)
+        return 2.0F * static_cast<float>(features.lamp_count) * largest_length;
+    return word % group_words == 4 ? largest_length * largest_length : largest_length;
+}
+
 // Of large scenes, whose surfaces share the materials of a table.
 void require_indices(std::span<const glm::vec4> indices, const pt::Features &features) {
     for (std::uint32_t i = 0; i < features.surface_count(); ++i) {
@@ -156,9 +168,13 @@ void require_words(const std::vector<glm::vec4> &words, const pt::Features &feat
         return features.gloss && from_first % blocks.reflection_step == 0 &&
                from_first / blocks.reflection_step < reflections;
     };
+    const auto largest = [&](std::uint64_t word) {
+        if (features.lamp_tree && word >= blocks.lamp_tree)
+            return largest_in_lamp_tree(word - blocks.lamp_tree, features);
+        return is_specular(word) ? largest_peak : largest_length;
+    };
     for (std::uint64_t i = 0; i < words.size(); ++i)
-        require(is_within(words[i], is_specular(i) ? largest_peak : largest_length),
-                "the scene's words are numbers whose squares are numbers, or peaks of lobes");
+        require(is_within(words[i], largest(i)), "the scene's words are no larger than what the kernel makes of them");
     for (std::uint64_t i = 0; i < reflections; ++i) {
         const float probability = words[blocks.diffuse + i * blocks.reflection_step].w;
         require(probability >= 0.0F && probability <= 1.0F, "probabilities lie in [0, 1]");
