@@ -22,6 +22,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -63,7 +65,7 @@ public:
                             "there is no pt-" + std::string(name) + " in the PATH, which " + std::string(how));
         }
         try {
-            app_.parse(argument_count, arguments);
+            app_.parse(arguments_of(argument_count, arguments));
         } catch (const CLI::ParseError &error) {
             if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
                 return app_.exit(error); // --help and --version
@@ -79,6 +81,21 @@ public:
     }
 
 private:
+    // Without the program's name, the last first, as CLI11 takes them. Those behind "--" are files, whatever their
+    // names: CLI11 takes it for the end of a list of values, and none for a part of an option that "./" stands before.
+    static std::vector<std::string> arguments_of(int argument_count, char **arguments) {
+        std::vector<std::string> given(arguments + std::min(argument_count, 1), arguments + argument_count);
+        if (const auto mark = std::find(given.begin(), given.end(), "--"); mark != given.end()) {
+            for (auto file = given.erase(mark); file != given.end(); ++file) {
+                if (file->starts_with('-') && file->size() > 1) {
+                    file->insert(0, "./");
+                }
+            }
+        }
+        std::reverse(given.begin(), given.end());
+        return given;
+    }
+
     struct Command {
         CLI::App *app;
         std::function<int()> run;
@@ -154,6 +171,11 @@ private:
 } // namespace
 
 int main(int argument_count, char **arguments) {
+    // CLI11 allocates where it has promised not to throw.
+    std::set_terminate([] {
+        std::fputs("pt: out of memory, or an internal error\n", stderr);
+        std::_Exit(static_cast<int>(cli::ExitCode::internal));
+    });
     cli::occupy_closed_streams();
     int code = 0;
     try {

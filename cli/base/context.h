@@ -21,11 +21,11 @@ namespace cli {
 class Context {
 public:
     // Kernels are kept in the user's cache.
-    explicit Context(pt_create_info info) : has_given_shaders_(info.shader_dir != nullptr) {
+    explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         kernels_.serve(info);
         const pt_result result = pt_create(&info, &context_);
         if (result < 0) {
-            throw Failure(code_of(result), in_words_of_options(cli::last_error(nullptr)));
+            fail(result, cli::last_error(nullptr));
         }
     }
     Context(const Context &) = delete;
@@ -38,7 +38,7 @@ public:
     // For calls whose arguments do not come from the scene file.
     void require(pt_result result) const {
         if (result < 0) {
-            throw Failure(code_of(result), in_words_of_options(last_error()));
+            fail(result, last_error());
         }
     }
 
@@ -94,9 +94,22 @@ public:
     }
 
 private:
-    // Shaders of --shader-dir are the user's to mend, like a scene file.
-    ExitCode code_of(pt_result result) const {
-        return result == PT_ERROR_SHADER && has_given_shaders_ ? ExitCode::scene : exit_code_of(result);
+    [[noreturn]] void fail(pt_result result, const LibraryError &error) const {
+        const bool loses_work = result == PT_ERROR_INTERNAL || result == PT_ERROR_DEVICE_LOST;
+        throw Failure(code_of(result, error),
+                      in_words_of_options(error) + (loses_work && !shader_dir_.empty()
+                                                        ? "; an endless loop or another local_size in the shaders in " +
+                                                              shader_dir_ + " does this"
+                                                        : ""));
+    }
+
+    // Shaders of --shader-dir are the user's to mend, like a scene file. Their compiler is a file.
+    ExitCode code_of(pt_result result, const LibraryError &error) const {
+        if (result == PT_ERROR_SHADER && !shader_dir_.empty()) {
+            return ExitCode::scene;
+        }
+        const bool lacks_compiler = !error.rules.empty() && error.rules.front().member == "shader_dir";
+        return lacks_compiler ? ExitCode::file : exit_code_of(result);
     }
 
     static std::filesystem::path kernel_path() {
@@ -104,7 +117,7 @@ private:
         return cache.empty() ? cache : cache / "kernels";
     }
 
-    bool has_given_shaders_;
+    std::string shader_dir_;              // empty: the shaders in the library
     KernelFolder kernels_{kernel_path()}; // outlives the context
     pt_context *context_ = nullptr;
 };

@@ -21,7 +21,7 @@ struct FieldName {
 };
 
 // Those that are called differently, and all that options give.
-inline constexpr std::array<FieldName, 11> field_names{{
+inline constexpr std::array<FieldName, 12> field_names{{
     {"camera", "target", "", "camera", "look_at"},
     {"camera", "shutter_open", "", "camera", "shutter", 0},
     {"camera", "shutter_close", "", "camera", "shutter", 1},
@@ -32,6 +32,7 @@ inline constexpr std::array<FieldName, 11> field_names{{
     {"accumulate", "target_error", "--error", "", ""},
     {"accumulate", "sampling", "--sampling", "", ""},
     {"create", "device", "--device", "", ""},
+    {"create", "shader_dir", "--shader-dir", "", ""},
     {"create", "submit_milliseconds", "--submit-ms", "", ""},
 }};
 

@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -76,18 +77,23 @@ private:
         return exit_code_of(outcome_.value_or(Outcome::written), stopped ? interrupt_signal() : 0);
     }
 
-    // Where an edit can help, a failure is told and waited out.
+    // Where an edit can help, a failure is told and waited out; so it can where the shaders are edited, and lose
+    // samples or the device, which then wants another context.
     void render_or_tell() {
         outcome_.reset();
         try {
             render();
         } catch (const Failure &failure) {
-            const bool is_source = failure.code() == ExitCode::scene;
-            const bool is_fatal = failure.code() == ExitCode::device_lost || failure.code() == ExitCode::internal;
-            if (is_fatal || (is_first_ && !is_source)) {
+            const bool loses_work = failure.code() == ExitCode::device_lost || failure.code() == ExitCode::internal;
+            const bool is_source = failure.code() == ExitCode::scene || (loses_work && !options_.shader_dir.empty());
+            if (!is_source && (loses_work || is_first_)) {
                 throw;
             }
             print_message(failure.what());
+            if (loses_work) {
+                tell_suspects();
+                context_.reset();
+            }
         }
         is_first_ = false;
     }
@@ -113,6 +119,7 @@ private:
         rendered_scene_.reset();
         outcome_ = render_picture(*context_, options_, file, settings, times, superseded, viewer_);
         if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
+            edited_.clear();
             rendered_outcome_ = *outcome_;
             rendered_scene_ = sources_.scene();
         }
@@ -148,12 +155,26 @@ private:
         }
     }
 
-    void tell_changes() const {
-        std::string names;
-        for (const std::string &name : sources_.changed_names()) {
-            names += (names.empty() ? "changed: " : ", ") + name;
+    void tell_changes() {
+        const std::vector<std::string> names = sources_.changed_names();
+        edited_.insert(names.begin(), names.end());
+        print_unless_quiet("changed: " + joined(names));
+    }
+
+    // What was edited since a picture was right.
+    void tell_suspects() const {
+        if (!edited_.empty()) {
+            print_message("the likely cause: " + joined(edited_) + ", edited since the last picture");
         }
-        print_unless_quiet(names);
+    }
+
+    template <typename Names>
+    static std::string joined(const Names &names) {
+        std::string text;
+        for (const std::string &name : names) {
+            text += (text.empty() ? "" : ", ") + name;
+        }
+        return text;
     }
 
     const RenderOptions &options_;
@@ -164,6 +185,7 @@ private:
     std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
     Outcome rendered_outcome_ = Outcome::written;
     std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
+    std::set<std::string> edited_;   // files, since the last picture
     bool is_first_ = true;
     bool is_told_ = false;
 };

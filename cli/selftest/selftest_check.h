@@ -6,7 +6,7 @@
 namespace cli {
 
 struct SelftestCheck {
-    std::string group; // "function", "scene" or "invariance"
+    std::string group; // "function", "scene", "invariance" or "directions"
     std::string name;
     double error; // infinite where nothing finite was measured
     double bound;

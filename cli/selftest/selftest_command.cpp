@@ -14,7 +14,8 @@ namespace cli {
 const char *const selftest_help =
     "Compares the kernel's functions with double precision, small scenes with closed forms, and images whose samples\n"
     "were split over calls bit by bit. A bound is what every right device keeps: for functions by the precision that\n"
-    "Vulkan promises; for scenes by that of float32 and their noise, which fails a right device once in a million.\n"
+    "Vulkan promises; for scenes by that of float32 and their noise, which fails a right device once in a million,\n"
+    "as do directions.\n"
     "Paste the output into a report of a fault.\n";
 
 void add_selftest_options(CLI::App &command, SelftestOptions &options) {
@@ -23,6 +24,12 @@ void add_selftest_options(CLI::App &command, SelftestOptions &options) {
         .add_option("--json", options.json,
                     "Write the same as JSON; - is standard output, the text then goes to stderr")
         ->type_name("JSON");
+    command.add_flag("--directions", options.directions,
+                     "Check the directions that kernels sample alone: means, second moments and sides");
+    command
+        .add_option("--shader-dir", options.shader_dir,
+                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/")
+        ->type_name("DIR");
 }
 
 int run_selftest(const SelftestOptions &options) {
@@ -31,10 +38,11 @@ int run_selftest(const SelftestOptions &options) {
     pt_create_info info{};
     info.struct_size = sizeof(pt_create_info);
     info.device = options.device.empty() ? nullptr : options.device.c_str();
+    info.shader_dir = options.shader_dir.empty() ? nullptr : options.shader_dir.c_str();
     const Context context(info);
     SelftestReport report{};
     context.require(pt_get_context_device(context.get(), &report.device));
-    report.checks = run_selftest_checks(context);
+    report.checks = options.directions ? run_direction_checks(context) : run_selftest_checks(context);
 
     print_for_people(selftest_text(report), options.json == standard_stream);
     write_report_file(options.json, json_text(selftest_json(report)));

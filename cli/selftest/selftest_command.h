@@ -12,6 +12,8 @@ namespace cli {
 struct SelftestOptions {
     std::string device;
     std::string json;
+    std::string shader_dir; // empty: the library's own kernels
+    bool directions = false;
 };
 
 extern const char *const selftest_help;

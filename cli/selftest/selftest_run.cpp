@@ -1,5 +1,6 @@
 #include "cli/selftest/selftest_run.h"
 
+#include "cli/selftest/selftest_directions.h"
 #include "cli/selftest/selftest_scene.h"
 
 #include <pt/accuracy.h>
@@ -92,6 +93,16 @@ std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
     const std::vector<SelftestCheck> scenes = check_scenes(context);
     checks.insert(checks.end(), scenes.begin(), scenes.end());
     checks.push_back(check_splits(context));
+    return checks;
+}
+
+std::vector<SelftestCheck> run_direction_checks(const Context &context) {
+    std::vector<SelftestCheck> checks;
+    for (const DirectionScene &directions : direction_scenes()) {
+        const SelftestScene &scene = directions.scene;
+        const std::vector<SelftestCheck> judged = directions.judge(render(context, scene, {scene.sample_count}));
+        checks.insert(checks.end(), judged.begin(), judged.end());
+    }
     return checks;
 }
 

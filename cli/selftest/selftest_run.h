@@ -8,7 +8,8 @@
 
 namespace cli {
 
-// Throws Failure if a call fails; wrong results are failed checks.
+// Throw Failure if a call fails; wrong results are failed checks.
 std::vector<SelftestCheck> run_selftest_checks(const Context &context);
+std::vector<SelftestCheck> run_direction_checks(const Context &context);
 
 } // namespace cli

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -36,7 +37,10 @@ std::string read_source(const std::filesystem::path &path) {
         text.append(block, count);
     }
     if (std::ferror(file.get()) != 0)
-        fail(); // for example because it is a directory
+        fail();                                                  // for example because it is a directory
+    constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // of UTF-8, which editors may add
+    if (text.starts_with(byte_order_mark))
+        text.erase(0, byte_order_mark.size());
     return text;
 }
 

@@ -10,7 +10,7 @@
 
 namespace pt::glsl {
 
-// The whole file; throws std::runtime_error with the system's reason.
+// The whole file, without a byte order mark; throws std::runtime_error with the system's reason.
 std::string read_source(const std::filesystem::path &path);
 
 // Looks beside the including file, then in the directory. glslang's messages name the files as they were found.

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <dlfcn.h>
 #include <exception>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace pt {
@@ -26,18 +28,30 @@ namespace {
 constexpr const char *module_name = "libpt-glsl.so";
 
 // The folder, with a slash at its end, of the file that contains this function: the shared library, or the program
-// that it is linked into. Empty if that was found by a relative path, which may name another file by now.
+// that it is linked into. A relative path, as of a relative LD_LIBRARY_PATH, may name another file by now, or none: it
+// counts if the file that it names is one that is loaded. Otherwise empty.
 std::string own_directory() {
     Dl_info info{};
     const bool found = dladdr(reinterpret_cast<const void *>(&own_directory), &info) != 0 && info.dli_fname;
-    const std::string path = found ? info.dli_fname : "";
-    return path.starts_with('/') ? path.substr(0, path.rfind('/') + 1) : "";
+    if (!found)
+        return "";
+    std::error_code error;
+    const std::string path = std::filesystem::absolute(info.dli_fname, error).string();
+    if (error)
+        return "";
+    if (info.dli_fname[0] != '/') {
+        void *const loaded = dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+        if (!loaded)
+            return "";
+        dlclose(loaded); // which only counts one user less
+    }
+    return path.substr(0, path.rfind('/') + 1);
 }
 
 // The module beside the library, so that an installed tree can be moved, else where the system looks for libraries,
 // but never in the working directory, where a relative path would lead. It stays loaded, because glslang keeps tables
 // for the next compilation.
-pt_compile_glsl_fn load_compiler() {
+pt_compile_glsl_fn load_compiler(const std::string &shader_directory) {
     const std::string directory = own_directory();
     std::string reasons;
     for (const std::string &path :
@@ -49,7 +63,10 @@ pt_compile_glsl_fn load_compiler() {
                 return reinterpret_cast<pt_compile_glsl_fn>(symbol);
         reasons += std::string(reasons.empty() ? "" : "; ") + dlerror();
     }
-    throw Error(PT_ERROR_UNSUPPORTED, "shader_dir: the compiler's module cannot be loaded: " + reasons);
+    throw Error(PT_ERROR_UNSUPPORTED, BrokenRule{.subject = "create",
+                                                 .member = "shader_dir",
+                                                 .value = '"' + shader_directory + '"',
+                                                 .rule = "the compiler's module cannot be loaded: " + reasons});
 }
 
 // What the module hands over. It calls back under its own C frame, which no exception may cross.
@@ -115,7 +132,7 @@ std::string digest_of(const KernelCode &code) {
 KernelCode ShaderSource::read() const {
     if (is_embedded())
         return embedded_code();
-    const pt_compile_glsl_fn compiler = load_compiler();
+    const pt_compile_glsl_fn compiler = load_compiler(directory_);
     auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
     for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp",
                                    "estimate.comp", "accuracy.comp", "first_hit.comp", "coverage.comp"})

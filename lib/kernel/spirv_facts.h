@@ -3,7 +3,7 @@
 // facts at one place of an array, so that a kernel of thousands of ids takes few allocations.
 #pragma once
 
-#include "lib/kernel/spirv.h"
+#include "lib/base/spirv.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,12 @@
 // Pipelines and descriptor sets; see compute_pipeline.h.
 #include "lib/vulkan/compute_pipeline.h"
 
+#include "lib/base/error.h"
+#include "lib/base/spirv.h"
 #include "lib/vulkan/result.h"
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 namespace pt::vulkan {
@@ -20,6 +23,28 @@ vk::raii::DescriptorSetLayout create_set_layout(const Device &device, std::span<
                                 .stageFlags = vk::ShaderStageFlagBits::eCompute});
     return device.handle().createDescriptorSetLayout(
         {.bindingCount = static_cast<std::uint32_t>(bindings.size()), .pBindings = bindings.data()});
+}
+
+// Drivers take a kernel that reads or writes where its layout has nothing, and say nothing: the kernel may be an edited
+// one (pt_create_info.shader_dir).
+void require_bindings(std::span<const std::uint32_t> spirv, std::span<const vk::DescriptorType> types) {
+    const auto is_there = [&](std::uint32_t binding) { return binding < types.size() && types[binding] != no_binding; };
+    spirv::for_each_instruction(spirv, spirv::header_words, [&](spirv::Words instruction, std::size_t) {
+        if (spirv::opcode_of(instruction) != spirv::OpDecorate)
+            return true;
+        const bool names_set = instruction[2] == spirv::decoration_descriptor_set && instruction[3] != 0;
+        const bool names_binding = instruction[2] == spirv::decoration_binding && !is_there(instruction[3]);
+        if (names_set || names_binding) {
+            std::string known;
+            for (std::uint32_t binding = 0; binding < types.size(); ++binding)
+                if (is_there(binding))
+                    known += (known.empty() ? "" : ", ") + std::to_string(binding);
+            throw Error(PT_ERROR_SHADER, std::string("building a kernel: ") + (names_set ? "set " : "binding ") +
+                                             std::to_string(instruction[3]) +
+                                             " is not in its layout, which has the bindings " + known + " of set 0");
+        }
+        return true;
+    });
 }
 
 vk::raii::Pipeline create_pipeline(Device &device, const vk::raii::PipelineLayout &layout,
@@ -59,6 +84,7 @@ ComputePipeline::ComputePipeline(Device &device, std::span<const std::uint32_t> 
     device_(&device),
     bindings_(bindings.begin(), bindings.end()) {
     device.require_alive();
+    require_bindings(spirv, bindings);
     translated("building a kernel", [&] {
         set_layout_ = {device, create_set_layout(device, bindings)};
         const vk::DescriptorSetLayout set_layout = *set_layout_;

@@ -122,6 +122,13 @@ def place_in_coursework(text):
 
 class SceneErrors(CommandLineTest):
     def test_scene_files(self):
+        # Of a megabyte the ends are told.
+        for text, error in (('{"film": {"width": ' + "1" * 1000000 + "}}", "1 is too large"),
+                            ('{"' + "ü" * 500000 + '": 1}', 'unknown key "ü'),
+                            ('{"film": ' + "x" * 1000000, "s.json:1:10: syntax error")):
+            self.write("s.json", text)
+            self.expect(3, "render", "s.json", "-o", "a.png", error=error)
+            self.assertLess(len(self.errors), 2100)
         for text, error in (("", "s.json:1:1: syntax error"), ("{", "s.json:1:2: syntax error"),
                             ('{"film":\n{"width": NaN}}', "s.json:2:11: syntax error"),
                             ('{"speres": []}', 'did you mean "spheres"?'),

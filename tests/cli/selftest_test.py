@@ -1,8 +1,10 @@
 """Tests of `pt selftest` as its users meet it. Arguments: see command_line.py."""
 
 import json
+import os
+import shutil
 
-from command_line import PT, RESULT, CommandLineTest, main
+from command_line import PT, RESULT, SCENES, CommandLineTest, main
 
 
 class Selftest(CommandLineTest):
@@ -61,6 +63,33 @@ class RealDevice(CommandLineTest):
             self.assertIn("\npass  " + check["name"], self.output)
         self.assertEqual({check["group"] for check in report["checks"]}, {"function", "scene", "invariance"})
         self.assertIn(f"\npassed: all {len(report['checks'])} checks\n", self.output)
+
+    def failed_directions(self, *faults):
+        """Names of the checks of directions that fail with edited shaders."""
+        shutil.rmtree(self.path("shaders"), ignore_errors=True)
+        shutil.copytree(os.path.join(SCENES, "..", "..", "shaders"), self.path("shaders"))
+        for name, old, new in faults:
+            text = self.read(f"shaders/{name}")
+            self.assertEqual(text.count(old), 1, old)
+            self.write(f"shaders/{name}", text.replace(old, new))
+        code = self.run_pt("selftest", "--directions", "--shader-dir", "shaders", "--json", "s.json")
+        self.assertEqual(code, 1 if faults else 0, self.errors)
+        checks = json.loads(self.read("s.json"))["checks"]
+        self.assertEqual(len(checks), 18)
+        return sorted(check["name"] for check in checks if not check["passed"])
+
+    def test_directions(self):
+        kinds = "Phong lobe, n = 20", "hemisphere, by cosine", "hemisphere, uniform"
+        self.assertEqual(self.failed_directions(), [])
+        # Densities that are a little others, and an azimuth that leaves out a twentieth of the circle.
+        self.assertEqual(self.failed_directions(
+            ("sampling.glsl", "return SphericalAngles(1.0", "u.x = 0.98 * u.x + 0.01;\n    return SphericalAngles(1.0"),
+            ("sampling.glsl", "vec2(sqrt(1.0 - u), sqrt(u))", "vec2(sqrt(1.0 - 0.99 * u), sqrt(0.99 * u))"),
+            ("phong.glsl", "(n + 1.0)));", "(n + 2.0)));")),
+            [f"{kind}: {moment}" for kind in kinds for moment in ("cosine", "square")])
+        sides = self.failed_directions(("sampling.glsl", "sin_cos_turn(angles.azimuth,", "sin_cos_turn(0.95 * angles.azimuth,"))
+        for kind in kinds:
+            self.assertTrue(any(name.startswith(f"{kind}: side") for name in sides), sides)
 
     def test_an_unknown_device(self):
         self.expect(4, "selftest", "--device", "no such device")

@@ -1,6 +1,7 @@
 """Tests of `pt render --shader-dir`, with and without --watch. Arguments: see command_line.py."""
 
 import glob
+import json
 import os
 import shutil
 import subprocess
@@ -89,6 +90,32 @@ class ShaderDir(WatchTest):
         self.expect_picture(0.5)
         self.assertEqual(pt.end(), 0)
 
+    def test_lost_samples_are_waited_out(self):
+        pt = self.watch("--shader-dir", "shaders")
+        pt.line_with("watching")
+        kernel = self.read("shaders/pathtrace.comp")
+        for text in kernel.replace("void main()\n{\n", "void main()\n{\n    return;\n"), kernel.replace("local_size_x", "local_size_y"):
+            self.assertNotEqual(text, kernel)
+            self.save("shaders/pathtrace.comp", text)
+            pt.line_with("an endless loop or another local_size in the shaders in shaders does this")
+            pt.line_with("the likely cause: shaders/pathtrace.comp, edited since the last picture")
+            self.save("shaders/pathtrace.comp", kernel)
+            pt.line_with("wrote a.png")
+            self.expect_picture(0.25)
+        self.assertEqual(pt.end(), 0)
+
+    def test_a_binding_outside_the_layout_is_refused(self):
+        self.write("shaders/phong.glsl", "\ufeff" + self.read("shaders/phong.glsl"))  # a byte order mark goes unnoticed
+        self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders")
+        kernel = self.edited("pathtrace.comp", "layout(local_size_x", "layout(set = 0, binding = 9) buffer Mine "
+                             "{ vec4 mine[]; };\nlayout(local_size_x").replace("* held.film_scale", "* (held.film_scale + mine[0].x)")
+        self.write("shaders/pathtrace.comp", kernel)
+        self.expect(3, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders",
+                    error="building a kernel: binding 9 is not in its layout, which has the bindings 0, 1, 2, 3, 4, 5, 6, 7 "
+                          "of set 0")
+        self.write("shaders/pathtrace.comp", kernel.replace("set = 0, binding = 9", "set = 1, binding = 0"))
+        self.expect(3, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders", error="set 1 is not in its layout")
+
     def test_without_watching(self):
         self.write("shaders/pathtrace.comp", self.brighter("2.0"))
         self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders")
@@ -96,6 +123,37 @@ class ShaderDir(WatchTest):
         self.expect(0, "render", "s.json", "-o", "a.png")
         self.expect_picture(0.25)
         self.expect(3, "render", "s.json", "-o", "a.png", "--shader-dir", "none", error="none/pathtrace.comp")
+
+
+class MaterialsPage(CommandLineTest):
+    """The worked example of shaders/MATERIALS.md, as it stands there."""
+
+    program = PT
+
+    def values(self, *arguments):
+        self.expect(0, "render", "s.json", "-o", "a.png", "--shader-dir", "shaders", *arguments)
+        return read_png(self.path("a.png"))[2]
+
+    def test_minnaert(self):
+        page = self.read(os.path.join(SHADERS, "MATERIALS.md"))
+        self.write("minnaert.diff", page.split("```diff\n")[1].split("```")[0])
+        shutil.copytree(SHADERS, self.path("shaders"))
+        subprocess.run(["patch", "-p2", "-d", "shaders", "-i", "../minnaert.diff"], cwd=self.folder, check=True,
+                       stdout=subprocess.DEVNULL)
+        for position, radiance in ([0, 1, 0], 0.5), ([0, 1, 3**0.5], 0.25):
+            self.write("s.json", json.dumps(
+                {"camera": {"projection": "orthographic", "position": position, "look_at": [0, 0, 0], "up": [1, 0, 0],
+                            "vertical_extent": 1},
+                 "film": {"width": 3, "height": 2, "exposure": 0}, "render": {"max_path_length": 2},
+                 "materials": {"floor": {"diffuse": 0.5}, "sky": {"emission": 1}},
+                 "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
+                 "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"}]}))
+            self.assertEqual(self.values("--spp", "1"), [[SRGB[radiance]] * 9] * 2)
+            # By other directions within 4 standard errors: of a sample's 0.9 of the value, and .8 of a step of 8 bits for
+            # each of the percents that are left of it.
+            for row in self.values("--spp", "65536", "--estimator", "uniform"):
+                for value in row:
+                    self.assertLessEqual(abs(value - SRGB[radiance]), 2)
 
 
 class Module(CommandLineTest):
@@ -117,12 +175,13 @@ class Module(CommandLineTest):
         for path in glob.glob(os.path.join(LIBRARIES, "libpt.so*")):
             shutil.copy(path, self.path("lib"))
         environment = {"LD_LIBRARY_PATH": self.path("lib")}
-        self.expect(4, *arguments, error="shader_dir: the compiler's module cannot be loaded: "
+        self.expect(6, *arguments, error=f"--shader-dir = \"{SHADERS}\": the compiler's module cannot be loaded: "
                     + self.path("lib/pt/libpt-glsl.so"), **environment)
         self.expect(0, "render", "s.json", "-o", "a.png", **environment)
         os.makedirs(self.path("lib/pt"))
         shutil.copy(MODULE, self.path("lib/pt"))
         self.expect(0, *arguments, **environment)
+        self.expect(0, *arguments, LD_LIBRARY_PATH="lib")
 
 
 if __name__ == "__main__":

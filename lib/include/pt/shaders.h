@@ -5,8 +5,9 @@
  * and again by pt_reload_shaders: pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp,
  * accuracy.comp, first_hit.comp, coverage.comp and what they include, beside the including file or in this folder. A
  * relative path is relative to the working directory at that time. gpu_layout.h is an agreement with the library's host
- * code: what it says of memory must stay. The compiler is a module beside the library (or the program that the static
- * library is in), pt/libpt-glsl.so, or where the system finds libraries; PT_ERROR_UNSUPPORTED without it.
+ * code: what it says of memory must stay, and a binding that a kernel's layout lacks is refused (PT_ERROR_SHADER). The
+ * compiler is a module beside the library (or the program that the static library is in), pt/libpt-glsl.so, or where
+ * the system finds libraries; PT_ERROR_UNSUPPORTED without it.
  */
 #ifndef PT_SHADERS_H
 #define PT_SHADERS_H

@@ -58,6 +58,8 @@ enum Opcode : std::uint32_t {
 };
 
 inline constexpr std::uint32_t decoration_spec_id = 1;
+inline constexpr std::uint32_t decoration_binding = 33;
+inline constexpr std::uint32_t decoration_descriptor_set = 34;
 inline constexpr std::size_t header_words = 5;
 inline constexpr std::size_t bound_word = 3;
 
