@@ -5,7 +5,6 @@ import unittest
 import numpy as np
 import pt
 from pictures import CAMERA, HEIGHT, SCENE, WIDTH, cloud, ready, settings
-from pt import _render
 
 POSITIONS, COLORS = cloud(80)
 SMALL = {"size": (WIDTH, HEIGHT), "samples": 16}
@@ -22,12 +21,10 @@ class Render(unittest.TestCase):
         cls.context.close()
 
     def test_it_is_what_the_calls_of_the_library_give(self):
-        spheres = pt.SphereArray(POSITIONS, 0.1, pt.Material(diffuse=0.8), color=COLORS)
-        camera = pt.Camera.around(POSITIONS, 0.1, aspect=WIDTH / HEIGHT)
         with pt.Context() as context:
-            context.set_render(settings())
-            context.set_camera(camera)
-            context.set_scene(pt.Scene(_render.surroundings(spheres, camera), [], [spheres]))
+            context.set_render(settings(max_path_length=4))
+            context.set_camera(self.image.camera)
+            context.set_scene(self.image.scene)
             for _ in range(2):
                 context.accumulate(8)
             for quantity, found in ((pt.Quantity.RADIANCE, self.image.radiance),
@@ -40,21 +37,9 @@ class Render(unittest.TestCase):
     def test_a_context_of_its_own_gives_the_same(self):
         np.testing.assert_array_equal(pt.render(POSITIONS, 0.1, COLORS, **SMALL), self.image)
 
-    def test_all_is_lit_and_the_lamp_is_out_of_the_picture(self):
-        """No pixel is brighter than the sky or a white surface under all the light there is, and none is black."""
-        self.assertGreater(self.image.radiance.min(), 0)
-        self.assertLessEqual(self.image.radiance.max(), 1.0)
-        self.assertEqual(self.image.exposure, 0.0)
-        self.assertAlmostEqual(float(self.image[0, 0, 0]), _render.SKY_RADIANCE, places=6)
-        lamp, sky = _render.surroundings(pt.SphereArray(POSITIONS, 0.1, 0), CAMERA)
-        right, above, back = CAMERA.axes()
-        self.assertGreater(np.subtract(lamp.center, CAMERA.position) @ back, lamp.radius)
-        self.assertLess(np.linalg.norm(np.subtract(lamp.center, sky.center)) + lamp.radius, sky.radius)
-        self.assertAlmostEqual(right @ above, 0.0)
-
     def test_options(self):
         floor = pt.render(POSITIONS, 0.1, COLORS, context=self.context, floor=True, **SMALL)
-        self.assertLess(floor[-1, WIDTH // 2].max(), self.image[-1, WIDTH // 2].max())
+        self.assertGreater(floor[-1, WIDTH // 2].min(), self.image[-1, WIDTH // 2].max())
         other_seed = pt.render(POSITIONS, 0.1, COLORS, context=self.context, seed=1, **SMALL)
         self.assertFalse(np.array_equal(other_seed, self.image))
         self.assertLess(np.abs(other_seed.radiance - self.image.radiance).mean(), 0.05)

@@ -24,7 +24,8 @@ particles["color"] = np.where(particles["position"][:, :1] > 0, (230, 110, 40), 
 
 # %% One call. A notebook shows the image that a cell ends with; the library reads the particles where they are.
 
-image = pt.render(particles["position"], particles["radius"], particles["color"], size=SIZE, samples=32, floor=True)
+image = pt.render(particles["position"], particles["radius"], particles["color"], size=SIZE, samples=32, up="y",
+                  floor=True)
 image.save("particles.png")
 print(image)
 
@@ -43,10 +44,10 @@ scene = pt.Scene(
 camera = pt.Camera.around(spheres.center, spheres.radius, direction=(-0.4, 0.3, 1), aspect=SIZE[0] / SIZE[1])
 
 context = pt.Context()
-image = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, target_error=0.05,
-                       progress=lambda share: print(f"\r{share:4.0%}", end="", file=sys.stderr))
-image.save("lamp.png")
-print(f"\n{image}")
+lit = context.render(scene, camera, pt.RenderSettings(*SIZE), samples=256, target_error=0.05,
+                     progress=lambda share: print(f"\r{share:4.0%}", end="", file=sys.stderr))
+lit.save("lamp.png")
+print(f"\n{lit}")
 
 # %% Half of the samples here and half elsewhere, as processes or machines have them: films add up, bit by bit.
 

@@ -28,14 +28,15 @@ from pt._library import library, version_text
 from pt._render import render
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, Stats, devices
+from pt.figure import Figure, figure
 
 __all__ = [
-    "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature",
+    "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
     "Film", "FilmInfo", "FilmTile", "Format", "Image", "IncompatibleError", "InternalError", "InvalidArgumentError",
     "InvalidSceneError", "InvalidStateError", "Log", "LogLevel", "Material", "NO_OBJECT", "NoDeviceError",
     "OutOfDeviceMemoryError", "OutOfHostMemoryError", "Plane", "Progress", "Projection", "Quantity", "RenderSettings",
     "Result", "Sampler", "Sampling", "Scene", "ShaderError", "Sphere", "SphereArray", "Stats", "Uncertain", "UnsupportedError",
-    "devices", "render", "version",
+    "devices", "figure", "render", "version",
 ]
 
 __version__: str  # that of the library

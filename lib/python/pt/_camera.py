@@ -11,6 +11,7 @@ import numpy.typing as npt
 from pt import _structs as structs
 from pt._columns import check_finite, real_column
 from pt._enums import Estimator, Projection, Sampler
+from pt._fit import SIDES, Extents, apex, pyramid, reach
 from pt._vectors import Vector, vector
 
 
@@ -57,26 +58,19 @@ class Camera:
         aspect      width / height of the image
         margin      how much wider than the spheres the view is
         """
-        centers = real_column("center", center, 3, None).astype(np.float64)
-        radii = real_column("radius", radius, 1, len(centers)).astype(np.float64)
+        centers = real_column("center", center, 3, None)
         if not len(centers):
             raise ValueError("center has no spheres: there must be one to be seen")
         check_finite("center", center)
         check_finite("radius", radius, positive=True)
-        middle = 0.5 * ((centers - radii[:, None]).min(axis=0) + (centers + radii[:, None]).max(axis=0))
         right, above, back = _axes(direction, up)
-        # A sphere is in view if it is on the inner side of the four planes through the pinhole that bound the view.
-        # With the pinhole at middle + t back and a plane's inner unit normal n, that is dot(n, center - middle) - t
-        # dot(n, back) >= radius, where dot(n, back) < 0: a lower bound of t for each plane and sphere, and the largest
-        # of them is the answer.
-        half_height = math.tan(0.5 * vertical_fov) / margin
-        distance = 0.0
-        for axis, half_extent in ((right, aspect * half_height), (above, half_height)):
-            for side in (-1.0, 1.0):
-                normal = (side * axis - half_extent * back) / math.hypot(1.0, half_extent)
-                needed = (radii - (centers - middle) @ normal) / -(normal @ back)
-                distance = max(distance, float(needed.max()))
-        return Camera(position=middle + distance * back, target=middle, up=up, vertical_fov=vertical_fov)
+        axes = np.array([right, above, -back])
+        tangent = math.tan(0.5 * vertical_fov) / margin
+        normals = pyramid((aspect * tangent, tangent))
+        reaches = reach(centers, real_column("radius", radius, 1, len(centers)), axes, np.vstack([SIDES, normals]))
+        position = apex(reaches[6:], axes, normals)
+        distance = Extents.of(reaches[:6]).middle[2] + float(back @ position)
+        return Camera(position=position, target=position - distance * back, up=up, vertical_fov=vertical_fov)
 
     def axes(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Unit vectors to the right and up in the image, and from the target to the camera."""

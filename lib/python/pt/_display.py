@@ -29,18 +29,36 @@ def automatic_exposure(radiance: npt.NDArray[Any]) -> float:
 
 def to_srgb8(radiance: npt.NDArray[Any], exposure: float) -> npt.NDArray[np.uint8]:
     """255 times the sRGB signal of the radiance times 2^exposure, clamped to [0, 1]; halves are rounded up."""
-    light = np.clip(radiance.astype(np.float64) * 2.0**exposure, 0.0, 1.0)
-    signal = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
-    pixels: npt.NDArray[np.uint8] = np.floor(255 * signal + 0.5).astype(np.uint8)
+    pixels: npt.NDArray[np.uint8] = quantised(signal(radiance.astype(np.float64) * 2.0**exposure), np.uint8)
     return pixels
 
 
-def encode_png(pixels: npt.NDArray[np.uint8]) -> bytes:
-    """A PNG of sRGB bytes, shape (height, width, 3); W3C, "Portable Network Graphics (PNG) Specification", 2003."""
-    height, width, _ = pixels.shape
+def signal(light: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """That of sRGB, clamped to [0, 1]."""
+    light = np.clip(light, 0.0, 1.0)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light**(1 / 2.4) - 0.055)
+
+
+def linear(signal: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """The inverse."""
+    return np.where(signal <= 0.04045, signal / 12.92, ((signal + 0.055) / 1.055)**2.4)
+
+
+def quantised(signal: npt.NDArray[np.float64], dtype: Any) -> npt.NDArray[Any]:
+    """As whole numbers up to the largest of the type."""
+    numbers: npt.NDArray[Any] = np.floor(np.iinfo(dtype).max * signal + 0.5).astype(dtype)
+    return numbers
+
+
+def encode_png(pixels: npt.NDArray[Any]) -> bytes:
+    """A PNG of sRGB, shape (height, width, 3), or 4 with alpha, of uint8 or uint16; W3C, "Portable Network Graphics (PNG)
+    Specification", 2003."""
+    height, width, channels = pixels.shape
+    big_endian = np.ascontiguousarray(pixels, pixels.dtype.newbyteorder(">"))
     unfiltered = np.zeros((height, 1), np.uint8)  # before each row the number of its filter: none
-    rows = np.hstack([unfiltered, pixels.reshape(height, 3 * width)])
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)  # 8 bits, RGB, zlib, no interlacing
+    rows = np.hstack([unfiltered, big_endian.view(np.uint8).reshape(height, -1)])
+    kind = {3: 2, 4: 6}[channels]  # RGB or RGBA; zlib, no interlacing
+    header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, kind, 0, 0, 0)
     return (b"\x89PNG\r\n\x1a\n" + _chunk(b"IHDR", header) + _chunk(b"sRGB", b"\0") +
             _chunk(b"IDAT", zlib.compress(rows.tobytes())) + _chunk(b"IEND", b""))
 

@@ -1,0 +1,123 @@
+"""How far balls reach in a view, and the nearest camera that has all of each in its picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+Doubles = npt.NDArray[np.float64]
+
+ROWS_AT_ONCE: Final = 1 << 15  # their numbers stay in a core's cache
+
+
+def chunks(count: int) -> Iterator[slice]:
+    return (slice(start, start + ROWS_AT_ONCE) for start in range(0, count, ROWS_AT_ONCE))
+
+
+@dataclass(frozen=True)
+class Spin:
+    """All turns about an axis: the circles that points describe.
+
+    axis      unit vector
+    through   a point of the axis
+    """
+
+    axis: Doubles
+    through: Doubles
+
+
+def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
+    """How far balls reach in each direction: the maximum of dot(direction, center) + radius, their support function.
+
+    centers      shape (n, 3), n >= 1
+    radii        shape (n,)
+    axes         shape (3, 3): unit vectors in rows
+    directions   shape (k, 3): unit vectors in the coordinates of the axes
+    spin         of the bodies that the balls sweep when they turn
+    """
+    farthest = np.full(len(directions), -np.inf)
+    world = directions @ axes
+    for rows in chunks(len(centers)):
+        places = centers[rows].T.astype(np.float64, order="C")
+        if spin is not None:
+            places -= spin.through[:, None]
+            height = _dot(spin.axis, places)
+            across = np.sqrt(np.maximum(np.square(places).sum(axis=0) - np.square(height), 0.0))
+            along = world @ spin.axis
+            level = np.sqrt(np.maximum(1.0 - np.square(along), 0.0))
+            offsets = world @ spin.through
+            values = (level[k] * across + along[k] * height + offsets[k] for k in range(len(directions)))
+        else:
+            seen = [_dot(axis, places) for axis in axes]
+            values = (_dot(direction, seen) for direction in directions)
+        for k, value in enumerate(values):
+            value += radii[rows]
+            farthest[k] = max(farthest[k], float(value.max()))
+    return farthest
+
+
+def _dot(direction: Doubles, places: Any) -> Doubles:
+    """Zeros cost nothing, and the sum has the order of its components, so that it rounds alike everywhere."""
+    terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
+    total: Doubles = terms[0]
+    for term in terms[1:]:
+        total += term
+    return total
+
+
+SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the opposite
+
+
+@dataclass(frozen=True)
+class Extents:
+    """Of balls along right, up and forward of a view: lowest and highest numbers."""
+
+    low: Doubles
+    high: Doubles
+
+    @staticmethod
+    def of(reaches: Doubles) -> Extents:
+        """reaches: in the directions of SIDES."""
+        return Extents(-reaches[3:], reaches[:3])
+
+    @property
+    def size(self) -> Doubles:
+        return self.high - self.low
+
+    @property
+    def middle(self) -> Doubles:
+        return 0.5 * self.low + 0.5 * self.high
+
+
+def pyramid(tangents: tuple[float, float]) -> Doubles:
+    """The outward unit normals of the four planes that bound a perspective, in the axes of its view: left, right,
+    bottom, top. tangents: of the half angles across and upwards."""
+    across, upwards = (1.0 / math.hypot(1.0, tangent) for tangent in tangents)
+    sines = tangents[0] * across, tangents[1] * upwards
+    return np.array([(-across, 0.0, -sines[0]), (across, 0.0, -sines[0]),
+                     (0.0, -upwards, -sines[1]), (0.0, upwards, -sines[1])])
+
+
+def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
+    """The pinhole, as near as balls allow that reach so far along the normals of the pyramid.
+
+    A ball is seen as a whole if it is on the inner side of the four planes through the pinhole p and the sides of the
+    picture: dot(n, p) >= dot(n, c) + r for the outward unit normal n of each. Over all balls that is dot(n, p) >= s,
+    with s what they reach along n. With half of the horizontal angle a the left and the right normal are
+    -cos(a) right - sin(a) forward and cos(a) right - sin(a) forward. Their sum bounds how far forward p may be,
+    dot(forward, p) <= -(s_left + s_right) / (2 sin a), and so does the other pair; the smaller bound is met. Of the
+    freedom that is left sideways p is put into the middle: dot(right, p) = (s_right - s_left) / (2 cos a).
+    """
+    right, above, forward = axes
+    low, high = -reaches[0::2], -reaches[1::2]
+    cosines, sines = (normals[1, 0], normals[3, 1]), -normals[1::2, 2]
+    along = float(((low + high) / (2.0 * sines)).min())
+    sideways = [(low[k] - high[k]) / (2.0 * cosines[k]) for k in range(2)]
+    place: Doubles = sideways[0] * right + sideways[1] * above + along * forward
+    return place

@@ -1,0 +1,300 @@
+"""Colours of particles: one for all, given for each, of categories, or of numbers by a map."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._fit import Array, chunks
+from pt.figure import _elements as elements
+from pt.figure._errors import module
+from pt.figure._particles import Particles
+from pt.figure._radii import categories, column
+
+Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
+Bytes: TypeAlias = npt.NDArray[np.uint8]
+RGB: TypeAlias = tuple[int, ...]
+
+PLAIN: Final = "#96aabe"  # a light bluish grey
+# Okabe and Ito 2008, "Color Universal Design", which the colour-blind can tell apart: blue, orange, bluish green,
+# vermilion, sky blue, reddish purple, yellow. The order is our own: the first two differ most in lightness too.
+PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
+                  (240, 228, 66))
+SCALES: Final = ("linear", "log", "symmetric")
+MOST_CATEGORIES: Final = 1000
+SKEW: Final = 4.0  # all over 1% to 99% of the numbers; 1 of uniform numbers, 2 of a million normal, 3 of exponential
+
+
+@dataclass(frozen=True)
+class ColorBar:
+    """Numbers as colours.
+
+    table      shape (k, 3), sRGB: from low to high in even steps, of logarithms on a log scale
+    no_value   colour of what is no number, if there is any
+    """
+
+    title: str
+    table: Bytes
+    low: float
+    high: float
+    log: bool
+    no_value: RGB | None
+
+
+@dataclass(frozen=True)
+class Swatches:
+    """Categories as colours: names, and sRGB of shape (k, 3)."""
+
+    title: str
+    names: tuple[str, ...]
+    colors: Bytes
+
+
+Legend: TypeAlias = "ColorBar | Swatches | None"
+
+
+@dataclass(frozen=True)
+class Coloring:
+    """What colours say; the options of pt.figure of these names.
+
+    names   the categories of all frames, of a series
+    """
+
+    color: Color = None
+    colormap: Any = None
+    range: tuple[float, float] | None = None
+    scale: str = "linear"
+    categories: bool = False
+    nan_color: str = "#bfbfbf"
+    title: str | None = None
+    names: tuple[str, ...] | None = None
+
+
+def srgb(name: str, color: Any) -> RGB:
+    """From "#rrggbb", a name that matplotlib knows, or three numbers from 0 to 1."""
+    if isinstance(color, str) and len(color) == 7 and color[0] == "#":
+        try:
+            red, green, blue = bytes.fromhex(color[1:])
+            return red, green, blue
+        except ValueError:
+            pass
+    named = module("matplotlib.colors", f"{name} = {color!r}")  # which takes a third of a second
+    try:
+        red, green, blue = (math.floor(255 * float(each) + 0.5) for each in named.to_rgb(color))
+    except ValueError:
+        raise ValueError(f"{name} = {color!r}: must be a colour like #ff8000 or orange") from None
+    return red, green, blue
+
+
+def colors_of(particles: Particles, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+    """Shape (n, 3) or, of one colour for all, (3,)."""
+    if given.scale not in SCALES:
+        raise ValueError(f"scale = {given.scale!r}: must be {', '.join(SCALES)}")
+    color = given.color
+    count = len(particles.positions)
+    if isinstance(color, str) and "=" in color:
+        color = dict(each.split("=", 1) for each in color.split(","))
+    if color is None:
+        if particles.types is None and particles.elements is None:
+            each = particles.colors
+            return (np.array(srgb("color", PLAIN), np.uint8), None) if each is None else (_direct(each, notes), None)
+        color = {}
+    if isinstance(color, Mapping):
+        return _of_types(particles, given, color)
+    if isinstance(color, str):
+        return _named(particles, color, given, notes)
+    array = np.asarray(color)
+    if array.shape in ((3,), (4,)) and array.dtype.kind in "fiu" and count not in (3, 4):
+        return _direct(array, notes), None
+    if array.shape in ((count, 3), (count, 4)) and array.dtype.kind in "fiu":
+        return _direct(array, notes), None
+    if array.shape != (count,):
+        raise ValueError(f"color has shape {array.shape}: must be ({count},), numbers or words, or ({count}, 3), colours")
+    return _of_values(array, given.title or "", given, notes)
+
+
+def _named(particles: Particles, color: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+    """A column, its magnitude, three columns of red, green and blue, or a colour."""
+    title = given.title or color
+    if color in ("type", "element") and color not in particles.columns:
+        return _of_types(particles, given, {})
+    if color.startswith("|"):
+        parts = [column(particles, name) for name in _components(particles, color.strip("|"))]
+        return _of_values(np.sqrt(np.asarray(sum(np.square(part) for part in parts))), title, given, notes)
+    if color.count(",") == 2:
+        return _direct(np.stack([column(particles, name) for name in color.split(",")], axis=-1), notes), None
+    try:
+        values = column(particles, color)
+    except ValueError as unknown:
+        try:
+            return np.array(srgb("color", color), np.uint8), None
+        except ValueError:
+            raise ValueError(f"color = {color!r} is no colour, and {unknown}") from None
+    return _of_values(values, title, given, notes)
+
+
+def _components(particles: Particles, name: str) -> list[str]:
+    """Of a vector: "vx,vy,vz", or what "velocity" and "v" stand for."""
+    ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
+    found = [way for way in ways if all(each in particles.columns for each in way)]
+    return found[0] if found else name.split(",")
+
+
+def _direct(colors: Any, notes: list[str]) -> Bytes:
+    """sRGB from 0 to 1 of floats, from 0 to the largest of integers."""
+    array = np.asarray(colors)
+    if array.dtype.kind not in "fu" and not (array.dtype.kind == "i" and array.size and 0 <= array.min() and
+                                             array.max() <= 255):
+        raise TypeError(f"colors.dtype = {array.dtype}: must be floats from 0 to 1, uint8 or uint16, sRGB")
+    if array.shape[-1] == 4:
+        opaque = 1.0 if array.dtype.kind == "f" else np.iinfo(array.dtype).max
+        if (array[..., 3] < opaque).any():
+            notes.append("alpha is not drawn: balls are opaque")
+        array = array[..., :3]
+    if array.dtype.kind == "f":
+        result = np.empty(array.shape, np.uint8)
+        flat, out = array.reshape(-1, 3), result.reshape(-1, 3)
+        least, largest = 0.0, 1.0
+        for rows in chunks(len(flat)):
+            least, largest = min(least, float(flat[rows].min())), max(largest, float(flat[rows].max()))
+            out[rows] = np.floor(255.0 * np.clip(np.nan_to_num(flat[rows]), 0.0, 1.0) + 0.5)
+        if least < -1e-3 or largest > 1.001:
+            notes.append(f"colours from {least:.3g} to {largest:.3g} are clipped to 0 to 1")
+        return result
+    return array if array.dtype == np.uint8 else (array >> 8).astype(np.uint8) if array.dtype == np.uint16 else (
+        array.astype(np.uint8))
+
+
+def _of_values(values: Array, title: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+    if given.categories or values.dtype.kind in "USOb":
+        names, codes = categories(values)
+        numbers = values.dtype.kind in "iu"
+        return _of_categories(title, names, codes, given, {}, numbers)
+    if values.dtype.kind not in "fiu":
+        raise TypeError(f"color has {values.dtype}: must be numbers or words")
+    return _of_numbers(values, title, given, notes)
+
+
+def _of_types(particles: Particles, given: Coloring, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
+    """Elements have their colours, other types those of the palette."""
+    numbers = particles.elements
+    if numbers is None:
+        labels = column(particles, "type")
+        names, codes = categories(labels)
+        return _of_categories(given.title or "type", names, codes, given, _own(own), labels.dtype.kind in "iuf")
+    there = np.flatnonzero(np.bincount(numbers))
+    names = [elements.SYMBOLS[number] for number in there]
+    places = np.zeros(256, np.intp)
+    places[there] = np.arange(len(there))
+    known: dict[str, RGB] = {name: tuple(color.tolist()) for name, color in zip(names, elements.COLORS[there], strict=True)}
+    return _of_categories(given.title or "element", names, places[numbers], given, {**known, **_own(own)}, False)
+
+
+def _own(colors: Mapping[str, str]) -> dict[str, RGB]:
+    return {str(name): srgb(f"color of {name}", color) for name, color in colors.items()}
+
+
+def _of_categories(title: str, names: list[str], codes: Array, given: Coloring,
+                   own: Mapping[str, RGB], numbered: bool) -> tuple[Bytes, Legend]:
+    """numbered: names are numbers, mostly from 1: then the number says the colour, so that files agree."""
+    missing = [name for name in own if name not in names] if given.names is None else []
+    if missing:
+        raise ValueError(f"color: {missing[0]!r} is none of the types, {', '.join(names[:20])}")
+    if len(names) > MOST_CATEGORIES:
+        raise ValueError(f"color: {len(names)} categories; there can be {MOST_CATEGORIES}")
+    order = list(given.names or names)
+    places = [order.index(name) for name in names]
+    if numbered and given.names is None and all(name.isdigit() and 1 <= int(name) <= 64 for name in names):
+        places = [int(name) - 1 for name in names]
+    palette = distinct_colors(max(places, default=0) + 1)
+    table = np.array([own.get(name, palette[place]) for name, place in zip(names, places, strict=True)], np.uint8)
+    return table.reshape(-1, 3)[codes], Swatches(title, tuple(names), table)
+
+
+def distinct_colors(count: int) -> list[RGB]:
+    """As many as are wanted, no two alike: the palette, then hues by the golden ratio in rings of lightness."""
+    import colorsys
+    colors: list[RGB] = list(PALETTE)
+    k = 0
+    while len(colors) < count:
+        ring = ((0.5, 0.55), (0.75, 0.45), (0.35, 0.7))[k % 3]
+        red, green, blue = (round(255 * each) for each in colorsys.hls_to_rgb((0.12 + 0.618034 * k) % 1.0, *ring))
+        if (red, green, blue) not in colors:
+            colors.append((red, green, blue))
+        k += 1
+    return colors[:count]
+
+
+def color_table(colormap: Any) -> Bytes:
+    """The colours of a map of matplotlib's, by its name or as an object: shape (k, 3)."""
+    if isinstance(colormap, str):
+        colormaps = module("matplotlib", "a colour map").colormaps
+        if colormap not in colormaps:
+            near = difflib.get_close_matches(colormap, list(colormaps), 3)
+            raise ValueError(f"colormap = {colormap!r}: must be one of matplotlib's, like "
+                             f"{', '.join(near or ['viridis', 'magma', 'cividis', 'coolwarm', 'viridis_r'])}")
+        colormap = colormaps[colormap]
+    table: Bytes = colormap(np.arange(colormap.N), bytes=True)[:, :3]
+    return table
+
+
+def _of_numbers(values: Array, title: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+    table = color_table(given.colormap or ("coolwarm" if given.scale == "symmetric" else "viridis"))
+    log = given.scale == "log"
+    low, high = given.range or _range(values, given, title, notes)
+    if not (math.isfinite(low) and math.isfinite(high) and low <= high and (not log or low > 0.0)):
+        raise ValueError(f"color range = {low:g}, {high:g}: must be two numbers, the second larger"
+                         f"{', and above 0 on a log scale' if log else ''}")
+    no_value = np.array(srgb("nan_color", given.nan_color), np.uint8)
+    colors = np.empty((len(values), 3), np.uint8)
+    nowhere = 0
+    start, length = (math.log(low), math.log(high / low)) if log else (low, high - low)
+    for rows in chunks(len(values)):
+        numbers = values[rows].astype(np.float64)
+        if log:
+            with np.errstate(divide="ignore", invalid="ignore"):
+                numbers = np.where(numbers > 0.0, np.log(numbers), np.nan)
+        valid = ~np.isnan(numbers)
+        shares = (numbers - start) / length if length > 0.0 else np.full(len(numbers), 0.5)
+        shares[~valid] = 0.0
+        # As matplotlib does: the last colour is that of 1 too.
+        colors[rows] = table[np.clip(shares * len(table), 0, len(table) - 1).astype(np.intp)]
+        if not valid.all():
+            colors[rows][~valid] = no_value
+            nowhere += int((~valid).sum())
+    if nowhere:
+        notes.append(f"{nowhere} particles have no {title or 'value'}{' above 0' if log else ''}: they are "
+                     f"{given.nan_color}")
+    return colors, ColorBar(title, table, low, high, log, tuple(no_value.tolist()) if nowhere else None)
+
+
+def _range(values: Array, given: Coloring, title: str, notes: list[str]) -> tuple[float, float]:
+    """Of all finite numbers; of 1% to 99% of them where few are far from all others."""
+    least, largest = math.inf, -math.inf
+    floor = 0.0 if given.scale == "log" else -math.inf
+    for rows in chunks(len(values)):
+        numbers = values[rows]
+        numbers = numbers[np.isfinite(numbers) & (numbers > floor)]
+        least = min(least, float(numbers.min(initial=math.inf)))
+        largest = max(largest, float(numbers.max(initial=-math.inf)))
+    if least > largest:
+        return (1.0, 1.0) if given.scale == "log" else (0.0, 0.0)
+    sample = values[::max(len(values) // 200_000, 1)]
+    sample = sample[np.isfinite(sample) & (sample > floor)]
+    words = "the least and the largest"
+    if given.scale != "log" and len(sample) >= 100:
+        first, last = (float(each) for each in np.quantile(sample, (0.01, 0.99)))
+        if last > first and largest - least > SKEW * (last - first):
+            words = f"1% to 99% of all, which go from {least:.6g} to {largest:.6g}"
+            least, largest = first, last
+    if given.scale == "symmetric":
+        largest = max(abs(least), abs(largest))
+        least, words = -largest, f"symmetric about 0; {words}"
+    notes.append(f"colours of {title or 'values'} go from {least:.6g} to {largest:.6g}, {words}")
+    return least, largest

@@ -1,0 +1,43 @@
+"""Puts a rendered figure before its background, and lines over it."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._fit import Doubles
+from pt.figure._overlay import Shares
+
+LINE_LIGHT: Final = 0.09  # a dark grey of 33% in sRGB
+OUTLINE_LIGHT: Final = 0.01  # nearly black
+
+
+def compose(radiance: npt.NDArray[np.float32], stage: Any, shares: Shares, exposure: float) -> tuple[Doubles, Doubles]:
+    """Linear light, multiplied by alpha, and alpha; shape (height, width, 3) and (height, width).
+
+    stage   radiance of the same scene without its particles: a number where all pixels are alike, else an image
+
+    What the particles and their shadows change is carried over to the background, as Debevec does where photographs are
+    the background (1998, "Rendering Synthetic Objects into Real Scenes", section 5): over white, with the particles'
+    share a of a pixel, it is T(radiance) + (1 - a) (1 - T(stage)), T being exposure. So a floor is white where nothing
+    darkens it, and its shadows fade with the distance in which the lamp does, without a horizon. Alpha is the least
+    that gives this light over white: the particles' share at least, and of a shadow how much it darkens.
+    """
+    behind = np.clip(stage * 2.0**exposure, 0.0, 1.0)
+    share = shares.particles[:, :, None]
+    light = np.clip(radiance * 2.0**exposure, 0.0, 1.0) + (1.0 - share) * (1.0 - behind)
+    light = np.clip(light, 0.0, 1.0)
+    alpha = np.maximum(shares.particles, 1.0 - light.min(axis=2))
+    light = np.maximum(light - (1.0 - alpha[:, :, None]), 0.0)
+    for grey, covered in ((OUTLINE_LIGHT, shares.outlines), (LINE_LIGHT, shares.lines)):
+        light += covered[:, :, None] * (grey - light)
+        alpha += covered * (1.0 - alpha)
+    return light, alpha
+
+
+def lay_over(light: Doubles, alpha: Doubles, background: Doubles) -> Doubles:
+    """background: linear light, shape (3,)."""
+    result: Doubles = light + (1.0 - alpha[:, :, None]) * background
+    return result

@@ -1,0 +1,398 @@
+"""A picture of particles in one call."""
+
+from __future__ import annotations
+
+import math
+import os
+import pathlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._callbacks import Progress
+from pt._camera import Camera, RenderSettings
+from pt._context import Context
+from pt._display import automatic_exposure, encode_png, linear, quantised, signal
+from pt._files import Path, write_atomically
+from pt._fit import Array, Doubles, chunks
+from pt._image import Image
+from pt._scene import Material, Scene, SphereArray
+from pt.figure._accept import Columns, load
+from pt.figure._colors import Color, Coloring, Legend, colors_of, srgb
+from pt.figure._compose import compose, lay_over
+from pt.figure._files import encode_exr, encode_jpeg, write_scene
+from pt.figure._layout import Balls, Layout, View
+from pt.figure._legend import raster, save
+from pt.figure._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
+from pt.figure._particles import Cell, Particles
+from pt.figure._radii import Radius, radii_of
+from pt.figure._stage import PATH_LENGTH, SURROUND_BRIGHTNESS
+from pt.figure._view import Direction
+from pt.figure._where import holds
+
+SAMPLES: Final = 128
+MOST_SAMPLES: Final = 65536  # for a target error
+LEAST_LENGTH: Final = 1e-18  # which the library takes
+LEAST_WIDTH: Final = 16  # pixels beside a colour bar
+PICTURES: Final = (".png", ".jpg", ".jpeg", ".exr", ".npy")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """How particles are shown: the options of figure() of these names."""
+
+    color: Color = None
+    radius: Radius = None
+    colormap: Any = None
+    range: tuple[float, float] | None = None
+    scale: str = "linear"
+    categories: bool = False
+    nan_color: str = "#bfbfbf"
+    title: str | None = None
+    where: str | Sequence[str] = ()
+    wrap: bool = False
+    view: Direction = "three-quarter"
+    up: Direction = "z"
+    projection: str = "perspective"
+    camera: Camera | None = None
+    size: tuple[int, int] | None = None
+    style: str = "matte"
+    material: Material | None = None
+    floor: bool = False
+    outlines: bool = False
+    box: bool = True
+    background: Any = "white"
+    colorbar: bool = False
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Particles as balls, in scene units: those of the data times a power of two where these are far from 1.
+
+    colors   shape (n, 3), or (3,) of all
+    scale    scene units in a unit of the data
+    """
+
+    centers: Array
+    radii: Array
+    colors: npt.NDArray[np.uint8]
+    legend: Legend
+    cell: Cell | None
+    scale: float
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def balls(self) -> Balls:
+        corners = np.zeros((0, 3)) if self.cell is None else cell_corners(self.cell.origin, self.cell.vectors)
+        return Balls(self.centers, self.radii, corners)
+
+
+def prepare(particles: Particles, look: Look, names: tuple[str, ...] | None = None, scale: float | None = None) -> Drawn:
+    """Radii, ranges of colours and categories are those of all particles, also of those that are not shown."""
+    notes = list(particles.notes)
+    if not len(particles.positions):
+        raise ValueError(f"{particles.name} has no particles")
+    if look.wrap:
+        if particles.cell is None:
+            raise ValueError(f"wrap: {particles.name} has no cell")
+        particles = particles.wrapped()
+    radii = radii_of(particles, look.radius, notes)
+    coloring = Coloring(look.color, look.colormap, look.range, look.scale, look.categories, look.nan_color, look.title,
+                        names)
+    colors, legend = colors_of(particles, coloring, notes)
+    conditions = [look.where] if isinstance(look.where, str) else look.where
+    shown: Array | None = None
+    for condition in conditions:
+        shown = holds(particles, condition) if shown is None else shown & holds(particles, condition)
+    positions = particles.positions
+    if shown is not None:
+        if not shown.any():
+            raise ValueError(f"{particles.name} has no particles for which where = {', '.join(conditions)} holds")
+        positions = positions[shown]
+        radii = radii[shown] if len(radii) > 1 else radii
+        colors = colors[shown] if colors.ndim == 2 else colors
+    _check(particles.name, radii, shown)
+    cell = particles.cell if look.box else None
+    centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
+    return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
+                 scale, notes)
+
+
+def _check(name: str, radii: Array, shown: Array | None) -> None:
+    """Names the first that is no radius."""
+    for rows in chunks(len(radii)):
+        good: Array = np.isfinite(radii[rows]) & (radii[rows] > 0.0)
+        if not good.all():
+            row = rows.start + int(good.argmin())
+            particle = row if shown is None or len(radii) == 1 else int(np.flatnonzero(shown)[row])
+            raise ValueError(f"{name}: particle {particle + 1:,}: radius = {radii[row]}: must be > 0 and finite (where = "
+                             "'radius > 0' leaves out such particles)")
+
+
+def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | None
+              ) -> tuple[Array, Array, Cell | None, float]:
+    """In units in which the library's lengths go as far as the data do."""
+    if scale is None:
+        largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell.vectors).max()),
+                      *(float(np.abs(positions[rows]).max()) for rows in chunks(len(positions))))
+        scale = 1.0 if 2.0**-20 < largest < 2.0**40 else 2.0**-math.frexp(largest)[1]
+    if scale == 1.0:
+        return positions, np.maximum(radii, radii.dtype.type(LEAST_LENGTH)), cell, scale
+    if cell is not None:
+        cell = replace(cell, origin=cell.origin * scale, vectors=cell.vectors * scale)
+    return positions * np.float64(scale), np.maximum(radii * np.float64(scale), LEAST_LENGTH), cell, scale
+
+
+def view_of(drawn: Drawn, look: Look, turns: bool = False) -> View:
+    """turns: as of View.of."""
+    size = look.size
+    if size is not None and look.colorbar and drawn.legend is not None:
+        size = size[0] - strip_width(drawn.legend, size[1]), size[1]
+        if size[0] < LEAST_WIDTH:
+            raise ValueError(f"size = {look.size}: has no room for particles beside the colour bar")
+    if look.camera is not None:
+        return View.through(look.camera, look.up, size or (1024, 768), drawn.scale)
+    return View.of(drawn.balls, look.view, look.up, look.projection, size, turns)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Effort:
+    """How a figure is rendered: the options of figure() of these names."""
+
+    samples: int | None = None
+    error: float | None = None
+    max_path_length: int = PATH_LENGTH
+    seed: int = 0
+    exposure: float | None = 0.0
+
+    def __post_init__(self) -> None:
+        if self.error is not None and not 0.0 < self.error < math.inf:
+            raise ValueError(f"error = {self.error}: must be > 0 and finite, or None to take all samples")
+        if self.samples is not None and not 0 < self.samples < 2**32:
+            raise ValueError(f"samples = {self.samples}: must be at least 1 and below 2^32")
+
+    @property
+    def most(self) -> int:
+        """Samples that a pixel gets at most."""
+        return self.samples or (SAMPLES if self.error is None else MOST_SAMPLES)
+
+
+@dataclass(frozen=True)
+class Staged:
+    """Everything about a figure but its samples."""
+
+    drawn: Drawn
+    layout: Layout
+    look: Look
+
+    @staticmethod
+    def of(particles: Particles, look: Look) -> Staged:
+        drawn = prepare(particles, look)
+        view = view_of(drawn, look)
+        return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), look.style, look.floor), look)
+
+    def scene(self) -> Scene:
+        stage, drawn = self.layout.stage, self.drawn
+        material = self.look.material or stage.material
+        colors: Array | None = drawn.colors
+        if drawn.colors.ndim == 1:  # of all: a part of the material
+            material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
+            colors = None
+        return Scene(stage.lamps, [stage.floor] if stage.floor else [],
+                     [SphereArray(drawn.centers, drawn.radii, material, color=colors)])
+
+    def save_scene(self, path: Path, effort: Effort) -> None:
+        write_scene(path, self.scene(), self.layout.camera, self.layout.size, effort.max_path_length, effort.most)
+
+    def save_legend(self, path: Path) -> None:
+        suffix = pathlib.Path(path).suffix.lower()
+        if suffix not in (".svg", ".pdf", ".png"):
+            raise ValueError(f"{os.fspath(path)!r}: must end in .svg, .pdf or .png")
+        write_atomically(path, lambda file: save(self.drawn.legend, file, suffix[1:]))
+
+    def draw(self, effort: Effort, context: Context, progress: Progress | None = None) -> Figure:
+        camera, scene, lamps = self.layout.camera, self.scene(), self.layout.stage.lamps
+        settings = RenderSettings(*self.layout.size, max_path_length=effort.max_path_length, seed=effort.seed)
+        image = context.render(scene, camera, settings, effort.most, target_error=effort.error or 0.0, progress=progress)
+        cell, radii = self.drawn.cell, self.drawn.radii
+        edges = [] if cell is None else cell_edges(cell.origin, cell.vectors)
+        shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.look.outlines))
+        stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
+        if scene.planes:
+            bare = Scene(lamps, scene.planes)
+            stage = context.render(bare, camera, settings, math.ceil(image.stats.mean_sample_count)).radiance
+        return Figure(image, self, effort, stage, shares)
+
+
+class Figure(Image):
+    """A rendered figure: an Image whose picture has its background, lines and colour bar, and whose numbers are the
+    radiance before them.
+
+    scene      what was rendered, with camera and settings
+    legend     what the colours say; None where that is nothing
+    notes      what was decided by the data, and what is not shown: sentences
+    error      of the radiance, stated by the renderer, as of any Image
+    """
+
+    def __init__(self, image: Image, staged: Staged, effort: Effort, stage: Any, shares: Shares) -> None:
+        vars(self).update(vars(image))
+        self.exposure = effort.exposure
+        self.scene, self.camera = staged.scene(), staged.layout.camera
+        self.legend, self.notes = staged.drawn.legend, staged.drawn.notes
+        self._staged, self._effort, self._stage, self._shares = staged, effort, stage, shares
+
+    def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
+        """The picture as bytes of sRGB, shape (height, width, 3), or 4 with a transparent background. exposure: stops by
+        which balls are brighter; None: that of the figure, and if that is None too, automatic."""
+        pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
+        return pixels
+
+    def picture(self, dtype: Any = np.uint8, exposure: float | None = None) -> npt.NDArray[Any]:
+        """to_srgb8, or as uint16."""
+        exposure = self.exposure if exposure is None else exposure
+        exposure = automatic_exposure(self.radiance) if exposure is None else exposure
+        look = self._staged.look
+        background, ink = _background(look.background)
+        light, alpha = compose(self.radiance, self._stage, self._shares, exposure)
+        if background is None:
+            whole = signal(light / np.maximum(alpha, 1e-9)[:, :, None])
+            pixels = np.concatenate([whole, alpha[:, :, None]], axis=2)
+        else:
+            pixels = signal(lay_over(light, alpha, background))
+        if look.colorbar and self.legend is not None:
+            pixels = np.hstack([pixels, self._strip(len(pixels), background, ink)])
+        return quantised(pixels, dtype)
+
+    def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
+        """The legend on the background, as it stands at the right of the picture."""
+        size = self._staged.look.size
+        width = size[0] - self.shape[1] if size else strip_width(self.legend, height)
+        words = raster(self.legend, height, ink)[:height, :width]
+        strip = np.zeros((height, width, 4))
+        top, left = (height - len(words)) // 2, (width - words.shape[1]) // 2
+        strip[top:top + len(words), left:left + words.shape[1]] = words
+        if background is None:
+            return strip
+        opaque: Doubles = strip[:, :, 3:]
+        result: Doubles = strip[:, :, :3] * opaque + signal(background) * (1.0 - opaque)
+        return result
+
+    def encode(self, format: str, *, exposure: float | None = None, bits: int = 8) -> bytes:
+        """A file's bytes: png, jpg, exr (linear radiance). bits: 8 or 16, of a png."""
+        if format == "exr":
+            return encode_exr(self.radiance)
+        if format in ("jpg", "jpeg"):
+            if self._staged.look.background == "transparent":
+                raise ValueError("background = transparent: JPEG has no alpha; PNG has")
+            return encode_jpeg(self.picture(np.uint8, exposure))
+        if format != "png" or bits not in (8, 16):
+            raise ValueError(f"format = {format!r}, bits = {bits}: must be png, jpg or exr, of 8 bits, or of 16 in a png")
+        return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
+
+    def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
+        """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The file
+        is there whole or not at all. ValueError: another ending."""
+        suffix = pathlib.Path(path).suffix.lower()
+        if suffix == ".npy":
+            super().save(path)
+            return
+        if suffix not in PICTURES:
+            raise ValueError(f"{os.fspath(path)!r}: must end in {', '.join(PICTURES)}")
+        data = self.encode(suffix[1:], exposure=exposure, bits=bits)
+        write_atomically(path, lambda file: file.write(data))
+
+    def save_legend(self, path: Path) -> None:
+        """What the colours say, as .svg, .pdf or .png. ValueError: they say nothing, or another ending."""
+        self._staged.save_legend(path)
+
+    def save_scene(self, path: Path) -> None:
+        """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the cell
+        and colour bar are no part of it; neither is the seed."""
+        self._staged.save_scene(path, self._effort)
+
+    def _repr_png_(self) -> bytes:
+        return self.encode("png")
+
+
+def _background(background: Any) -> tuple[Doubles | None, str]:
+    """Linear light, or None where it is transparent; and the colour of words on it."""
+    if isinstance(background, str) and background == "transparent":
+        return None, "#222222"
+    color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
+    light = linear(np.array(color) / 255.0)
+    return light, "#222222" if light @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
+
+
+def strip_width(legend: Legend, height: int) -> int:
+    """Pixels that a colour bar takes at the right of the picture."""
+    return raster(legend, height, "#222222").shape[1] + 2 * max(8, round(0.025 * height))
+
+
+def figure(data: Any, *, color: Color = None, radius: Radius = None, colormap: Any = None,
+           range: tuple[float, float] | None = None, scale: str = "linear", categories: bool = False,
+           nan_color: str = "#bfbfbf", title: str | None = None, where: str | Sequence[str] = (), wrap: bool = False,
+           view: Direction = "three-quarter", up: Direction = "z", projection: str = "perspective",
+           camera: Camera | None = None, size: tuple[int, int] | None = None, style: str = "matte",
+           material: Material | None = None, floor: bool = False, outlines: bool = False, box: bool = True,
+           background: Any = "white", colorbar: bool = False, frame: int | None = None, columns: Columns = None,
+           format: str | None = None, drop_nonfinite: bool = False, samples: int | None = None,
+           error: float | None = None, max_path_length: int = PATH_LENGTH, seed: int = 0, exposure: float | None = 0.0,
+           device: str | None = None, context: Context | None = None, progress: Progress | None = None) -> Figure:
+    """Renders particles: camera, light, sizes and colours follow from the data where options do not say otherwise.
+
+    data         a file's name, an array of shape (n, 3), a dict or frame of columns, or what load() takes besides
+    frame, columns, format, drop_nonfinite   as of load()
+    where        shows particles for which this holds: "z < 5", "element != H", or several
+    wrap         brings particles that have left a periodic cell back into it
+
+    color        a column by its name, or an array of shape (n,): numbers through the colour map, or words;
+                 "|velocity|" or "|vx,vy,vz|": a magnitude; "type"; "red,green,blue": columns of sRGB; a colour for all,
+                 "#ff8000" or "orange"; {"O": "red"} of some types; an array of shape (n, 3): sRGB, floats from 0 to 1 or
+                 uint8. None: of elements those of Jmol, of types a palette, those of the data, else grey
+    colormap     of matplotlib, by its name or as an object; viridis, or coolwarm on a symmetric scale
+    range        numbers that the first and the last colour stand for. None: all there are, or 1% to 99% of them where
+                 few are far from all others; notes say which
+    scale        linear, log, or symmetric: about 0
+    categories   numbers name categories
+    nan_color    of particles without a number
+    title        of the legend, with the unit; by default the column's name
+    colorbar     the legend is at the right, in the picture
+
+    radius       a number in the units of the data, an array, a column, covalent or van-der-waals (of elements, in
+                 angstroms), {"O": 0.7} of all types; in text also with a factor, "0.5*diameter". None: the data's, else
+                 covalent, else half of what most neighbours are apart
+
+    size         width and height, pixels. None: 1024 x 768 in all, in the shape of the data
+    view         three-quarter, front, back, left, right, top, bottom, or the direction to the camera
+    up           "z", "-y" or three numbers: what is up in the data, and in the picture
+    projection   perspective or orthographic
+    camera       takes this one, in the units of the data, in place of view and projection
+    style        matte, glossy, or ambient-occlusion: with light from all sides alone
+    material     of the particles, in place of the style's; colours multiply its diffuse
+    floor        for shadows
+    outlines     dark lines round the balls
+    box          lines of the cell, where the data have one
+    background   a colour, or transparent
+
+    samples      a pixel; default 128. With an error the most that a pixel gets, by default 65536
+    error        ends when the image's relative error is at or below it: 0.01 is 1%
+    max_path_length, seed   as of RenderSettings
+    exposure     brightens the balls, stops; None: automatic
+    device, context   as for Context; a context that is given is left with another scene and other settings
+    progress     called with the share that is done; returning True ends the samples early
+
+    ValueError: data or options that do not fit, with their name, the value and the rule.
+    """
+    look = Look(color=color, radius=radius, colormap=colormap, range=range, scale=scale, categories=categories,
+                nan_color=nan_color, title=title, where=where, wrap=wrap, view=view, up=up, projection=projection,
+                camera=camera, size=size, style=style, material=material, floor=floor, outlines=outlines, box=box,
+                background=background, colorbar=colorbar)
+    effort = Effort(samples=samples, error=error, max_path_length=max_path_length, seed=seed, exposure=exposure)
+    staged = Staged.of(load(data, frame=frame, columns=columns, format=format, drop_nonfinite=drop_nonfinite), look)
+    if context is not None:
+        return staged.draw(effort, context, progress)
+    with Context(device) as own:
+        return staged.draw(effort, own, progress)

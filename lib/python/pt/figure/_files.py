@@ -1,0 +1,106 @@
+"""Files of a figure: pictures, radiance, and the scene."""
+
+from __future__ import annotations
+
+import functools
+import io
+import json
+import math
+import os
+import pathlib
+import struct
+import zlib
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._camera import Camera
+from pt._files import Path, write_atomically
+from pt._scene import Material, Scene
+from pt.figure._errors import module
+
+EXR_ROWS: Final = 16  # of a block packed by zip
+
+
+def encode_jpeg(pixels: npt.NDArray[np.uint8]) -> bytes:
+    buffer = io.BytesIO()
+    module("PIL.Image", "JPEG").fromarray(pixels).save(buffer, "JPEG", quality=95, subsampling=0)
+    return buffer.getvalue()
+
+
+def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
+    """An OpenEXR file of float32, channels R, G, B, blocks packed by zip ("OpenEXR File Layout", openexr.com)."""
+    height, width, _ = radiance.shape
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for name in (b"B", b"G", b"R")) + b"\0"
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    attributes = (("channels", "chlist", channels), ("compression", "compression", b"\3"), ("dataWindow", "box2i", window),
+                  ("displayWindow", "box2i", window), ("lineOrder", "lineOrder", b"\0"),
+                  ("pixelAspectRatio", "float", struct.pack("<f", 1.0)),
+                  ("screenWindowCenter", "v2f", struct.pack("<2f", 0.0, 0.0)),
+                  ("screenWindowWidth", "float", struct.pack("<f", 1.0)))
+    header = struct.pack("<2i", 20000630, 2) + b"".join(
+        name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(data)) + data
+        for name, kind, data in attributes) + b"\0"
+    blocks = []
+    for row in range(0, height, EXR_ROWS):
+        planes = np.ascontiguousarray(radiance[row:row + EXR_ROWS, :, ::-1].transpose(0, 2, 1), "<f4")
+        data = planes.view(np.uint8).ravel()
+        halves = np.concatenate([data[0::2], data[1::2]]).astype(np.int16)
+        halves[1:] = halves[1:] - halves[:-1] + 128  # what the format's decoder undoes
+        packed = zlib.compress((halves & 255).astype(np.uint8).tobytes(), 4)
+        packed = packed if len(packed) < len(data) else data.tobytes()  # which is told by its size
+        blocks.append(struct.pack("<2i", row, len(packed)) + packed)
+    places = len(header) + 8 * len(blocks) + np.cumsum([0, *map(len, blocks[:-1])])
+    return header + places.astype("<u8").tobytes() + b"".join(blocks)
+
+
+def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int], max_path_length: int, samples: int
+                ) -> None:
+    """A scene file of the program pt, and beside it NPY files of its particles' columns."""
+    place = pathlib.Path(path)
+    if place.suffix.lower() != ".json":
+        raise ValueError(f"{os.fspath(path)!r}: must end in .json")
+    array = scene.sphere_arrays[0]
+    item: dict[str, Any] = {}
+    for name, column in (("center", array.center), ("radius", array.radius), ("color", array.color)):
+        if column is not None and name == "radius" and not column.strides[0]:
+            item[name] = float(column[0])  # of all
+        elif column is not None:
+            file = place.with_name(f"{place.stem}-{name}.npy")
+            item[name] = file.name
+            write_atomically(file, functools.partial(np.save, arr=np.ascontiguousarray(column), allow_pickle=False))
+    document: dict[str, Any] = {
+        "camera": _camera(camera),
+        "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
+        "render": {"max_path_length": max_path_length, "spp": samples},
+        "materials": {}, "spheres": [], "planes": []}
+    for name, lamp in zip(("surround", "key"), scene.spheres):
+        document["materials"][name] = _material(lamp.material)
+        document["spheres"].append({"center": list(lamp.center), "radius": lamp.radius, "material": name})
+    for plane in scene.planes:
+        document["materials"]["floor"] = _material(plane.material)
+        document["planes"].append({"normal": list(plane.normal), "offset": plane.offset, "material": "floor"})
+    document["materials"]["particles"] = _material(array.material)
+    document["spheres"].append({**item, "material": "particles"})
+    text = json.dumps(document, indent=2) + "\n"
+    write_atomically(place, lambda file: file.write(text.encode()))
+
+
+def _camera(camera: Camera) -> dict[str, Any]:
+    section: dict[str, Any] = {"position": list(camera.position), "look_at": list(camera.target), "up": list(camera.up)}
+    if camera.vertical_extent is not None:
+        return {**section, "projection": "orthographic", "vertical_extent": camera.vertical_extent}
+    assert camera.vertical_fov is not None
+    return {**section, "vertical_fov": camera.vertical_fov * (180.0 / math.pi)}
+
+
+def _material(material: Any) -> dict[str, Any]:
+    """Without what is as by default; one number for a grey."""
+    assert isinstance(material, Material)
+    section: dict[str, Any] = {}
+    for name in ("diffuse", "specular", "emission"):
+        red, green, blue = getattr(material, name)
+        if red or green or blue:
+            section[name] = red if red == green == blue else [red, green, blue]
+    return {**section, "glossiness": material.glossiness} if material.glossiness else section

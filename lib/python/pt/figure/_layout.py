@@ -1,0 +1,154 @@
+"""Camera, light and shape of a picture, from the balls that it shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from pt._camera import Camera
+from pt._fit import SIDES, Array, Doubles, Extents, Spin, apex, pyramid, reach
+from pt._scene import Plane
+from pt.figure._stage import FLOOR, FLOOR_GAP, Stage, make_stage
+from pt.figure._view import Compass, Direction, relative_height, toward_camera, up_vector, view_axes
+
+PROJECTIONS: Final = ("perspective", "orthographic")
+VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow, as wide angles make balls at the sides look like eggs
+MARGIN: Final = 0.03  # share of the picture that stays free at each side: by taste
+PIXELS: Final = 1024.0 * 768.0
+MOST_ASPECT: Final = 2.0
+
+
+@dataclass(frozen=True)
+class Balls:
+    """What has to be seen whole. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), like a cell's corners."""
+
+    centers: Array
+    radii: Array
+    points: Array
+
+    def reach(self, axes: Doubles, directions: Doubles, spin: Spin | None = None) -> Doubles:
+        far = reach(self.centers, self.radii, axes, directions, spin)
+        if len(self.points):
+            far = np.maximum(far, reach(self.points, np.zeros(len(self.points)), axes, directions, spin))
+        return far
+
+
+@dataclass(frozen=True)
+class View:
+    """The direction of a figure, and the size of its picture; what it needs to know of balls is how far they reach."""
+
+    compass: Compass
+    axes: Doubles
+    size: tuple[int, int]
+    projection: str
+    spin: Spin | None = None
+    camera: Camera | None = None
+
+    @staticmethod
+    def through(camera: Camera, up: Direction, size: tuple[int, int], scale: float) -> View:
+        """A camera that is given, in the units of the data."""
+        extent = camera.vertical_extent
+        scaled = replace(camera, position=np.multiply(camera.position, scale), target=np.multiply(camera.target, scale),
+                         vertical_extent=None if extent is None else extent * scale)
+        right, above, back = camera.axes()
+        return View(Compass.of(up_vector(up)), np.array([right, above, -back]), size, "", camera=scaled)
+
+    @staticmethod
+    def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
+           turns: bool = False) -> View:
+        """turns: all of what a turntable shows is to be seen."""
+        if projection not in PROJECTIONS:
+            raise ValueError(f"projection = {projection!r}: must be {', '.join(PROJECTIONS)}")
+        compass = Compass.of(up_vector(up))
+        height = 0.0
+        if view == "three-quarter":
+            world = np.array([compass.right, compass.front, compass.up])
+            points = np.broadcast_to(0.0, len(balls.centers))
+            height = relative_height(Extents.of(reach(balls.centers, points, world, SIDES)).size)
+        axes = view_axes(toward_camera(view, compass, height), compass)
+        spin = None
+        if turns:
+            extents = Extents.of(balls.reach(axes, SIDES))
+            spin = Spin(compass.up, extents.middle @ axes)
+        if size is None:
+            size = _shape(Extents.of(balls.reach(axes, SIDES, spin)).size)
+        return View(compass, axes, size, projection, spin)
+
+    @property
+    def tangents(self) -> tuple[float, float]:
+        vertical = (1.0 - 2.0 * MARGIN) * math.tan(0.5 * VERTICAL_FOV)
+        return vertical * (self.size[0] / self.size[1]), vertical
+
+    def reaches(self, balls: Balls) -> Doubles:
+        """In the directions that place needs; of several frames their maximum."""
+        down = -(self.axes @ self.compass.up)
+        return balls.reach(self.axes, np.vstack([SIDES, down[None], pyramid(self.tangents)]), self.spin)
+
+
+def _shape(extents: Doubles) -> tuple[int, int]:
+    """Of what is seen, though not of a ribbon: as many pixels in all as PIXELS, sides being multiples of 8."""
+    aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
+    sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
+    return sides[0], sides[1]
+
+
+@dataclass(frozen=True)
+class Layout:
+    size: tuple[int, int]
+    axes: Doubles
+    camera: Camera
+    stage: Stage
+
+    @staticmethod
+    def of(view: View, reaches: Doubles, style: str, floor: bool) -> Layout:
+        """reaches: View.reaches of all that is shown. ValueError: the floor would hide it."""
+        axes, forward = view.axes, view.axes[2]
+        extents = Extents.of(reaches[:6])
+        middle = extents.middle
+        center = middle[0] * axes[0] + middle[1] * axes[1] + middle[2] * forward
+        radius = 0.5 * float(extents.size.max())
+        if view.camera is not None:
+            camera, position = view.camera, np.asarray(view.camera.position)
+            distance = abs(float(forward @ (center - position)))
+        elif view.projection == "orthographic":
+            aspect = view.size[0] / view.size[1]
+            height = float(max(extents.size[1], extents.size[0] / aspect)) / (1.0 - 2.0 * MARGIN)
+            distance = float(extents.size[2]) + height  # before all balls
+            position = center - distance * forward
+            camera = Camera(position, position + distance * forward, axes[1], vertical_extent=height)
+        else:
+            position = apex(reaches[7:11], axes, pyramid(view.tangents))
+            if view.spin is not None:  # which sees the same from all sides
+                position = position - ((position - view.spin.through) @ axes[0]) * axes[0]
+            distance = float(forward @ (center - position))
+            camera = Camera(position, position + distance * forward, axes[1], vertical_fov=VERTICAL_FOV)
+        plane = None
+        if floor:
+            up, height = view.compass.up, -float(reaches[6]) - FLOOR_GAP * radius
+            if up @ position <= height:
+                raise ValueError("floor: the camera is below it, by the view, and would see nothing else")
+            plane = Plane(up, -height, FLOOR)
+        return Layout(view.size, axes, camera, make_stage(style, axes, distance, center, radius, plane))
+
+    def turned(self, spin: Spin, angle: float) -> Layout:
+        """As the camera sees it that goes round the axis by an angle, radians, with its lamps."""
+        matrix = _rotation(spin.axis, angle)
+        axes = self.axes @ matrix.T
+        position, target = (spin.through + matrix @ (np.asarray(point) - spin.through)
+                            for point in (self.camera.position, self.camera.target))
+        camera = Camera(position, target, axes[1], vertical_fov=self.camera.vertical_fov,
+                        vertical_extent=self.camera.vertical_extent)
+        lamps = tuple(type(lamp)(spin.through + matrix @ (np.asarray(lamp.center) - spin.through), lamp.radius,
+                                 lamp.material) for lamp in self.stage.lamps)
+        return Layout(self.size, axes, camera, Stage(lamps, self.stage.floor, self.stage.material))
+
+
+def _rotation(axis: Doubles, angle: float) -> Doubles:
+    """Rodrigues: cos 1 + sin [axis]x + (1 - cos) axis axis^T."""
+    crossed = np.cross(axis, np.eye(3)).T  # crossed @ v = axis x v
+    result: Doubles = (math.cos(angle) * np.eye(3) + math.sin(angle) * crossed +
+                       (1.0 - math.cos(angle)) * np.outer(axis, axis))
+    return result

@@ -1,0 +1,83 @@
+"""What the colours of a figure say, drawn by matplotlib: as a file of its own, or for a strip beside the picture."""
+
+from __future__ import annotations
+
+import io
+import math
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from pt.figure._colors import ColorBar, Legend, Swatches
+from pt.figure._errors import module
+
+PIXELS_PER_INCH: Final = 100.0
+POINTS_PER_INCH: Final = 72.0
+
+
+def _matplotlib(part: str = "") -> Any:
+    """Imported when it is first needed, which takes a third of a second."""
+    return module(f"matplotlib.{part}".rstrip("."), "a legend")
+
+
+def _plain(text: str) -> str:
+    """As it is, and not as TeX."""
+    return text.replace("$", r"\$")
+
+
+def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
+    """A matplotlib Figure. height: of a colour bar, and at most of a column of swatches, inches. font: points."""
+    if legend is None:
+        raise ValueError("legend: there is nothing to tell, as all colours are given or alike")
+    with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
+                     "xtick.color": ink, "ytick.color": ink, "axes.linewidth": font / 14.0}):
+        sheet = _matplotlib("figure").Figure(figsize=(3.0, height))
+        if isinstance(legend, ColorBar):
+            _draw_bar(sheet, legend, height, font, ink)
+        else:
+            _draw_swatches(sheet, legend, height, font, ink)
+    return sheet
+
+
+def _draw_bar(sheet: Any, bar: ColorBar, height: float, font: float, ink: Any) -> None:
+    colors = _matplotlib("colors")
+    low, high = bar.low, bar.high
+    if low == high:
+        low, high = low - (abs(low) or 1.0) * 0.5, high + (abs(high) or 1.0) * 0.5
+    norm = colors.LogNorm(max(low, bar.low / 2.0), high) if bar.log else colors.Normalize(low, high)
+    axes = sheet.add_axes((0.0, 0.0, 1.6 * font / POINTS_PER_INCH / 3.0, 1.0))
+    shades = _matplotlib("cm").ScalarMappable(norm, colors.ListedColormap(bar.table / 255.0))
+    sheet.colorbar(shades, cax=axes, label=bar.title)
+    if bar.no_value:
+        patch = _matplotlib("patches").Patch(facecolor=np.array(bar.no_value) / 255.0, edgecolor=ink, label="no value")
+        sheet.legend(handles=[patch], loc="upper left", bbox_to_anchor=(0.0, -0.5 * font / POINTS_PER_INCH / height),
+                     frameon=False, borderpad=0.0, handlelength=1.6, handletextpad=0.4, borderaxespad=0.0)
+
+
+def _draw_swatches(sheet: Any, swatches: Swatches, height: float, font: float, ink: Any) -> None:
+    line = _matplotlib("lines").Line2D
+    dots = [line([], [], linestyle="none", marker="o", markersize=0.9 * font, markerfacecolor=color / 255.0,
+                 markeredgecolor=ink, markeredgewidth=font / 20.0) for color in swatches.colors]
+    rows = max(int(1.45 * height * POINTS_PER_INCH / (1.6 * font)) - 2, 1)  # in nearly all of the picture's height
+    sheet.legend(dots, [_plain(name) for name in swatches.names], title=swatches.title, loc="center left",
+                 bbox_to_anchor=(0.0, 0.5), ncols=math.ceil(len(dots) / rows), frameon=False, handletextpad=0.2,
+                 borderpad=0.0, borderaxespad=0.0, alignment="left")
+
+
+def save(legend: Legend, file: Any, format: str) -> None:
+    """The same bytes for the same legend. format: svg, pdf, png."""
+    dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    with _matplotlib().rc_context({"svg.hashsalt": "pt"}):
+        draw(legend, 2.4, 10.0, "#222222").savefig(file, format=format, dpi=200, bbox_inches="tight", pad_inches=0.08,
+                                                   metadata=dates.get(format))
+
+
+def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
+    """Shape (rows, columns, 4), from 0 to 1, no higher than the picture as far as text allows. height: of it, pixels."""
+    font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
+    buffer = io.BytesIO()
+    draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(
+        buffer, format="png", dpi=PIXELS_PER_INCH, bbox_inches="tight", pad_inches=0.0, transparent=True)
+    buffer.seek(0)
+    return np.asarray(_matplotlib("image").imread(buffer), np.float64)

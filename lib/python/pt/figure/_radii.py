@@ -1,0 +1,210 @@
+"""Radii of particles: given, of their elements or types, or from how far apart they are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any, Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from pt._fit import Array, Doubles, chunks
+from pt.figure import _elements as elements
+from pt.figure._particles import Particles
+
+Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
+
+PROBES: Final = 2000
+IN_CELL: Final = 8  # particles, where they fill their box evenly
+MOST_PAIRS: Final = 4_000_000
+TABLE_BITS: Final = 22
+STEPS: Final = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
+
+
+def column(particles: Particles, name: str) -> Array:
+    """By its name; radius, type and element also where the data call them otherwise."""
+    known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
+    values = known.get(name) if name not in particles.columns else None
+    if values is None:
+        return particles.column(name)
+    if name == "element":
+        return np.array(elements.SYMBOLS)[values]
+    return values
+
+
+def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
+    """Shape (n,), or of one number that stands for all. notes: gets what is worth telling."""
+    factor = 1.0
+    if isinstance(radius, str):
+        product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
+        if product:
+            factor, radius = float(product[1]), product[2]
+        radius = _from_text(radius)
+    radii = _unscaled(particles, radius, notes)
+    if factor != 1.0:
+        radii = radii * radii.dtype.type(factor)
+    return radii
+
+
+def _from_text(text: str) -> Radius:
+    if "=" in text:
+        pairs = [each.partition("=") for each in text.split(",")]
+        try:
+            return {name.strip(): float(number) for name, _, number in pairs}
+        except ValueError:
+            raise ValueError(f"radius = {text!r}: must be like O=0.7,H=0.3") from None
+    try:
+        return float(text)
+    except ValueError:
+        return None if text == "auto" else text
+
+
+def _unscaled(particles: Particles, radius: Radius, notes: list[str]) -> Array:
+    count = len(particles.positions)
+    if radius is None:
+        return _automatic(particles, notes)
+    if isinstance(radius, str):
+        if radius in ("covalent", "van-der-waals"):
+            if particles.elements is None:
+                raise ValueError(f"radius = {radius!r}: {particles.name} has no elements")
+            return _of_elements(particles, particles.elements, radius, notes)
+        radius = column(particles, radius)
+    if isinstance(radius, Mapping):
+        return _of_types(particles, radius)
+    radii = np.asarray(radius)
+    if radii.dtype.kind not in "fiu" or radii.shape not in ((), (1,), (count,)):
+        raise ValueError(f"radius has shape {radii.shape} of {radii.dtype}: must be one number or {count}")
+    each: Array = np.atleast_1d(radii if radii.dtype in (np.float32, np.float64) else radii.astype(np.float64))
+    return each
+
+
+def _automatic(particles: Particles, notes: list[str]) -> Array:
+    if particles.radii is not None:
+        return np.atleast_1d(particles.radii)
+    typical = typical_radius(particles.positions)
+    if particles.elements is not None:
+        radii = elements.COVALENT_RADII[np.unique(particles.elements)]
+        radii = radii[radii > 0]
+        # A bond is as long as two covalent radii, in a solid without bonds up to thrice that, in a gas at 0 degrees and
+        # 1 bar 16 times: other distances are not in angstroms.
+        if len(radii) and 0.7 * radii.min() <= typical <= 30.0 * radii.max():
+            return _of_elements(particles, particles.elements, "covalent", notes)
+    return np.array([typical])
+
+
+def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
+    """Those that are not known have the mean radius of those that are."""
+    table = (elements.COVALENT_RADII if kind == "covalent" else elements.VAN_DER_WAALS_RADII).astype(np.float32)
+    there = np.flatnonzero(np.bincount(numbers, minlength=len(table)))
+    known = there[table[there] > 0]
+    if not len(known):
+        raise ValueError(f"radius = {kind!r}: no element of {particles.name} has a known radius")
+    if len(known) < len(there):
+        missing = np.setdiff1d(there, known)
+        names = ", ".join(elements.SYMBOLS[number] for number in missing)
+        notes.append(f"no {kind} radius is known of {names}: the mean of the others stands for it")
+        table = table.copy()
+        table[missing] = table[known].mean()
+    each: Array = table[numbers]
+    return each
+
+
+def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
+    names, codes = categories(column(particles, "type" if particles.elements is None else "element"))
+    missing = [name for name in names if name not in radii]
+    if missing:
+        raise ValueError(f"radius: the type {missing[0]} is none of those with a radius, {', '.join(radii)}")
+    each: Array = np.array([radii[name] for name in names], np.float32)[codes]
+    return each
+
+
+def categories(labels: Any) -> tuple[list[str], Array]:
+    """The different labels in ascending order, as text, and of each row which it is."""
+    array = np.asarray(labels)
+    if array.dtype.kind == "O":
+        array = array.astype(str)
+    names, codes = np.unique(array, return_inverse=True)
+    return [f"{name:.9g}" if array.dtype.kind == "f" else str(name) for name in names], codes.reshape(-1)
+
+
+def typical_radius(positions: Array) -> float:
+    """Half of what most nearest neighbours are apart, so that most balls just touch; of points at random half of the
+    median distance to the fourth neighbour. Neighbours at the same place do not count."""
+    first, fourth = _neighbour_distances(positions)
+    if not len(first):
+        return 1.0
+    median = float(np.median(first))
+    # Of points at random a twentieth has its nearest neighbour at 0.27 of the median on a surface, and at 0.42 in space
+    # (0.051 = -log(0.95) and 0.69 = -log(0.5): their ratio's square and cube root); atoms have none at half of it.
+    if len(fourth) and float(np.quantile(first, 0.05)) < 0.5 * median:
+        median = float(np.median(fourth))
+    return 0.5 * median
+
+
+def _neighbour_distances(positions: Array) -> tuple[Doubles, Doubles]:
+    """Of some particles the distances to the nearest and to the fourth neighbour, where these are in the cells of a
+    grid next to theirs."""
+    count = len(positions)
+    low, high = positions.min(axis=0).astype(np.float64), positions.max(axis=0).astype(np.float64)
+    extent = high - low
+    broad = extent > 1e-6 * extent.max()
+    if not broad.any():
+        return np.zeros(0), np.zeros(0)
+    probes = np.arange(0, count, -(-count // PROBES))
+    places = positions[probes].astype(np.float64)
+    side = float(np.prod(extent[broad]) * IN_CELL / count) ** (1.0 / int(broad.sum()))
+    if count <= 27 * IN_CELL:
+        side = 2.0 * float(extent.max())  # all are neighbours
+    sample = positions[::max(count // 50_000, 1)]
+    for _ in range(8):  # in clusters cells have to be smaller, as their box is nearly empty
+        _, begin, end = _near(sample, places, low, side)
+        crowd = float(np.median((end - begin).sum(axis=1))) * count / len(sample)
+        if crowd <= 64 * IN_CELL:
+            break
+        side *= max((27 * IN_CELL / crowd) ** (1 / 3), 0.05)
+    near, begin, end = _near(positions, places, low, side)
+    fewer = np.cumsum((end - begin).sum(axis=1)) <= MOST_PAIRS
+    fewer[0] = True
+    begin, lengths = begin[fewer].ravel(), (end - begin)[fewer].ravel()
+    within = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+    others = near[np.repeat(begin, lengths) + within]
+    which = np.repeat(np.repeat(np.arange(int(fewer.sum())), 27), lengths)
+    distances = np.linalg.norm(positions[others].astype(np.float64) - places[which], axis=1)
+    apart = (distances > 0.0) & (distances <= side)  # farther ones may have nearer rivals outside of these cells
+    which, distances = which[apart], distances[apart]
+    order = np.lexsort((distances, which))
+    which, distances = which[order], distances[order]
+    rank = np.arange(len(which)) - np.searchsorted(which, which)
+    return distances[rank == 0], distances[rank == 3]
+
+
+def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Array, Array, Array]:
+    """The particles in the cells of some places and beside them, ordered by cell; where each of a place's 27 cells
+    begins in that order and where it ends."""
+    cells = np.floor((places - low) / side).astype(np.int64)
+    keys = _keys((cells[:, None] + STEPS).reshape(-1, 3)).reshape(-1, len(STEPS))
+    near = _particles_in(positions, low, side, keys)
+    hashes = _keys(np.floor((positions[near] - low) / side).astype(np.int64))
+    order = np.argsort(hashes, kind="stable")
+    begin, end = np.searchsorted(hashes[order], keys, "left"), np.searchsorted(hashes[order], keys, "right")
+    return near[order], begin, end
+
+
+def _particles_in(positions: Array, low: Doubles, side: float, keys: Array) -> Array:
+    """Indices of the particles whose cells have one of the keys."""
+    wanted = np.zeros(1 << TABLE_BITS, bool)
+    wanted[keys.ravel()] = True
+    found = []
+    for rows in chunks(len(positions)):
+        cells = np.floor((positions[rows] - low) / side).astype(np.int64)
+        found.append(rows.start + np.flatnonzero(wanted[_keys(cells)]))
+    return np.concatenate(found)
+
+
+def _keys(cells: Array) -> Array:
+    """Of cells of a grid: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
+    Objects". Cells that share a key by chance cost time and change nothing, as distances decide."""
+    hashed = cells[:, 0] * 73856093 ^ cells[:, 1] * 19349663 ^ cells[:, 2] * 83492791
+    keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
+    return keys

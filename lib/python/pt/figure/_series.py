@@ -1,0 +1,66 @@
+"""Frames of a trajectory, and turns of one, that go together: one camera, one scale of colours, one rule of radii."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from pt._fit import Doubles
+from pt.figure._colors import ColorBar, Swatches
+from pt.figure._figure import Drawn, Look, Staged, prepare, view_of
+from pt.figure._layout import Layout, View
+from pt.figure._particles import Particles
+from pt.figure._radii import Radius
+
+
+def frames(read: Callable[[], Iterator[Particles]], look: Look) -> Iterator[Staged]:
+    """Each frame. All are read twice: first for what has to fit all of them."""
+    look, names, view, reaches, scale = _common(read(), look)
+    layout = Layout.of(view, reaches, look.style, look.floor)
+    for particles in read():
+        yield Staged(prepare(particles, look, names, scale), layout, look)
+
+
+def _common(trajectory: Iterator[Particles], look: Look
+            ) -> tuple[Look, tuple[str, ...] | None, View, Doubles, float]:
+    view: View | None = None
+    reaches: Doubles | None = None
+    scale: float | None = None
+    bars: list[ColorBar] = []
+    names: dict[str, None] = {}
+    for particles in trajectory:
+        drawn = prepare(particles, look, None, scale)
+        if view is None:
+            look = replace(look, radius=_rule(particles, drawn, look))
+            view, scale = view_of(drawn, look), drawn.scale
+        mine = view.reaches(drawn.balls)
+        reaches = mine if reaches is None else np.maximum(reaches, mine)
+        if isinstance(drawn.legend, ColorBar):
+            bars.append(drawn.legend)
+        elif isinstance(drawn.legend, Swatches):
+            names.update(dict.fromkeys(drawn.legend.names))
+    if view is None or reaches is None or scale is None:
+        raise ValueError("frames: there are none")
+    if bars:
+        look = replace(look, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
+    return look, tuple(names) or None, view, reaches, scale
+
+
+def _rule(particles: Particles, drawn: Drawn, look: Look) -> Radius:
+    """Of radii, so that those of later frames do not follow from their own distances."""
+    if look.radius is not None or particles.radii is not None:
+        return look.radius
+    return float(drawn.radii[0]) / drawn.scale if drawn.radii.strides == (0,) else "covalent"
+
+
+def turntable(particles: Particles, count: int, look: Look) -> Iterator[Staged]:
+    """Once round the vertical axis, from the view on; lamps go with the camera."""
+    drawn = prepare(particles, look)
+    view = view_of(drawn, look, turns=True)
+    layout = Layout.of(view, view.reaches(drawn.balls), look.style, look.floor)
+    assert view.spin is not None
+    for k in range(count):
+        yield Staged(drawn, layout.turned(view.spin, 2.0 * math.pi * k / count), look)

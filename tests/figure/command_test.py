@@ -1,0 +1,132 @@
+"""pt-figure: what it writes, and what it refuses. Arguments: the program pt, which renders written scenes; or none."""
+
+import importlib.util
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+import pt
+from pt.figure._command import EPILOG, numbered, parser
+
+if importlib.util.find_spec("matplotlib") is None:
+    print("matplotlib is not installed")
+    sys.exit(77)
+
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else None
+SMALL = ("--size", "48x32", "--spp", "2", "--color", "#4060c0")
+WATER = """3
+Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:speed:R:1
+O 1.00 1.00 1.00 0.4
+H 1.76 1.59 1.00 2.1
+H 0.24 1.59 1.00 1.8
+"""
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "water.xyz").write_text(2 * WATER)
+        np.save(self.folder / "points.npy", np.random.default_rng(2).normal(size=(4, 30, 3)).astype(np.float32))
+
+    def run_figure(self, *arguments, code=0, **options):
+        done = subprocess.run([sys.executable, "-B", "-m", "pt.figure._command", *arguments], cwd=self.folder,
+                              capture_output=True, **options)
+        self.assertEqual(done.returncode, code, done.stderr.decode())
+        return done
+
+    def names(self, pattern):
+        return sorted(path.name for path in self.folder.glob(pattern))
+
+    def test_it_is_the_function(self):
+        """Bytes of all formats, and the picture."""
+        self.run_figure("water.xyz", *SMALL, "-o", "a.png", "-o", "a.exr", "-o", "b.PNG", "-q", "--png-bits", "16")
+        figure = pt.figure(self.folder / "water.xyz", color="#4060c0", size=(48, 32), samples=2)
+        self.assertEqual((self.folder / "a.png").read_bytes(), figure.encode("png", bits=16))
+        self.assertEqual((self.folder / "a.exr").read_bytes(), figure.encode("exr"))
+        said = self.run_figure("water.xyz", *SMALL, "-o", "-", "--format", "png")
+        self.assertEqual(said.stdout, figure.encode("png"))
+        self.assertIn(b"2 samples a pixel", said.stderr)
+        given = self.run_figure("-", *SMALL, "-o", "-", "--format", "png", "-q", input=2 * WATER.encode())
+        self.assertEqual(given.stdout, figure.encode("png"))
+
+    def test_series(self):
+        self.run_figure("points.npy", *SMALL, "--frames", "1-3", "-o", "f-##.png")
+        self.run_figure("water.xyz", *SMALL, "--turntable", "3", "-o", "t#.png")
+        self.assertEqual(self.names("*.png"), ["f-01.png", "f-02.png", "f-03.png", "t0.png", "t1.png", "t2.png"])
+        self.assertEqual(len({(self.folder / name).read_bytes() for name in self.names("*.png")}), 6)
+        self.assertEqual(numbered("a#b##.png", 7), "a#b07.png")
+        self.assertIn("-i f-%03d.png", EPILOG)
+
+    def test_a_written_scene_renders_to_the_same_radiance(self):
+        for arguments in (("water.xyz",), ("points.npy", "--floor", "--style", "glossy"),
+                          ("points.npy", "--projection", "orthographic", "--radius", "0.2", "--color", "orange", "--up", "-x"),
+                          ("points.npy", "--color", "x", "--style", "ambient-occlusion")):
+            self.run_figure(*arguments, "--size", "48x32", "--spp", "4", "--write-scene", "s.json", "-o", "a.exr", "-q")
+            scene = json.loads((self.folder / "s.json").read_text())
+            columns = {name: np.load(self.folder / value) for name, value in scene["spheres"][-1].items()
+                       if str(value).endswith(".npy")}
+            self.assertEqual(columns["center"].shape[1:], (3,))
+            if PROGRAM:
+                subprocess.run([PROGRAM, "render", self.folder / "s.json", "-o", self.folder / "b.exr", "-q"], check=True)
+                subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--mse", "0"], check=True,
+                               stdout=subprocess.DEVNULL)
+        self.run_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
+        self.assertEqual(self.names("*.svg") + self.names("only*"), ["l.svg", "only-center.npy", "only-color.npy",
+                                                                     "only-radius.npy", "only.json"])
+
+    def test_an_error_that_is_not_reached_is_told_by_the_code(self):
+        self.run_figure("water.xyz", *SMALL, "--error", "0.001%", "-o", "a.png", code=7)
+        self.run_figure("water.xyz", *SMALL[:2], "--error", "30%", "-o", "b.png")
+        self.assertEqual(self.names("*.png"), ["a.png", "b.png"])
+
+    def test_progress(self):
+        said = self.run_figure("water.xyz", *SMALL, "-o", "a.png", "--progress", "json").stderr.decode().splitlines()
+        shares = [json.loads(line)["fraction"] for line in said if line.startswith("{")]
+        self.assertEqual((shares[-1], shares), (1.0, sorted(shares)))
+
+    def test_what_is_refused(self):
+        (self.folder / "bad.xyz").write_text("2\n\nO 0 0\n")
+        for code, words, arguments in (
+                (2, "there is nothing to write", ("water.xyz",)),
+                (2, "must end in .png, .jpg, .jpeg, .exr", ("water.xyz", "-o", "a.gif")),
+                (6, "its folder nowhere is not there", ("water.xyz", "-o", "nowhere/a.png")),
+                (2, "named twice, or is the data", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
+                (2, "-o -: needs --format", ("water.xyz", "-o", "-")),
+                (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
+                (2, "must have # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),
+                (2, "not with --frames", ("water.xyz", "-o", "a#.png", "--turntable", "4", "--frames", "0-1")),
+                (2, "which standard input cannot be", ("-", "-o", "a#.png", "--frames", "0-1")),
+                (2, "must be two numbers like -1,2.5", ("water.xyz", "-o", "a.png", "--color-range", "3")),
+                (2, "must be WxH", ("water.xyz", "-o", "a.png", "--size", "3")),
+                (2, "must be above 0, like 2%", ("water.xyz", "-o", "a.png", "--error", "-2%")),
+                (2, "invalid choice: 'flat'", ("water.xyz", "-o", "a.png", "--style", "flat")),
+                (3, "view = '-0,0'", ("water.xyz", "-o", "a.png", "--view", "-0,0")),
+                (3, "view = 'side'", ("water.xyz", "-o", "a.png", "--view", "side")),
+                (3, "no column 'q'", ("water.xyz", "-o", "a.png", "--radius", "2*q")),
+                (3, "frame 2", ("water.xyz", "-o", "a.png", "--frame", "2")),
+                (3, "bad.xyz", ("bad.xyz", "-o", "a.png")),
+                (4, "no device|'nothing'", ("water.xyz", "-o", "a.png", "--device", "nothing")),
+                (6, "none.xyz: is not there", ("none.xyz", "-o", "a.png"))):
+            with self.subTest(words=words):
+                said = self.run_figure(*arguments, code=code).stderr.decode()
+                self.assertRegex(said, words)
+                self.assertNotIn("Traceback", said)
+        self.assertEqual(self.names("a*"), [])
+
+    def test_every_option_has_a_row_in_the_manual(self):
+        manual = (pathlib.Path(pt.__file__).parents[1] / "README.md").read_text()
+        for action in parser()._actions:
+            for name in action.option_strings:
+                if name not in ("-h", "--help", "-q", "--quiet", "-o"):
+                    self.assertIn(f"`{name}`", manual)
+
+
+if __name__ == "__main__":
+    unittest.main()
