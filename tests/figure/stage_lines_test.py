@@ -1,9 +1,11 @@
 """What is laid over figures: coverage, lines of cells that balls hide, outlines; against rays in double precision."""
 
 import unittest
+import unittest.mock
 
 import numpy as np
 import pt
+from pt.figure import _overlay
 from pt.figure._figure import Effort, Look, Staged
 from pt.figure._overlay import PER_SIDE, Overlaid, cell_edges, line_width, read_shares
 from pt.figure._particles import Cell, Particles
@@ -91,11 +93,28 @@ class Lines(unittest.TestCase):
             self.assertTrue((hidden == 0).any() and share(covered).max() >= 0.25)
             self.assertTrue((shares.outlines == 0).all())
 
+    def test_depths_along_a_line_into_the_distance(self):
+        """Against points of the line, which go through the pinhole of a wide view."""
+        size, camera = (80, 60), pt.Camera((0, 0, 0), (0, 0, -1), vertical_fov=np.pi / 2)
+        begin, end = np.array([-1.0, 0, -1.2]), np.array([3, 1.0, -8])
+        rows, columns, depths = _overlay._line_hits(camera, size, [(begin, end)], 2.0)
+        points = begin + np.linspace(0, 1, 20_000)[:, None] * (end - begin)
+        scale = 0.5 * size[1] * PER_SIDE / -points[:, 2]
+        x, y = 0.5 * size[0] * PER_SIDE + scale * points[:, 0], 0.5 * size[1] * PER_SIDE - scale * points[:, 1]
+        self.assertGreater(len(rows), 200)
+        for row, column, depth in zip(rows + 0.5, columns + 0.5, depths):
+            nearest = np.hypot(x - column, y - row).argmin()
+            self.assertAlmostEqual(depth / -points[nearest, 2], 1.0, places=2)
+
     def test_outlines_go_round_the_balls(self):
         """Of a ball before nothing and before others; inside of a ball and away from balls there are none."""
         for projection in ("perspective", "orthographic"):
             size = (160, 120)
             camera, shares = shares_of(projection, True, self.context, size)
+            with unittest.mock.patch.object(_overlay, "BAND_ROWS", 1000):  # bands make no seams
+                whole = shares_of(projection, True, self.context, size)[1]
+            for name in ("particles", "lines", "outlines"):
+                np.testing.assert_array_equal(getattr(shares, name), getattr(whole, name))
             _, balls = first_hits(*rays(camera, size))
             edges, rims = np.zeros(balls.shape, bool), np.zeros(balls.shape, bool)
             for axis in (0, 1):
