@@ -12,19 +12,24 @@
 const float ADVANCE_ROUNDED = 0.99999976; // 1 - 2^-22
 
 // Of what is no sphere of the tree: it goes before all of them.
-const uvec4 NO_SPHERE_WORD = uvec4(0u);
+const uvec4 NO_SPHERE_WORD = uvec4(0u, 0u, 0u, ~0u);
 
-// Of spheres at equal distances that is seen whose word is first, so that it does not depend on the tree's shape. Where
-// two differ by their motion alone it is the lower place; such a tree keeps no shape (sphere_tree.h).
+// Which of two spheres at equal distances is seen: of those about one centre the larger, which from outside is nearer
+// in truth, and else the one whose word is first, so that it does not depend on the tree's shape. Where two differ by
+// their motion alone it is the lower place; such a tree keeps no shape (sphere_tree.h).
+bool goes_before(uvec4 word, uint surface, uvec4 other_word, uint other_surface)
+{
+    return word.x != other_word.x   ? word.x < other_word.x
+           : word.y != other_word.y ? word.y < other_word.y
+           : word.z != other_word.z ? word.z < other_word.z
+           : word.w != other_word.w ? word.w > other_word.w
+                                    : surface < other_surface;
+}
+
 void keep_closer_of_tree(inout Hit hit, inout uvec4 hit_word, float distance, uint surface, uvec4 word)
 {
     bool as_close = distance == hit.distance && distance < NO_HIT;
-    bool first = word.x != hit_word.x   ? word.x < hit_word.x
-                 : word.y != hit_word.y ? word.y < hit_word.y
-                 : word.z != hit_word.z ? word.z < hit_word.z
-                 : word.w != hit_word.w ? word.w < hit_word.w
-                                        : surface < hit.surface;
-    bool closer = distance < hit.distance || (as_close && first);
+    bool closer = distance < hit.distance || (as_close && goes_before(word, surface, hit_word, hit.surface));
     hit.distance = closer ? distance : hit.distance;
     hit.surface = closer ? surface : hit.surface;
     hit_word = closer ? word : hit_word;
@@ -41,10 +46,16 @@ float distance_in_tree(Start start, GridRay ray, vec3 direction, uint surface, v
     return ray.advance + sphere_distance(ball.xyz, ball.w, direction, leaving, start.inside, outside);
 }
 
-bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, vec4 ball, float time)
+// As a ray of the same direction would meet it before the lamp. A lamp that is not in the tree goes before all that is.
+bool blocks_in_tree(Start start, GridRay ray, ShadowRay shadow, uint surface, uvec4 word, vec4 ball, float time)
 {
-    if (INSIDE == 1 || CLOSE_LAMPS == 1)
-        return blocks(shadow, distance_in_tree(start, ray, shadow.direction, surface, ball, time), surface);
+    if (INSIDE == 1 || CLOSE_LAMPS == 1) {
+        float distance = distance_in_tree(start, ray, shadow.direction, surface, ball, time);
+        bool before = distance < shadow.distance;
+        if (CLOSE_LAMPS == 1 && TREE_LAMPS > 0u && distance == shadow.distance && shadow.lamp >= SURFACE_COUNT)
+            before = goes_before(word, surface, tree_sphere_word(shadow.lamp - SURFACE_COUNT), shadow.lamp);
+        return before && surface != shadow.lamp;
+    }
     bool at_end = surface == start.surface || surface == shadow.lamp;
     return sphere_blocks(ball.xyz, ball.w, shadow.direction, at_end, shadow.distance - ray.advance);
 }
@@ -202,7 +213,7 @@ void test_sphere(inout Walk walk, uint place, GridRay ray, bool in_shadow)
     uvec4 word = tree_sphere_word(place);
     vec4 ball = tree_sphere_of(word, ray.base, ray.rest, place, walk.time);
     if (in_shadow) {
-        walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, ball, walk.time);
+        walk.blocked = blocks_in_tree(walk.start, ray, walk.shadow, surface, word, ball, walk.time);
     } else {
         float distance = distance_in_tree(walk.start, ray, walk.direction, surface, ball, walk.time);
         keep_closer_of_tree(walk.hit, walk.hit_word, distance, surface, word);

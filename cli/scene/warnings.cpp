@@ -215,6 +215,17 @@ std::optional<std::string> burnt_out_picture(const RenderReport &report, std::sp
            hint + (report.tone_map->curve == ToneCurve::none ? ", or --tonemap agx" : "");
 }
 
+bool is_black(std::span<const float> radiance) {
+    return !radiance.empty() &&
+           std::all_of(radiance.begin(), radiance.end(), [](float value) { return value == 0.0F; });
+}
+
+// Whether a warning before has said so.
+bool is_known_to_be_black(const RenderReport &report) {
+    return std::any_of(report.warnings.begin(), report.warnings.end(),
+                       [](const std::string &warning) { return warning.ends_with("the picture is black"); });
+}
+
 } // namespace
 
 std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSettings &settings) {
@@ -248,6 +259,9 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     }
     if (auto burnt_out = burnt_out_picture(report, radiance)) {
         warnings.push_back(std::move(*burnt_out));
+    }
+    if (is_black(radiance) && !is_known_to_be_black(report)) {
+        warnings.emplace_back("no sample met light: the picture is black, and the stated error of 0 says nothing");
     }
     return warnings;
 }

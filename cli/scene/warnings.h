@@ -16,8 +16,8 @@ namespace cli {
 // target error of 100% or more.
 std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSettings &settings);
 
-// Known of the image: samples left out, and a channel at its maximum in more than a quarter of the pixels of a
-// tone-mapped picture.
+// Known of the image: samples left out, a channel at its maximum in more than a quarter of the pixels of a tone-mapped
+// picture, and black throughout where the scene did not tell. report.warnings: those from before rendering.
 std::vector<std::string> image_warnings(const RenderReport &report, std::span<const float> radiance);
 
 void print_warnings(std::span<const std::string> warnings);

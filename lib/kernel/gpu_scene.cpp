@@ -4,8 +4,8 @@
 #include "lib/base/mixed.h"
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/light_spots.h"
+#include "lib/kernel/ray_start.h"
 #include "lib/kernel/scene_blocks.h"
-#include "lib/scene/ray_start.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/scene/twins.h"
 
@@ -179,16 +179,6 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     return words;
 }
 
-// With the ball about the tree, if there is one: nothing in it is nearer.
-SeenScene with_tree_as_ball(SeenScene seen, const PreparedScene &scene, const Camera &camera) {
-    if (scene.tree) {
-        const PointBox box = scene.tree->bounds();
-        const Sphere ball{0.5 * (box.low + box.high), 0.5 * glm::length(box.high - box.low), glm::dvec3(0.0), 0};
-        seen.spheres.emplace_back(ball, Material{}, camera);
-    }
-    return seen;
-}
-
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
     const std::uint64_t seed = mixed(render.seed);
     gpu::FrameConstants constants{};
@@ -216,7 +206,7 @@ struct FromStart {
 
 FromStart from_start(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
     SeenScene seen = seen_scene(scene.scene, camera);
-    const Camera start = starting_ahead(with_tree_as_ball(seen, scene, camera), camera, settings);
+    const Camera start = starting_ahead(seen, scene.tree.get(), camera, settings);
     if (start.start_distance > 0.0)
         seen = seen_scene(scene.scene, start);
     require_held_motions(seen, scene.scene, start);

@@ -13,6 +13,9 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
+#include <limits>
+#include <queue>
+#include <utility>
 
 namespace pt {
 
@@ -38,6 +41,10 @@ constexpr double share_of_close_lamps = 0.5;
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);
+}
+
+TreeNodeView node_of(std::span<const glm::uvec4> words, std::uint32_t node) {
+    return TreeNodeView(words.subspan(std::size_t{node} * gpu::TREE_NODE_WORDS));
 }
 
 std::vector<TreeItem> items_of(const SphereSource &spheres, std::span<const std::uint32_t> left_out, const Grid &grid,
@@ -247,8 +254,7 @@ template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
     while (!nodes.empty()) {
-        const TreeNodeView node(
-            std::span<const glm::uvec4>(words_).subspan(std::size_t{nodes.back()} * gpu::TREE_NODE_WORDS));
+        const TreeNodeView node = node_of(words_, nodes.back());
         nodes.pop_back();
         for (std::uint32_t child = 0; child < node.child_count(); ++child) {
             if (!meet(node.box(child), box))
@@ -294,6 +300,33 @@ bool SphereTree::divides_start(const Camera &camera) const {
     const glm::ivec3 high(glm::ceil(glm::clamp(middle + radius, -beyond, beyond)));
     return any_in({low, high},
                   [&](std::uint32_t place) { return pt::divides_start(seen_ball(place, camera), camera, grid_.step); });
+}
+
+// Enters the nearest node first, and only those before the nearest sphere so far.
+double SphereTree::least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
+                               const std::function<double(const MovingBall &)> &of_sphere) const {
+    using Entry = std::pair<double, std::uint32_t>; // depth and node
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> entries;
+    entries.emplace(0.0, 0);
+    double least = std::numeric_limits<double>::infinity();
+    while (!entries.empty() && entries.top().first < least) {
+        const TreeNodeView node = node_of(words_, entries.top().second);
+        entries.pop();
+        for (std::uint32_t child = 0; child < node.child_count(); ++child) {
+            if (child < node.inner_count()) {
+                const GridBox box = node.box(child);
+                const glm::dvec3 low = grid_.point(box.low) - camera.position;
+                const glm::dvec3 high = grid_.point(box.high) - camera.position;
+                const MovingBall about{0.5 * (low + high), glm::dvec3(0.0), 0.5 * glm::length(high - low)};
+                if (const double depth = of_region(about); depth < least)
+                    entries.emplace(depth, node.first_child() + child);
+            } else {
+                const std::uint32_t place = node.first_place() + child - node.inner_count();
+                least = std::min(least, of_sphere(seen_ball(place, camera)));
+            }
+        }
+    }
+    return least;
 }
 
 bool SphereTree::finds_close_lamps(WorkProgress &progress) const {

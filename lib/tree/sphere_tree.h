@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -93,6 +94,10 @@ public:
 
     // Whether parallel rays of a camera may start on either side of a sphere (start_disc.h).
     bool divides_start(const Camera &camera) const;
+
+    // The least depth of the spheres as a camera sees them. of_region: no more than the depth of any sphere in a ball.
+    double least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
+                       const std::function<double(const MovingBall &)> &of_sphere) const;
 
     // Of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }

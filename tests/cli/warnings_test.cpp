@@ -125,6 +125,18 @@ TEST(Warnings, SamplesLeftOut) {
               Texts{"4 samples (25%) were left out: not finite, negative or too bright"});
 }
 
+TEST(Warnings, BlackPictures) {
+    cli::RenderReport report{};
+    std::vector<float> radiance(6, 0.0F);
+    EXPECT_EQ(image_warnings(report, radiance),
+              Texts{"no sample met light: the picture is black, and the stated error of 0 says nothing"});
+    report.warnings = {"s.json: no surface emits light: the picture is black"};
+    EXPECT_EQ(image_warnings(report, radiance), Texts());
+    report.warnings.clear();
+    radiance[4] = 1e-30F;
+    EXPECT_EQ(image_warnings(report, radiance), Texts());
+}
+
 TEST(Warnings, BurntOutPictures) {
     cli::RenderReport report{};
     report.tone_map.emplace();

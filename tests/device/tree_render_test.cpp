@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -186,6 +187,25 @@ TEST_F(TreeRender, IsLitByASkyAndByALampBesideTheTree) {
             EXPECT_LT(found.share, 0.02) << length;
             EXPECT_LT(found.mean, 1e-3) << length;
         }
+    }
+}
+
+// Rays towards the lamp meet both surfaces at equal distances, as float32 has them, one time in some hundred.
+TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
+    Balls balls;
+    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0});
+    balls.spheres[60].material = 0;
+    for (const double distance : {30.0, 100.0}) {
+        const auto light_with = [&](std::size_t lamp, std::size_t other, std::uint32_t material) {
+            balls.spheres[lamp] = {{distance, distance, 0}, 1, {0, 0, 0}, 1, 0};
+            balls.spheres[other] = {{distance, distance, 0}, 1.0 - 1e-5, {0, 0, 0}, material, 0};
+            const pt_render render = render_of(picture_width, picture_height, 2);
+            const std::vector<float> image = render_image(context(), balls.scene(), camera_at(0, 1, 6), render, 64);
+            return std::accumulate(image.begin(), image.end(), 0.0);
+        };
+        const double alone = light_with(30, 31, 1); // a lamp within the lamp
+        EXPECT_NEAR(light_with(30, 31, 2) / alone, 1.0, 1e-5) << distance;
+        EXPECT_NEAR(light_with(31, 30, 2) / alone, 1.0, 1e-5) << distance;
     }
 }
 

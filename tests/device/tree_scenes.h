@@ -4,12 +4,24 @@
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
 
+#include <pt/pt.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
+
+// As a caller of pt.h has them.
+inline std::vector<pt_sphere> caller_spheres(const std::vector<pt::Sphere> &spheres) {
+    std::vector<pt_sphere> result;
+    for (const pt::Sphere &s : spheres)
+        result.push_back(
+            {{s.center.x, s.center.y, s.center.z}, s.radius, {s.motion.x, s.motion.y, s.motion.z}, s.material, 0});
+    return result;
+}
 
 class TreeScenes {
 public:

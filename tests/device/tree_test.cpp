@@ -16,14 +16,6 @@ namespace {
 
 using FilmWords = KernelRender::FilmWords;
 
-std::vector<pt_sphere> caller_spheres(const std::vector<pt::Sphere> &spheres) {
-    std::vector<pt_sphere> result;
-    for (const pt::Sphere &s : spheres)
-        result.push_back(
-            {{s.center.x, s.center.y, s.center.z}, s.radius, {s.motion.x, s.motion.y, s.motion.z}, s.material, 0});
-    return result;
-}
-
 std::size_t scene_count() {
     const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
     return wanted ? std::stoul(wanted) : 24;

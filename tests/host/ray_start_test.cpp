@@ -1,5 +1,8 @@
 // Where camera rays start in narrow views.
-#include "lib/scene/ray_start.h"
+#include "lib/kernel/prepared_scene.h"
+#include "lib/kernel/ray_start.h"
+#include "lib/scene/checked_scene.h"
+#include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +31,7 @@ double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Pl
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
     scene.spheres = spheres;
     scene.planes = planes;
-    const pt::Camera ahead = pt::starting_ahead(pt::seen_scene(scene, camera), camera, square);
+    const pt::Camera ahead = pt::starting_ahead(pt::seen_scene(scene, camera), nullptr, camera, square);
     EXPECT_LT(glm::length(ahead.position - camera.position - ahead.start_distance * camera.forward),
               1e-15 * ahead.start_distance + 1e-15);
     return ahead.start_distance;
@@ -135,6 +138,44 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
         }
     }
     EXPECT_GT(near_misses, 1000) << "the bound is of use";
+}
+
+// Spheres of a tree are looked at one by one, whether the camera is among them or not, and with room before each at
+// which float32 tells its side: where those of a list that are larger by as much, or smaller around the camera, let
+// rays start.
+TEST(RayStart, OfATreeIsThatOfItsSpheres) {
+    std::mt19937 engine(7);
+    const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
+    const pt_material grey{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    int ahead = 0;
+    for (int round = 0; round < 300; ++round) {
+        pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, std::pow(10.0, uniform(-6, -2.5)));
+        camera.vertical_extent = round % 2 == 0 ? 0.0 : std::pow(10.0, uniform(-4, 1));
+        const bool moves = round % 3 == 0;
+        const glm::dvec3 middle = camera_position + (round % 5 == 0 ? 300.0 : 0.0) * camera.forward;
+        const auto point = [&](double reach) {
+            return glm::dvec3(uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach));
+        };
+        std::vector<pt::Sphere> list;
+        std::vector<pt_sphere> held;
+        const auto count = static_cast<int>(std::pow(10.0, uniform(0, 2.5)));
+        for (int i = 0; i < count; ++i) {
+            const bool is_sky = i == 3 && round % 4 == 0;
+            const glm::dvec3 centre = is_sky ? camera_position : middle + point(10);
+            const glm::dvec3 way = moves && !is_sky ? point(0.5) : glm::dvec3(0);
+            const double radius = is_sky ? 30 : uniform(0.1, 1.5);
+            held.push_back({{centre.x, centre.y, centre.z}, radius, {way.x, way.y, way.z}, 0, 0});
+            const bool is_around = way == glm::dvec3(0) && glm::length(centre - camera_position) < radius;
+            list.push_back({centre, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
+        }
+        const pt::PreparedScene prepared(pt::checked_scene(scene_of({&grey, 1}, held, {})), 1);
+        const pt::SeenScene beside = pt::seen_scene(prepared.scene, camera); // what reaches too far for the tree
+        const double start = pt::starting_ahead(beside, prepared.tree.get(), camera, square).start_distance;
+        const double expected = start_of(list, {}, camera);
+        EXPECT_NEAR(start, expected, 1e-3 * (1.0 + 1e-3 * expected)) << "round " << round;
+        ahead += expected > 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(ahead, 90) << "some start ahead";
 }
 
 } // namespace

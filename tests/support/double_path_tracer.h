@@ -1,16 +1,19 @@
-// What a pixel of diffuse surfaces shows, by the plainest of path tracers in double: no lamp is sampled, no sequence of
-// points is used, and nothing is shared with the library. Used by tests of whole images.
+// What pixels show, by a plain path tracer in double: it tests every surface, samples one lamp and the reflection at
+// each vertex, weighs the two by the balance heuristic, and shares nothing with the library. Used by tests of whole
+// images.
 #pragma once
 
 #include <pt/pt.h>
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 class DoublePathTracer {
 public:
@@ -26,7 +29,11 @@ public:
         position_(vector(camera.position)),
         forward_(glm::normalize(vector(camera.target) - position_)),
         right_(glm::normalize(glm::cross(forward_, vector(camera.up)))),
-        up_(glm::cross(right_, forward_)) {}
+        up_(glm::cross(right_, forward_)) {
+        for (std::uint32_t i = 0; i < scene.sphere_count; ++i)
+            if (colour(scene.materials[scene.spheres[i].material].emission) != glm::dvec3(0.0))
+                lamps_.push_back(i);
+    }
 
     // Of a rectangle of pixels, at a number of places in each of them.
     Estimate of_rectangle(const pt_render &render, glm::uvec2 first, glm::uvec2 size, std::uint32_t samples) {
@@ -54,6 +61,26 @@ private:
         double distance = std::numeric_limits<double>::infinity();
         glm::dvec3 normal{0.0};
         std::uint32_t material = 0;
+        std::uint32_t surface = 0; // spheres, and then planes
+    };
+
+    // A vertex that reflects: f = kd / pi + ks (n + 2) / (2 pi) max(0, cos)^n, with the cosine to the mirror direction.
+    struct Reflection {
+        glm::dvec3 normal, mirror, diffuse, specular;
+        double exponent;
+
+        double lobe(const glm::dvec3 &to) const {
+            return std::pow(std::max(glm::dot(mirror, to), 0.0), exponent) / (2.0 * std::numbers::pi);
+        }
+        double specular_share() const { return (specular.r + specular.g + specular.b) / sum(); }
+        double sum() const { return diffuse.r + diffuse.g + diffuse.b + specular.r + specular.g + specular.b; }
+        double density(const glm::dvec3 &to) const {
+            const double cosine = glm::dot(normal, to) / std::numbers::pi;
+            return (1.0 - specular_share()) * cosine + specular_share() * (exponent + 1.0) * lobe(to);
+        }
+        glm::dvec3 value_times_cosine(const glm::dvec3 &to) const {
+            return (diffuse / std::numbers::pi + (exponent + 2.0) * lobe(to) * specular) * glm::dot(normal, to);
+        }
     };
 
     static glm::dvec3 vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
@@ -73,27 +100,77 @@ private:
         glm::dvec3 direction = is_parallel ? forward_ : glm::normalize(forward_ + across);
         glm::dvec3 radiance(0.0);
         glm::dvec3 weight(1.0);
+        double density = 0.0; // of the direction, where lamps are sampled as well
         for (std::uint32_t vertex = 0; vertex < render.max_path_length; ++vertex) {
             const Hit hit = first_hit(origin, direction, time, vertex == 0);
             if (std::isinf(hit.distance))
                 break;
-            radiance += weight * colour(scene_.materials[hit.material].emission);
-            weight *= colour(scene_.materials[hit.material].diffuse);
-            if (weight == glm::dvec3(0.0))
-                break;
+            const pt_material &material = scene_.materials[hit.material];
+            const double by_lamp = vertex == 0 ? 0.0 : lamp_density(hit.surface, origin, time);
+            radiance += weight * colour(material.emission) * (by_lamp > 0.0 ? density / (density + by_lamp) : 1.0);
             origin += hit.distance * direction + 1e-7 * hit.normal;
-            direction = cosine_direction(hit.normal);
+            const Reflection reflection{hit.normal, glm::reflect(direction, hit.normal), colour(material.diffuse),
+                                        colour(material.specular), material.glossiness};
+            if (reflection.sum() == 0.0 || vertex + 1 == render.max_path_length)
+                break;
+            radiance += weight * light_of_a_lamp(origin, reflection, time);
+            const bool mirrors = share() < reflection.specular_share();
+            direction = mirrors ? lobe_direction(reflection) : cosine_direction(hit.normal);
+            if (glm::dot(direction, hit.normal) <= 0.0)
+                break;
+            density = reflection.density(direction);
+            weight *= reflection.value_times_cosine(direction) / density;
         }
         return (radiance.r + radiance.g + radiance.b) / 3.0;
     }
 
-    // A point on the unit sphere about the normal's end, as seen from the normal's foot.
-    glm::dvec3 cosine_direction(const glm::dvec3 &normal) {
-        const double z = 1.0 - 2.0 * share();
-        const double angle = 2.0 * std::numbers::pi * share();
-        const double radius = std::sqrt(1.0 - z * z);
-        return glm::normalize(normal + glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), z));
+    glm::dvec3 centre_at(const pt_sphere &sphere, double time) const {
+        return vector(sphere.center) + time * vector(sphere.motion);
     }
+
+    // 1 - cos of the half angle that a sphere subtends; 0 from within, where it is not sampled.
+    double cap(const pt_sphere &sphere, const glm::dvec3 &from, double time) const {
+        const glm::dvec3 to = centre_at(sphere, time) - from;
+        const double squared_sine = sphere.radius * sphere.radius / glm::dot(to, to);
+        return squared_sine < 1.0 ? squared_sine / (1.0 + std::sqrt(1.0 - squared_sine)) : 0.0;
+    }
+
+    double lamp_density(std::uint32_t surface, const glm::dvec3 &from, double time) const {
+        if (surface >= scene_.sphere_count)
+            return 0.0;
+        const double height = cap(scene_.spheres[surface], from, time);
+        return height > 0.0 ? 1.0 / (2.0 * std::numbers::pi * height * static_cast<double>(lamps_.size())) : 0.0;
+    }
+
+    glm::dvec3 light_of_a_lamp(const glm::dvec3 &from, const Reflection &reflection, double time) {
+        if (lamps_.empty())
+            return glm::dvec3(0.0);
+        const std::uint32_t index = lamps_[engine_() % lamps_.size()];
+        const pt_sphere &lamp = scene_.spheres[index];
+        const double height = cap(lamp, from, time);
+        if (height == 0.0)
+            return glm::dvec3(0.0);
+        const glm::dvec3 to = around(glm::normalize(centre_at(lamp, time) - from), share() * height);
+        if (glm::dot(to, reflection.normal) <= 0.0 || first_hit(from, to, time, false).surface != index)
+            return glm::dvec3(0.0);
+        const double density = lamp_density(index, from, time) + reflection.density(to);
+        return colour(scene_.materials[lamp.material].emission) * reflection.value_times_cosine(to) / density;
+    }
+
+    // At 1 - cos from an axis.
+    glm::dvec3 around(const glm::dvec3 &axis, double height) {
+        const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        const glm::dvec3 x = glm::normalize(glm::cross(axis, other));
+        const double angle = 2.0 * std::numbers::pi * share();
+        const double sine = std::sqrt(height * (2.0 - height));
+        return (1.0 - height) * axis + sine * (std::cos(angle) * x + std::sin(angle) * glm::cross(axis, x));
+    }
+
+    glm::dvec3 lobe_direction(const Reflection &reflection) {
+        return around(reflection.mirror, -std::expm1(std::log(1.0 - share()) / (reflection.exponent + 1.0)));
+    }
+
+    glm::dvec3 cosine_direction(const glm::dvec3 &normal) { return around(normal, 1.0 - std::sqrt(1.0 - share())); }
 
     bool is_hidden(std::uint32_t material) const {
         return scene_.material_flags && scene_.material_flags[material] == PT_MATERIAL_HIDDEN_FROM_CAMERA;
@@ -105,7 +182,7 @@ private:
             const pt_sphere &sphere = scene_.spheres[i];
             if (is_of_camera && is_hidden(sphere.material))
                 continue;
-            const glm::dvec3 to_centre = vector(sphere.center) + time * vector(sphere.motion) - origin;
+            const glm::dvec3 to_centre = centre_at(sphere, time) - origin;
             const double along = glm::dot(to_centre, direction);
             const glm::dvec3 across = to_centre - along * direction;
             const double square = sphere.radius * sphere.radius - glm::dot(across, across);
@@ -117,7 +194,7 @@ private:
             if (distance <= 0.0 || distance >= nearest.distance)
                 continue;
             const glm::dvec3 outward = (distance * direction - to_centre) / sphere.radius;
-            nearest = {distance, enters ? outward : -outward, sphere.material};
+            nearest = {distance, enters ? outward : -outward, sphere.material, i};
         }
         for (std::uint32_t i = 0; i < scene_.plane_count; ++i) {
             const pt_plane &plane = scene_.planes[i];
@@ -127,7 +204,8 @@ private:
             const double slope = glm::dot(normal, direction);
             const double distance = -(glm::dot(normal, origin) + plane.offset) / slope;
             if (distance > 0.0 && distance < nearest.distance)
-                nearest = {distance, glm::normalize(slope > 0.0 ? -normal : normal), plane.material};
+                nearest = {distance, glm::normalize(slope > 0.0 ? -normal : normal), plane.material,
+                           scene_.sphere_count + i};
         }
         return nearest;
     }
@@ -135,5 +213,6 @@ private:
     const pt_scene &scene_;
     pt_camera camera_;
     std::mt19937_64 engine_;
+    std::vector<std::uint32_t> lamps_; // spheres that emit
     glm::dvec3 position_, forward_, right_, up_;
 };

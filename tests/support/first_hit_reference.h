@@ -59,8 +59,10 @@ struct Meeting {
 // touching, as s^2 against 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane is the
 // same with k = 0.
 //
-// In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there.
-inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat) {
+// In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there. A centre
+// may be elsewhere by astray, as the grid of a tree has it; then the camera's side is uncertain within that, too.
+inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
+                           Real astray) {
     const Vector centre = vector_of(sphere.center) + time * vector_of(sphere.motion) - camera - ray.origin;
     const Real r = sphere.radius;
     const Real along = glm::dot(centre, ray.direction);
@@ -68,7 +70,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     const Real height = glm::length(centre) - r;
     Meeting meeting;
     const Real reach = glm::length(centre - ray.start);
-    const Real touching = is_flat ? 64.0L * rounding * r : (16.0L * reach + 4.0L * r) * rounding;
+    const Real touching = is_flat ? 64.0L * rounding * r : (16.0L * reach + 4.0L * r) * rounding + astray;
     if (height > 0.0L && (along <= 0.0L || l > r)) {
         meeting.is_uncertain = along > 0.0L && l - r < touching;
         if (meeting.is_uncertain)
@@ -76,6 +78,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
         return meeting;
     }
     meeting.is_uncertain = height > 0.0L && r - l < touching;
+    meeting.is_uncertain = meeting.is_uncertain || std::abs(height) < astray;
     const Real half_chord = std::sqrt((r - l) * (r + l));
     // The roots' product is the power of the camera, so that the nearer one does not cancel.
     meeting.distance = height > 0.0L ? height * (glm::length(centre) + r) / (along + half_chord) : along + half_chord;
@@ -85,7 +88,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     const Real way = glm::length(meeting.distance * ray.direction - ray.start);
     const Real across = is_flat ? way : reach;
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
-                                : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine);
+                                : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
     meeting.normal = height > 0.0L ? outward : -outward;
     // A point that is elsewhere by so much has a normal that is by 1 / r of it; and eight roundings of its own.
     meeting.normal_tolerance = (meeting.tolerance + 16.0L * rounding * across) / r + 8.0L * rounding;
@@ -118,6 +121,7 @@ struct View {
     std::uint32_t width, height;
     Real shutter_open, shutter_close;
     Real start_distance = 0.0L;
+    Real tree_step = 0.0L; // of the grid that holds the spheres; 0: they are in no tree
 
     View(const pt_camera &camera, const pt_render &render) :
         position(vector_of(camera.position)),
@@ -158,8 +162,10 @@ inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view,
         if (!is_seen(scene, sphere.material))
             continue;
         const Vector open = vector_of(sphere.center) + view.shutter_open * vector_of(sphere.motion) - view.position;
-        const bool is_flat = sphere.radius > 32.0L * std::abs(glm::length(open) - sphere.radius);
-        met.push_back(meet_sphere(sphere, view.position, ray, ray.time, is_flat));
+        const bool is_flat =
+            view.tree_step == 0.0L && sphere.radius > 32.0L * std::abs(glm::length(open) - sphere.radius);
+        const Real astray = view.tree_step + 4.0L * rounding * glm::length(vector_of(sphere.motion));
+        met.push_back(meet_sphere(sphere, view.position, ray, ray.time, is_flat, astray));
         met.back().object = i;
     }
     for (std::uint32_t i = 0; i < scene.plane_count; ++i) {

@@ -6,6 +6,7 @@
 #include "tests/support/double_path_tracer.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
+#include "tests/support/statistics.h"
 
 #include <algorithm>
 #include <array>
@@ -50,13 +51,14 @@ inline pt_render picture_of(std::uint32_t sampler) {
     return render;
 }
 
-inline Blocks exact_blocks(const Given &given, std::uint32_t samples) {
+inline Blocks exact_blocks(const Given &given, std::uint32_t samples,
+                           const pt_render &render = picture_of(PT_SAMPLER_RANDOM)) {
     const pt_scene scene = given.scene();
     DoublePathTracer tracer(scene, given.camera, 7);
     Blocks blocks;
     for (std::uint32_t y = 0; y < picture.y; y += block.y)
         for (std::uint32_t x = 0; x < picture.x; x += block.x)
-            blocks.push_back(tracer.of_rectangle(picture_of(PT_SAMPLER_RANDOM), {x, y}, block, samples));
+            blocks.push_back(tracer.of_rectangle(render, {x, y}, block, samples));
     return blocks;
 }
 
@@ -68,33 +70,48 @@ inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
     return sum / (3.0 * block.x * block.y);
 }
 
+// In standard errors that the images tell.
+struct Deviation {
+    double of_image = 0.0;
+    double largest = 0.0; // of the blocks', without a sign
+};
+
 class LightInDouble : public ContextFixture {
 protected:
-    // How far off the block is that is farthest off, in standard errors. The images have other seeds and, as the points
-    // of one sampler do not depend on the seed, other samples.
-    double largest_error(const Given &given, const Blocks &exact, std::uint32_t sampler) {
+    // The images have other seeds and, as the points of one sampler do not depend on the seed, other samples.
+    static Deviation deviation(pt_context *context, const Given &given, const Blocks &exact, pt_render render) {
         std::vector<std::vector<float>> images;
-        pt_render render = picture_of(sampler);
         for (render.seed = 1; render.seed <= image_count; ++render.seed) {
-            images.push_back(render_image(context(), given.scene(), given.camera, render, samples_of_image));
+            images.push_back(render_image(context, given.scene(), given.camera, render, samples_of_image));
             render.first_sample += samples_of_image;
         }
-        double largest = 0.0;
+        Deviation found;
+        std::vector<double> of_images(image_count);
+        DoublePathTracer::Estimate all;
         for (std::uint32_t i = 0; i < exact.size(); ++i) {
             const glm::uvec2 first = block * glm::uvec2(i % (picture.x / block.x), i / (picture.x / block.x));
-            double sum = 0.0;
-            double squares = 0.0;
-            for (const std::vector<float> &image : images) {
-                const double mean = mean_of_block(image, first);
-                sum += mean;
-                squares += mean * mean;
-            }
-            const double mean = sum / image_count;
-            const double variance = (squares / image_count - mean * mean) / (image_count - 1);
-            largest = std::max(largest, std::abs(mean - exact[i].mean) /
-                                            std::sqrt(variance + exact[i].variance + 1e-12)); // of a black block
+            std::vector<double> means;
+            for (const std::vector<float> &image : images)
+                means.push_back(mean_of_block(image, first));
+            for (std::size_t k = 0; k < image_count; ++k)
+                of_images[k] += means[k];
+            all.mean += exact[i].mean;
+            all.variance += exact[i].variance;
+            found.largest = std::max(found.largest, std::abs(deviation_of(means, exact[i])));
         }
-        return largest;
+        found.of_image = deviation_of(of_images, all);
+        return found;
+    }
+
+    double largest_error(const Given &given, const Blocks &exact, std::uint32_t sampler) {
+        return deviation(context(), given, exact, picture_of(sampler)).largest;
+    }
+
+private:
+    static double deviation_of(const std::vector<double> &means, const DoublePathTracer::Estimate &exact) {
+        const statistics::Moments found = statistics::moments(means);
+        const double black = 1e-12;
+        return (found.mean - exact.mean) / std::sqrt(found.variance / image_count + exact.variance + black);
     }
 };
 

@@ -112,7 +112,11 @@ enum {
  *
  * Of spheres that float32 cannot tell apart as the camera sees them the first in the scene stands for all, and so of
  * planes: radii that differ by less than a 2^18th, and centres by less than a 2^18th of the radius plus a 2^21th of the
- * distance, but never by a quarter of the radius. */
+ * distance, but never by a quarter of the radius.
+ *
+ * Spheres in a tree (PT_FEATURE_TREE) count as one only if all that it holds of them is equal; of others at equal
+ * distances the largest about one centre is seen. A camera that is nearer to the surface of one than a 2^22th of its
+ * radius plus a 2^28th of the extent of those in the tree may see its other side. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */

@@ -1,5 +1,5 @@
 // Finds how near the first surface in view can be; see ray_start.h.
-#include "lib/scene/ray_start.h"
+#include "lib/kernel/ray_start.h"
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
@@ -49,25 +49,15 @@ double nearest_depth(const CurvedPlane &plane, const View &view) {
     return nearest;
 }
 
-// Of the directions of the cone, the one nearest to the sphere's centre meets it first, if the camera is outside; if it
-// is inside, the one farthest from the centre. With b = d cos(angle) the roots are b -+ sqrt(r^2 - d^2 sin^2(angle)),
-// whose product is d^2 - r^2: nothing cancels for small far spheres. A sphere that moves is taken for the ball about
-// its way.
-double nearest_depth(const SeenSphere &sphere, const View &view) {
-    const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
-    const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
+// Of the directions of the cone, the one nearest to the ball's centre meets it first. With b = d cos(angle) the root is
+// b - sqrt(r^2 - d^2 sin^2(angle)), or (d^2 - r^2) / (b + the same): nothing cancels for small far balls.
+double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
+    const double power = (distance - radius) * (distance + radius); // of the camera with respect to the ball
+    if (power <= 0.0)
+        return 0.0;
     const double along = glm::dot(centre, view.forward);
     const double angle = std::atan2(glm::length(centre - along * view.forward), along);
-    const double power = (distance - radius) * (distance + radius); // of the camera with respect to the sphere
-    if (power <= 0.0) {
-        if (sphere.way != glm::dvec3(0.0))
-            return 0.0;
-        const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
-        const double across = distance * std::sin(farthest);
-        const double half_chord = std::sqrt(radius * radius - across * across);
-        return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
-    }
     const double nearest = std::max(angle - view.half_angle, 0.0);
     const double across = distance * std::sin(nearest);
     const double squared_half_chord = radius * radius - across * across;
@@ -75,6 +65,26 @@ double nearest_depth(const SeenSphere &sphere, const View &view) {
     if (b <= 0.0 || squared_half_chord < 0.0)
         return out_of_view;
     return power / (b + std::sqrt(squared_half_chord)) * std::cos(view.half_angle);
+}
+
+bool starts_within(const glm::dvec3 &centre, double radius, const View &) {
+    return glm::length(centre) <= radius;
+}
+
+// From within, the direction farthest from the centre meets the sphere first.
+double depth_from_within(const glm::dvec3 &centre, double radius, const View &view) {
+    const double distance = glm::length(centre);
+    const double along = glm::dot(centre, view.forward);
+    const double angle = std::atan2(glm::length(centre - along * view.forward), along);
+    const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
+    const double across = distance * std::sin(farthest);
+    const double half_chord = std::sqrt(radius * radius - across * across);
+    return (distance * std::cos(farthest) + half_chord) * std::cos(view.half_angle);
+}
+
+// The ball about the way says enough.
+double depth_on_way(const MovingBall &, const View &) {
+    return 0.0;
 }
 
 // The box of the parallel rays of an image, and the cylinder about it.
@@ -102,13 +112,10 @@ double nearest_depth(const CurvedPlane &plane, const ParallelView &view) {
     return slope > 0.0 ? (plane.offset - across) / slope : out_of_view;
 }
 
-// Of the lines of the cylinder those nearest to the centre meet the sphere first, at a - sqrt(r^2 - c^2) for a centre
-// at depth a and c from the line; if all start inside, those farthest from it, at a + sqrt(r^2 - c^2). The first is
-// (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small far spheres: the centre is at a
-// distance d, and d^2 - r^2 is a product. A sphere that moves is taken for the ball about its way.
-double nearest_depth_of_ball(const SeenSphere &sphere, const ParallelView &view) {
-    const glm::dvec3 centre = sphere.open + 0.5 * sphere.way;
-    const double radius = sphere.radius + 0.5 * glm::length(sphere.way);
+// Of the lines of the cylinder those nearest to the centre meet the ball first, at a - sqrt(r^2 - c^2) for a centre at
+// depth a and c from the line. That is (a^2 + c^2 - r^2) / (a + sqrt(r^2 - c^2)), in which nothing cancels for small
+// far balls: the centre is at a distance d, and d^2 - r^2 is a product.
+double depth_of_ball(const glm::dvec3 &centre, double radius, const ParallelView &view) {
     const double depth = glm::dot(centre, view.forward);
     const double across = glm::length(centre - depth * view.forward);
     const double least = std::max(across - view.radius, 0.0);
@@ -119,21 +126,64 @@ double nearest_depth_of_ball(const SeenSphere &sphere, const ParallelView &view)
         return out_of_view; // behind
     const double distance = glm::length(centre);
     const double power = (distance - radius) * (distance + radius) - (across - least) * (across + least);
-    if (depth > 0.0 && power > 0.0)
-        return power / (depth + half_chord);
-    const double most = across + view.radius;
-    if (sphere.way != glm::dvec3(0.0) || std::hypot(depth, most) >= radius)
-        return 0.0;
-    return depth + std::sqrt((radius - most) * (radius + most));
+    return depth > 0.0 && power > 0.0 ? power / (depth + half_chord) : 0.0;
 }
 
-// The ball about the way of one that moves across the view reaches before all that it passes.
-double nearest_depth(const SeenSphere &sphere, const ParallelView &view) {
-    const double ball = nearest_depth_of_ball(sphere, view);
-    if (sphere.way == glm::dvec3(0.0))
-        return ball;
+// The farthest that a ray starts from the axis through the centre.
+double most_across(const glm::dvec3 &centre, const ParallelView &view) {
+    return glm::length(centre - glm::dot(centre, view.forward) * view.forward) + view.radius;
+}
+
+// Whether all rays do.
+bool starts_within(const glm::dvec3 &centre, double radius, const ParallelView &view) {
+    return std::hypot(glm::dot(centre, view.forward), most_across(centre, view)) < radius;
+}
+
+double depth_from_within(const glm::dvec3 &centre, double radius, const ParallelView &view) {
+    const double most = most_across(centre, view);
+    return glm::dot(centre, view.forward) + std::sqrt((radius - most) * (radius + most));
+}
+
+// A sphere comes no nearer than at an end of its way, while the ball about the way of one that moves across the view
+// reaches before all that it passes.
+double depth_on_way(const MovingBall &sphere, const ParallelView &view) {
     const double open = glm::dot(sphere.open, view.forward);
-    return std::max(ball, open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius);
+    return open + std::min(glm::dot(sphere.way, view.forward), 0.0) - sphere.radius;
+}
+
+// No more than the depth of any point that the ball takes up on its way.
+template <typename AnyView>
+double depth_of_region(const MovingBall &ball, const AnyView &view) {
+    const double depth = depth_of_ball(ball.open + 0.5 * ball.way, ball.radius + 0.5 * glm::length(ball.way), view);
+    return ball.way == glm::dvec3(0.0) ? depth : std::max(depth, depth_on_way(ball, view));
+}
+
+// A sphere is hollow: where the camera is inside, its far wall is what rays meet. margin: how far before the surface
+// the depth is to be, on either side, as a share of the radius.
+template <typename AnyView>
+double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double margin = 0.0) {
+    const double inner = sphere.radius * (1.0 - margin);
+    if (sphere.way == glm::dvec3(0.0) && starts_within(sphere.open, inner, view))
+        return depth_from_within(sphere.open, inner, view);
+    return depth_of_region({sphere.open, sphere.way, sphere.radius * (1.0 + margin)}, view);
+}
+
+// How near the first surface in view can be. Spheres of the tree are held by their centres however near they are, so
+// that rays keep a distance from them at which float32 tells the side: it costs no precision, as the centre is known
+// no better.
+template <typename AnyView>
+double first_depth(const SeenScene &seen, const SphereTree *tree, const Camera &camera, const AnyView &view) {
+    double depth = out_of_view;
+    for (const SeenSphere &sphere : seen.spheres)
+        depth = std::min(depth, depth_of_sphere(sphere, view));
+    for (const CurvedPlane &plane : seen.planes)
+        depth = std::min(depth, nearest_depth(plane, view));
+    if (tree)
+        depth = std::min(
+            depth, tree->least_depth(
+                       camera, [&](const MovingBall &region) { return depth_of_region(region, view); },
+                       [&](const MovingBall &sphere) { return depth_of_sphere(sphere, view, 2.0 * side_margin); }));
+    return depth;
 }
 
 // Of what is wider the squares of distances would not be numbers of float32.
@@ -151,14 +201,11 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
 
 // Stays as far before the first surface as the view is wide, and a little more, so that no surface in view divides the
 // disc.
-Camera starting_in_parallel(const SeenScene &seen, const Camera &camera, const RenderSettings &settings) {
+Camera starting_in_parallel(const SeenScene &seen, const SphereTree *tree, const Camera &camera,
+                            const RenderSettings &settings) {
     require_held_view(camera, settings);
     const ParallelView view(camera, settings);
-    double depth = out_of_view;
-    for (const SeenSphere &sphere : seen.spheres)
-        depth = std::min(depth, nearest_depth(sphere, view));
-    for (const CurvedPlane &plane : seen.planes)
-        depth = std::min(depth, nearest_depth(plane, view));
+    const double depth = first_depth(seen, tree, camera, view);
     Camera ahead = camera;
     ahead.start_radius = view.radius;
     if (depth <= farthest_start)
@@ -169,17 +216,14 @@ Camera starting_in_parallel(const SeenScene &seen, const Camera &camera, const R
 
 } // namespace
 
-Camera starting_ahead(const SeenScene &seen, const Camera &camera, const RenderSettings &settings) {
+Camera starting_ahead(const SeenScene &seen, const SphereTree *tree, const Camera &camera,
+                      const RenderSettings &settings) {
     if (camera.is_orthographic())
-        return starting_in_parallel(seen, camera, settings);
+        return starting_in_parallel(seen, tree, camera, settings);
     if (2.0 * camera.tan_half_fov / settings.height > narrow_pixel)
         return camera;
     const View view(camera, settings);
-    double depth = out_of_view;
-    for (const SeenSphere &sphere : seen.spheres)
-        depth = std::min(depth, nearest_depth(sphere, view));
-    for (const CurvedPlane &plane : seen.planes)
-        depth = std::min(depth, nearest_depth(plane, view));
+    const double depth = first_depth(seen, tree, camera, view);
     if (depth > farthest_start)
         return camera;
     // Keeps a distance from the first surface as large as the view is wide there, so that rounding puts no start behind

@@ -1,0 +1,239 @@
+// Images of random scenes beside those of a path tracer of their own in double: trees, parallel rays, what is hidden
+// from the camera, nested balls, motion, spots, twins, all estimators and samplers. PT_TEST_SCENES says of how many; by
+// default some. Run alone with --gtest_filter=RandomLight*.
+#include "tests/support/batch_fixture.h"
+#include "tests/support/light_in_double.h"
+#include "tests/support/shared_context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace random_light {
+
+namespace {
+
+using namespace light_in_double;
+
+constexpr std::uint32_t material_count = 4; // and each again, hidden
+constexpr std::uint32_t lamp = 2;
+constexpr std::uint32_t glossy = 3;
+
+enum Kind { mixed, parallel, hidden, nested, moving, spots, twins, weak_estimators, kind_count };
+constexpr const char *kind_names[] = {"mixed",  "parallel", "hidden", "nested",
+                                      "moving", "spots",    "twins",  "estimators"};
+
+std::uint32_t scene_count() {
+    const char *const asked = std::getenv("PT_TEST_SCENES");
+    return asked ? static_cast<std::uint32_t>(std::atoi(asked)) : std::uint32_t{kind_count};
+}
+
+struct Picture {
+    Kind kind;
+    bool has_tree;
+    Given given;
+    Given expected; // the same without twins
+    pt_render render;
+
+    std::string name() const { return std::string(kind_names[kind]) + (has_tree ? ", tree" : ", list"); }
+};
+
+class RandomPicture {
+public:
+    explicit RandomPicture(std::uint32_t seed) : seed_(seed), engine_(seed) {}
+
+    Picture made() {
+        Picture picture{static_cast<Kind>(seed_ % kind_count), (seed_ + seed_ / kind_count) % 2 == 1, {}, {}, {}};
+        picture.render = picture_of(seed_ / kind_count % 4);
+        picture.render.max_path_length = picture.kind == spots ? 3 + seed_ % 3 : 2 + whole(3);
+        if (picture.kind == weak_estimators)
+            picture.render.estimator = 1 + seed_ / kind_count % 5;
+        Given &given = picture.given;
+        set_materials(given, picture.kind);
+        add_balls(given, picture.kind);
+        if (chance(picture.kind == hidden ? 1.0 : 0.4)) // a sky
+            given.spheres.push_back({{0, 0, 0}, uniform(15, 30), {0, 0, 0}, perhaps_hidden(picture.kind, lamp), 0});
+        given.planes[0].material = perhaps_hidden(picture.kind, 1);
+        if (picture.kind == hidden) // between the camera and the balls, or through them
+            given.planes.push_back(
+                {{uniform(-0.2, 0.2), uniform(-0.2, 0.2), 1}, -uniform(0, 4), material_count + 1, 0});
+        set_camera(given, picture.kind);
+        picture.expected = given;
+        // In narrow and parallel views, which start near a surface, and in trees float32 tells more apart.
+        const bool tells_more = picture.has_tree || given.camera.vertical_fov != 0.8;
+        if (picture.kind == twins)
+            add_twins(given, tells_more ? 0.0 : 1e-7);
+        return picture;
+    }
+
+private:
+    double uniform(double low, double high) {
+        return low + (high - low) * std::generate_canonical<double, 53>(engine_);
+    }
+    double decades(double low, double high) { return std::pow(10.0, uniform(low, high)); }
+    bool chance(double probability) { return uniform(0, 1) < probability; }
+    std::uint32_t whole(std::uint32_t below) { return static_cast<std::uint32_t>(engine_() % below); }
+    std::uint32_t perhaps_hidden(Kind kind, std::uint32_t material) {
+        return material + (kind == hidden && chance(0.4) ? material_count : 0);
+    }
+
+    // Lobes that an estimator without lamps or without lobes hardly finds are left to the others.
+    void set_materials(Given &given, Kind kind) {
+        const double exponent = kind == weak_estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
+        given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent)});
+        const std::vector<pt_material> seen = given.materials;
+        given.materials.insert(given.materials.end(), seen.begin(), seen.end());
+        given.flags = {0, 0, 0, 0, 1, 1, 1, 1};
+    }
+
+    // Balls that cut each other, one of them a lamp at least.
+    void add_balls(Given &given, Kind kind) {
+        for (std::uint32_t i = 0; i < 8; ++i) {
+            const std::uint32_t material = i == 0 || chance(0.15) ? lamp : chance(0.4) ? glossy : whole(2);
+            pt_sphere ball{{uniform(-2, 2), uniform(-1.5, 1.5), uniform(-2, 2)},
+                           uniform(0.4, 1.3),
+                           {0, 0, 0},
+                           perhaps_hidden(kind, material),
+                           0};
+            if (chance(kind == moving ? 0.8 : 0.1))
+                ball.motion[i % 3] = uniform(-1, 1);
+            given.spheres.push_back(ball);
+        }
+        if (kind == spots) { // a glow on the floor
+            given.spheres[0] = {{uniform(-1, 1), -1.25, uniform(1, 2.5)}, 0.2, {0, 0, 0}, lamp, 0};
+            given.spheres[1] = {{uniform(-1.5, 1.5), -0.8, uniform(0, 1)}, 0.7, {0, 0, 0}, glossy, 0};
+        }
+        if (kind == nested) { // a dark ball in a lamp, a lamp in a shell, and all of it in a ball
+            pt_sphere dark = given.spheres[0];
+            dark.radius *= chance(0.5) ? 1.0 - 1e-5 : 0.5;
+            dark.material = 0;
+            given.spheres.push_back(dark);
+            given.spheres.push_back({{0, 0, 0}, uniform(7, 12), {0, 0, 0}, chance(0.5) ? 1U : glossy, 0});
+        }
+    }
+
+    // Again, somewhat elsewhere and of another material, which does not count.
+    void add_twins(Given &given, double apart) {
+        const std::size_t count = given.spheres.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            pt_sphere twin = given.spheres[i];
+            twin.center[i % 3] += apart * twin.radius * uniform(-1, 1);
+            twin.material = whole(material_count);
+            given.spheres.push_back(twin);
+        }
+    }
+
+    void set_camera(Given &given, Kind kind) {
+        pt_camera &camera = given.camera;
+        camera.struct_size = sizeof camera;
+        camera.position[0] = uniform(-2, 2);
+        camera.position[1] = uniform(-0.5, 2);
+        camera.position[2] = kind == nested ? 4.5 : 6;
+        camera.target[0] = uniform(-0.5, 0.5);
+        camera.up[1] = 1;
+        camera.shutter_open = 0.25;
+        camera.shutter_close = 0.75;
+        if (kind == parallel || chance(0.2)) {
+            camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
+            camera.vertical_extent = decades(-1, 0.8);
+        } else {
+            camera.vertical_fov = chance(0.3) ? decades(-5, -1) : 0.8;
+        }
+        if (kind == hidden && chance(0.4)) {
+            pt_sphere about{{0, 0, 0}, uniform(0.5, 5), {0, 0, 0}, material_count + (chance(0.5) ? lamp : 0), 0};
+            for (int i = 0; i < 3; ++i)
+                about.center[i] = camera.position[i];
+            given.spheres.push_back(about);
+        }
+    }
+
+    std::uint32_t seed_;
+    std::mt19937 engine_;
+};
+
+class RandomLight : public LightInDouble {
+protected:
+    void SetUp() override {
+        LightInDouble::SetUp();
+        with_tree_ = create_context([](pt_create_info &) {}, &create_with_tree);
+    }
+
+    void TearDown() override {
+        with_tree_.reset();
+        LightInDouble::TearDown();
+    }
+
+    Deviation deviation_of(const Picture &picture, const Given &given) {
+        const Blocks exact = exact_blocks(picture.expected, 400, picture.render);
+        return deviation(picture.has_tree ? with_tree_.get() : context(), given, exact, picture.render);
+    }
+
+    // The sum of many images' deviations, in standard errors: each has the variance of Student's t with 11 degrees of
+    // freedom, where the images' own noise is all. One without noise does not outweigh the others.
+    static double pooled(const std::vector<double> &deviations) {
+        double sum = 0.0;
+        for (const double deviation : deviations)
+            sum += std::clamp(deviation, -10.0, 10.0);
+        return sum / std::sqrt(static_cast<double>(deviations.size()) * 11.0 / 9.0);
+    }
+
+private:
+    Context with_tree_;
+};
+
+// One false alarm in a thousand runs for single images and blocks, one in ten thousand for all images together.
+TEST_F(RandomLight, IsThatOfAPathTracerInDouble) {
+    const double bound = student_bound(1e-3 / (14.0 * scene_count()), image_count);
+    std::vector<double> deviations;
+    double squares = 0.0;
+    for (std::uint32_t seed = 0; seed < scene_count(); ++seed) {
+        const Picture picture = RandomPicture(seed).made();
+        const Deviation found = deviation_of(picture, picture.given);
+        EXPECT_LT(std::max(std::abs(found.of_image), found.largest), bound)
+            << "scene " << seed << ": " << picture.name() << ", estimator " << picture.render.estimator << ", "
+            << picture.render.max_path_length << " vertices: image " << found.of_image << ", block " << found.largest;
+        deviations.push_back(found.of_image);
+        squares += found.of_image * found.of_image;
+        if (std::getenv("PT_TEST_SCENES"))
+            std::printf("%u %s e%u L%u %.2f %.2f\n", seed, picture.name().c_str(), picture.render.estimator,
+                        picture.render.max_path_length, found.of_image, found.largest);
+    }
+    std::printf("rms %.2f, pooled %.2f, bound %.1f\n", std::sqrt(squares / scene_count()), pooled(deviations), bound);
+    EXPECT_LT(std::abs(pooled(deviations)), statistics::normal_quantile(0.5e-4));
+}
+
+// Lamps that are brighter by 3%, and lobes that reflect 3% more, are told; and so is another view.
+TEST_F(RandomLight, OfOtherScenesIsAnother) {
+    std::vector<double> brighter;
+    std::vector<double> glossier;
+    double turned = 0.0;
+    for (std::uint32_t seed = 0; seed < kind_count; ++seed) {
+        const Picture picture = RandomPicture(seed).made();
+        Given other = picture.given;
+        for (pt_material &material : other.materials)
+            for (float &component : material.emission)
+                component *= 1.03F;
+        brighter.push_back(deviation_of(picture, other).of_image);
+        other = picture.given;
+        for (pt_material &material : other.materials)
+            for (float &component : material.specular)
+                component *= 1.03F;
+        glossier.push_back(deviation_of(picture, other).of_image);
+        other = picture.given;
+        other.camera.target[0] += 0.1;
+        turned = std::max(turned, deviation_of(picture, other).largest);
+    }
+    const double bound = statistics::normal_quantile(0.5e-4);
+    std::printf("brighter %.1f, glossier %.1f, turned %.1f\n", pooled(brighter), pooled(glossier), turned);
+    EXPECT_GT(pooled(brighter), bound);
+    EXPECT_GT(pooled(glossier), bound);
+    EXPECT_GT(turned, 20.0);
+}
+
+} // namespace
+
+} // namespace random_light
