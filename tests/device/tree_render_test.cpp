@@ -195,10 +195,10 @@ TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
     Balls balls;
     balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0});
     balls.spheres[60].material = 0;
-    for (const double distance : {30.0, 100.0}) {
+    for (const double distance : {3.0, 10.0}) {
         const auto light_with = [&](std::size_t lamp, std::size_t other, std::uint32_t material) {
-            balls.spheres[lamp] = {{distance, distance, 0}, 1, {0, 0, 0}, 1, 0};
-            balls.spheres[other] = {{distance, distance, 0}, 1.0 - 1e-5, {0, 0, 0}, material, 0};
+            balls.spheres[lamp] = {{distance, distance, 0}, 0.1, {0, 0, 0}, 1, 0};
+            balls.spheres[other] = {{distance, distance, 0}, 0.1 * (1.0 - 1e-5), {0, 0, 0}, material, 0};
             const pt_render render = render_of(picture_width, picture_height, 2);
             const std::vector<float> image = render_image(context(), balls.scene(), camera_at(0, 1, 6), render, 64);
             return std::accumulate(image.begin(), image.end(), 0.0);
