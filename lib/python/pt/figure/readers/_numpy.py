@@ -34,8 +34,8 @@ def read_npz(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> 
     try:
         with np.load(source, allow_pickle=False) as file:
             arrays = {name: file[name] for name in file.files}
-    except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile, NotImplementedError) as error:
-        raise DataError(f"{lines.name}: {error}: damaged, or no NPZ file of numbers") from None
+    except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile, RuntimeError) as error:
+        raise DataError(f"{lines.name}: {str(error)[:200]}: damaged, or no NPZ file of numbers") from None
     return frames_of_arrays(lines.name, arrays, mapping, drop_nonfinite)
 
 
@@ -45,7 +45,7 @@ def _array(lines: Lines) -> Array:
         is_first = npy.read_magic(stream) == (1, 0)
         shape, is_fortran, kind = (npy.read_array_header_1_0 if is_first else npy.read_array_header_2_0)(stream)
     except Exception as error:  # of many kinds, as NumPy takes the head for an expression of Python
-        raise DataError(f"{lines.name}: byte {lines.byte}: {error}: the head of an NPY file is damaged or was cut "
+        raise DataError(f"{lines.name}: byte {lines.byte}: {str(error)[:200]}: the head of an NPY file is damaged or was cut "
                         "short") from None
     if kind.hasobject or not kind.itemsize or min(shape, default=0) < 0:
         raise DataError(f"{lines.name}: an array of {kind} with the shape {shape}: must have numbers")
@@ -54,7 +54,18 @@ def _array(lines: Lines) -> Array:
     if len(values) < count:
         raise DataError(f"{lines.name}: byte {lines.byte + values.nbytes:,}: the file ends after {len(values):,} of "
                         f"{count:,} numbers: it was cut short")
+    _require_text(lines.name, values)
     return values.reshape(shape[::-1]).T if is_fortran else values.reshape(shape)
+
+
+def _require_text(name: str, values: Array) -> None:
+    """That what is stored as text is some, which NumPy believes."""
+    for field in values.dtype.names or ("",):
+        column = values[field] if field else values
+        if column.dtype.kind == "U" and column.dtype.itemsize:
+            points = np.ascontiguousarray(column).view(column.dtype.byteorder + "u4")
+            if points.max(initial=0) > sys.maxunicode:
+                raise DataError(f"{name}: the column {field or 'of text'} has bytes that are no text: it is damaged")
 
 
 def frames_of_arrays(name: str, arrays: Mapping[str, Any], mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:

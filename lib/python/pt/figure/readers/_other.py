@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 
@@ -14,10 +14,13 @@ from pt.figure.readers._objects import of_ase, of_mdanalysis
 
 Options = Mapping[str, Any]
 
+_LAMMPS_DATA: Final = (".data", ".lmp")
+
 
 def read_ase(path: str, options: Options) -> Frames:
     read = module("ase.io", f"{path}: this format").read
-    images = _tried(path, "ASE", lambda: read(path, index=":"))
+    kind = "lammps-data" if path.lower().endswith(_LAMMPS_DATA) else None  # which ASE does not find out
+    images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
     return Listed(path, len(images), lambda index: of_ase(images[index], path, options))
 
 
