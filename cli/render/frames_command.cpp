@@ -4,9 +4,8 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
-#include "cli/base/report_file.h"
 #include "cli/base/vector_width.h"
-#include "cli/render/description.h"
+#include "cli/render/parts_command.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_picture.h"
 #include "cli/scene/animation_section.h"
@@ -87,16 +86,14 @@ public:
         return static_cast<int>(is_target_missed_ ? ExitCode::target_missed : ExitCode::done);
     }
 
-    int describe() const {
-        std::string lines;
-        for (std::uint64_t frame = options_.frames->first; frame <= options_.frames->last; ++frame) {
-            const auto number = static_cast<std::uint32_t>(frame);
-            SceneFile file = scene_of(number);
-            complete_scene(options_, file);
-            lines += description_line(description_of(file, settings_of(options_, file, number), number));
+    int parts() const {
+        const FrameRange frames = options_.frames.value();
+        if (frames.first != frames.last) {
+            throw Failure(ExitCode::usage, "--parts: takes --frames of one frame at a time");
         }
-        write_report_file(options_.description, lines);
-        return static_cast<int>(ExitCode::done);
+        SceneFile file = scene_of(frames.first);
+        complete_scene(options_, file);
+        return render_parts(options_, file, settings_of(options_, file, frames.first), log_);
     }
 
 private:
@@ -146,7 +143,7 @@ private:
 
 int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
     FramesRender frames(options, log, viewer);
-    return options.description.empty() ? frames.run() : frames.describe();
+    return options.parts ? frames.parts() : frames.run();
 }
 
 } // namespace cli

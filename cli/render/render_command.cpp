@@ -3,10 +3,9 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/message.h"
-#include "cli/base/report_file.h"
 #include "cli/base/vector_width.h"
-#include "cli/render/description.h"
 #include "cli/render/frames_command.h"
+#include "cli/render/parts_command.h"
 #include "cli/render/render_context.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_picture.h"
@@ -23,15 +22,14 @@ namespace {
 int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
-    if (options.description.empty()) {
+    if (!options.parts) {
         check_names(options);
     }
     SceneFile file = read_scene(options);
     complete_scene(options, file);
     const RenderSettings settings = merge_settings(options, file);
-    if (!options.description.empty()) {
-        write_report_file(options.description, description_line(description_of(file, settings, std::nullopt)));
-        return static_cast<int>(ExitCode::done);
+    if (options.parts) {
+        return render_parts(options, file, settings, log);
     }
     check_outputs(options, settings);
     catch_interrupts();

@@ -54,12 +54,6 @@ void add_output_options(CLI::App &command, RenderOptions &options) {
                     "Write the facts of the rendering as JSON; - is standard output, the summary then goes to stderr")
         ->type_name("JSON")
         ->group(group);
-    command
-        .add_option("--describe", options.description,
-                    "Render nothing, and write scene, camera and settings as numbers, an object of JSON in a line for "
-                    "each frame: for programs that render them; - is standard output")
-        ->type_name("JSON")
-        ->group(group);
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
@@ -129,6 +123,19 @@ void add_lasting_options(CLI::App &command, RenderOptions &options) {
     add_whole_number<std::uint32_t>(command, "--first-sample", options.first_sample, 0,
                                     "Index of the first sample: parts have samples of one sequence (default: 0)")
         ->group(group);
+}
+
+// For another program, which reads standard output and makes what is refused here.
+void add_parts_option(CLI::App &command, RenderOptions &options) {
+    CLI::Option *parts = command.add_flag("--parts", options.parts,
+                                          "Render the parts that are asked for on standard input, and write their "
+                                          "films to standard output: for programs that share a picture, as pt-farm");
+    parts->group("Checkpoints and parts");
+    for (const char *other :
+         {"--output", "--format", "--standard-error", "--layers", "--alpha", "--film", "--stats", "--crop", "--time",
+          "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
+        parts->excludes(command.get_option(other));
+    }
 }
 
 void add_device_options(CLI::App &command, RenderOptions &options) {
@@ -244,6 +251,7 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     add_animation_options(command, options);
     add_device_options(command, options);
     add_live_options(command, options);
+    add_parts_option(command, options);
     add_reporting(command, options.progress, options.quiet);
 }
 

@@ -28,9 +28,9 @@ struct RenderOptions {
     std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
     bool alpha = false;
     std::string stats;
-    std::string description; // path of it, in place of a rendering; empty: none
-    std::string film;        // path of the film; empty: none
-    std::string checkpoint;  // likewise
+    bool parts = false;     // as they are asked for, in place of all outputs
+    std::string film;       // path of the film; empty: none
+    std::string checkpoint; // likewise
     bool resume = false;
     std::optional<double> checkpoint_seconds;
     std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks

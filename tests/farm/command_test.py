@@ -1,4 +1,4 @@
-"""pt-farm: what it writes, exit codes, messages, frames, signals, checkpoints and the viewer. Argument: the program pt,
+"""pt-farm: what it writes, exit codes, messages, frames, signals and checkpoints. Argument: the program pt,
 whose pictures its own must equal. Skipped where distributed is not installed."""
 
 import contextlib
@@ -7,25 +7,26 @@ import json
 import os
 import re
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import tempfile
-import threading
+import time
 import unittest
 
-import numpy as np
 import pt
 
 try:
-    import distributed  # noqa: F401
+    import distributed
 except ImportError:
     print("skipped: Dask's distributed is not installed")
     sys.exit(77)
+from pt import farm
 from pt.farm import _command
+from pt.farm._job import read_job
 
-PT = os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
+if __name__ == "__main__":  # and not in processes of workers, which begin with this file too
+    os.environ["PT_PROGRAM"] = os.path.abspath(sys.argv.pop(1))
+PT = os.environ["PT_PROGRAM"]
 SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"width": 96, "height": 60},
          "materials": {"lamp": {"emission": [10, 9, 7]}, "grey": {"diffuse": 0.6}},
          "spheres": [{"center": [-2, 4, 2], "radius": 1, "material": "lamp"},
@@ -33,37 +34,6 @@ SCENE = {"camera": {"position": [0, 1, 5], "look_at": [0, 0.8, 0]}, "film": {"wi
          "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "grey"}],
          "animation": {"camera.position": [[0, [0, 1, 5]], [2, [1, 1, 5]]]}}
 ENDLESS = 10**8
-
-
-class Viewer(threading.Thread):
-    """Takes what is sent, connection by connection."""
-
-    def __init__(self):
-        super().__init__(daemon=True)
-        self.server = socket.create_server(("127.0.0.1", 0))
-        self.address = "127.0.0.1:%d" % self.server.getsockname()[1]
-        self.sent = []
-        self.start()
-
-    def run(self):
-        while True:
-            connection, _ = self.server.accept()
-            with connection, connection.makefile("rb") as stream:
-                self.sent.append(stream.read())
-
-    def last(self):
-        """Name and pixels of the image that was sent last."""
-        data = self.sent[-1]
-        length, kind = struct.unpack_from("<IB", data)
-        assert kind == 4, kind
-        update = data[length:]
-        assert struct.unpack_from("<IB", update) == (len(update), 6)
-        name = update[6:update.index(b"\0", 6)]
-        place = 6 + len(name) + 1 + 4 + len(b"R\0G\0B\0")
-        x, y, width, height = struct.unpack_from("<4i", update, place)
-        assert (x, y) == (0, 0)
-        pixels = np.frombuffer(update, "<f4", offset=place + 16 + 48).reshape(height, width, 3)
-        return name.decode(), pixels
 
 
 class Command(unittest.TestCase):
@@ -104,14 +74,16 @@ class Command(unittest.TestCase):
                 (["-o", "none/x.png"], 6, r"none/x\.png: its folder none"),
                 ([], 2, "-o or --film is missing"),
                 (["-o", "a.png", "-o", "./a.png"], 2, "named twice"),
-                (["-o", "a.png", "--crop", "0,0,8,8"], 2, "--crop: a farm has no such option"),
+                (["-o", "a.png", "--crop", "0,0,8,8"], 2, "--crop excludes --parts"),
+                (["-o", "a.png", "--frames", "2-1"], 2, "--frames 2-1: must be two whole numbers"),
+                (["-o", "a.png", "--checkpoint-every", "0"], 2, "number of 0.01 or more, is '0'"),
                 (["-o", "a.png", "--local-workers", "0"], 2, "whole number of 1 or more, is '0'"),
                 (["-o", "a.png", "--part-seconds", "nan"], 2, "number of 0.1 or more, is 'nan'"),
                 (["-o", "a.png", "--resume"], 2, "--resume: needs --checkpoint"),
                 (["-o", "a.png", "--tls", "a", "b", "c"], 2, "--tls: needs --scheduler"),
                 (["-o", "a.png", "--checkpoint", "scene.json"], 2, "scene.json: is there already"),
                 (["-o", "a.png", "--frames", "0-1", "--checkpoint", "k"], 2, "--frames have none"),
-                (["-o", "a.png", "--spp", "0"], 2, "^$"),  # pt says it, on the real stderr
+                (["-o", "a.png", "--spp", "0"], 2, '^pt-farm: --spp: must be .*, is "0"'),
                 (["-o", "a.png", "--scheduler", "nowhere"], 4, "--scheduler nowhere: ")):
             with self.subTest(words):
                 found, text = self.refused(*words)
@@ -119,19 +91,50 @@ class Command(unittest.TestCase):
                 self.assertRegex(text, said)
         self.assertEqual(os.listdir(), ["scene.json"])
 
-    def test_pictures_film_and_viewer(self):
-        viewer = Viewer()
+    def test_pictures_and_film(self):
         self.farm("-o", "a.exr", "-o", "a.png", "--film", "a.ptfilm", "--standard-error", "e.exr", "--spp", "40",
-                  "--tev", viewer.address, "--local-workers", "1", "-q")
-        self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", "--standard-error", "f.exr", "--spp", "40")
+                  "--local-workers", "1", "-q", "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
+        self.pt("render", "scene.json", "-o", "b.exr", "-o", "b.png", "--standard-error", "f.exr", "--spp", "40",
+                "--set", "film.exposure=-1", "--tonemap", "agx", "--gamma", "2")
         for one, other in (("a.exr", "b.exr"), ("a.png", "b.png"), ("e.exr", "f.exr")):
             self.same(one, other)
         self.pt("merge", "a.ptfilm", "-o", "c.exr")
         self.same("a.exr", "c.exr")
-        name, pixels = viewer.last()
-        self.assertEqual(name, "scene.json")
-        self.assertEqual(pixels.shape, (60, 96, 3))
-        self.assertTrue((pt.Film.load("a.ptfilm").readback() == pixels).all())
+
+    def test_workers_without_the_program(self):
+        """Are told, and others render."""
+        programs = {"with": PT, "without": "/none/pt"}
+        nannies = {name: {"cls": distributed.Nanny, "options": {"nthreads": 1, "env": {"PT_PROGRAM": path}}}
+                   for name, path in programs.items()}
+        scheduler = {"cls": distributed.Scheduler, "options": {"dashboard": False, "host": "127.0.0.1"}}
+        job, facts = _command.described(read_job("scene.json", ["--spp", "20"], None), None)
+        self.assertEqual(facts["samples"], 20)
+        with distributed.SpecCluster(nannies, scheduler, silence_logs=50) as cluster, \
+                distributed.Client(cluster) as client:
+            found = farm.render(client, job, 2**20, progress=lambda seen, film: bool(film and seen.messages))
+        told, = found.progress.messages
+        self.assertRegex(told, "worker tcp.* is refused: .*: NoDeviceError: the program pt is not found .*'/none/pt'")
+        self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) > 0).any())
+
+    def test_files_of_a_scene_go_with_it(self):
+        """Those in its folder under their names, others under new ones."""
+        os.makedirs("in/sub")
+        for name in ("in/a.npy", "in/sub/b.npy", "c.npy", "in/d.npy"):
+            with open(name, "w") as file:
+                file.write(name)
+        scene = b'{"x": "a.npy", // "c.npy\n"y": ["sub/b.npy", "../c.npy", "none.npy", "q\\"", "sub"], "a.npy": 1}'
+        with open("in/s.json", "wb") as file:
+            file.write(scene)
+        job = read_job("in/s.json", ["--set", "z=d.npy", "--set=y=../c.npy", "--spp", "4", "-q"], "cpu")
+        outside, = (name for name in job.files if name.startswith("outside-"))
+        self.assertEqual(job.arguments, ("s.json", "--set", "z=d.npy", f"--set=y={outside}", "--spp", "4", "-q"))
+        self.assertEqual({**job.files, "s.json": b""}, {"a.npy": b"in/a.npy", "sub/b.npy": b"in/sub/b.npy",
+                                                        outside: b"c.npy", "d.npy": b"in/d.npy", "s.json": b""})
+        self.assertEqual(job.files["s.json"], scene.replace(b"../c.npy", outside.encode()))
+    def test_what_workers_refuse(self):
+        """In the program's words, with its code."""
+        said = self.farm("-o", "a.exr", "--set", "spheres[1].radius=-1", "--local-workers", "1", "-q", code=2)
+        self.assertRegex(said, r"InvalidArgumentError: --set spheres\[1\].radius=-1: spheres.* must be > 0")
 
     def test_target_errors(self):
         said = self.farm("-o", "a.exr", "--spp", "20", "--error", "0.01%", "--local-workers", "1", code=7)
@@ -173,6 +176,23 @@ class Command(unittest.TestCase):
         samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
         said = self.farm("-o", "b.exr", "--seed", "7", "--spp", str(samples), "--resume", *words, code=2)
         self.assertIn("the checkpoint is of another picture: its seed differs", said)
+        self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words)
+        self.pt("render", "scene.json", "-o", "c.exr", "--spp", str(samples))
+        self.same("b.exr", "c.exr")
+
+
+    def test_killed_and_going_on(self):
+        """At once, after the first checkpoint, for which --checkpoint-every asks."""
+        words = ["--checkpoint", "k.ptfilm", "--local-workers", "2", "--part-seconds", "0.1", "--checkpoint-every",
+                 "0.01"]
+        program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "scene.json", "-o", "a.exr",
+                                    "--spp", str(ENDLESS), *words, "-q"], start_new_session=True)
+        while not os.path.exists("k.ptfilm"):
+            self.assertIsNone(program.poll())
+            time.sleep(0.05)
+        os.killpg(program.pid, signal.SIGKILL)
+        program.wait()
+        samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
         self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words)
         self.pt("render", "scene.json", "-o", "c.exr", "--spp", str(samples))
         self.same("b.exr", "c.exr")

@@ -58,20 +58,70 @@ def waiting(path):
     return task
 
 
-def damaged(name, part, codecs):
-    """Every other of a worker's first six films is not what was asked for; of three in a row it would be sent away."""
+class Unreadable:
+    """What the coordinator cannot unpickle."""
+
+    def __reduce__(self):
+        return int, ("no number",)
+
+
+def faulty(name, part, codecs):
+    """Every other of a worker's first films is not what was asked for; of three in a row it would be sent away."""
     worker = distributed.get_worker()
     worker.films = getattr(worker, "films", 0) + 1
-    time.sleep(0.08)
+    time.sleep(0.03)
     film = _task.render_part(name, part, frozenset())
-    if worker.films not in (1, 3, 5):
+    fault, is_good = divmod(worker.films - 1, 2)
+    if is_good or fault >= len(FAULTS):
         return film
+    return list(FAULTS.values())[fault](name, part, film)
+
+
+def raising(name, part, film):
+    raise LookupError("a mistake of this task")
+
+
+def changed(name, part, film):
     data = zlib.decompress(film.data)
-    if worker.films == 1:
-        return dataclasses.replace(film, data=film.data[:len(film.data) // 2])
-    if worker.films == 3:
-        return dataclasses.replace(film, data=zlib.compress(data[:-9] + bytes([data[-9] ^ 1]) + data[-8:]))
-    return _task.render_part(name, Part(part.first, part.end + 1, part.tiles), frozenset())
+    return dataclasses.replace(film, data=zlib.compress(data[:-9] + bytes([data[-9] ^ 1]) + data[-8:]))
+
+
+def of_another_picture(name, part, film):
+    with pt.Context() as context:
+        context.set_scene(SCENE)
+        context.set_camera(CAMERA)
+        context.set_render(dataclasses.replace(SETTINGS, seed=1, first_sample=part.first))
+        counts = np.zeros((13, 17), np.uint32)
+        counts.ravel()[part.tiles] = part.end - part.first
+        context.accumulate_tiles(counts)
+        return dataclasses.replace(film, data=zlib.compress(context.film().to_bytes()))
+
+
+def with_values(**values):
+    return lambda name, part, film: dataclasses.replace(film, **values)
+
+
+FAULTS = {  # by what is told of them
+    "LookupError: a mistake of this task": raising,
+    "a part's bytes are damaged": lambda name, part, film: dataclasses.replace(film, data=film.data[:len(film.data) // 2]),
+    "its checksum does not fit": changed,
+    "other samples than were asked for": lambda name, part, film: _task.render_part(
+        name, Part(part.first, part.end + 1, part.tiles), frozenset()),
+    "it is of another picture": of_another_picture,
+    "seconds = nan": with_values(seconds=float("nan")),
+    "seconds = -1.0": with_values(seconds=-1.0),
+    "seconds = 1e[+]300": with_values(seconds=1e300),
+    "seconds of type str": with_values(seconds="1"),
+    "data of type NoneType": with_values(data=None),
+    "result = 77": with_values(error="x", result=77),
+    "a value of type dict": lambda name, part, film: {"data": film.data},
+    "ValueError: invalid literal": lambda name, part, film: Unreadable()}
+
+
+def raising_on_one(name, part, codecs):
+    if distributed.get_worker().name == 0:
+        raise LookupError("a mistake of this task")
+    return _task.render_part(name, part, codecs)
 
 
 def local_cluster(workers):
@@ -150,15 +200,22 @@ class Farm(unittest.TestCase):
             found = self.farm(cluster=cluster, **self.harm(4, "stopped", "killed"))
         self.assertGreaterEqual(found.progress.failed, 1)
         self.assertGreaterEqual(found.progress.repeated, 1)
-        self.assertIn("this disk is full", found.progress.messages)
+        self.assertIn("is refused: this disk is full", "\n".join(found.progress.messages))
         self.assertEqual(found.film, self.whole)
 
-    def test_damaged_and_wrong_films(self):
+    def test_faulty_outcomes(self):
         """None enters the sum, and each is told."""
-        found = self.farm(task=damaged)
+        found = self.farm(2 * SAMPLES, task=faulty, options=dataclasses.replace(QUICK, part_seconds=0.02, most_tries=50))
         told = "\n".join(found.progress.messages)
-        for reason in ("a part's bytes are damaged", "its checksum does not fit", "other samples than were asked for"):
-            self.assertRegex(told, reason)
+        for reason in FAULTS:
+            self.assertRegex(told, rf"worker tcp://[\d.:]+: .*{reason}")
+        self.assertEqual(found.film, whole(2 * SAMPLES))
+
+    def test_a_worker_whose_tasks_raise(self):
+        """Does not end what another one can do, and is told and sent away."""
+        found = self.farm(task=raising_on_one)
+        self.assertLessEqual(found.progress.failed, MOST_FAILURES + 1)  # it may have had another part
+        self.assertRegex("\n".join(found.progress.messages), "worker tcp.* is refused: LookupError: a mistake of this")
         self.assertEqual(found.film, self.whole)
 
     def test_mixed_devices(self):
@@ -211,6 +268,9 @@ class Farm(unittest.TestCase):
             found = self.farm(options=options, task=render_part)
             self.assertEqual(found.film, self.whole)
             self.assertEqual(pt.Film.load(path), self.whole)
+            seen = []
+            self.farm(options=options, progress=lambda now, film: seen.append((now.samples, now.samples_wanted)))
+            self.assertEqual(set(seen), {(SAMPLES, SAMPLES)})  # also while it goes on from all samples
 
     def test_goes_on_from_tiles_that_are_ahead(self):
         with tempfile.TemporaryDirectory() as folder, pt.Context() as context:
@@ -223,8 +283,10 @@ class Farm(unittest.TestCase):
             context.accumulate_tiles(counts)
             context.film().save(path)
             found = self.farm(options=dataclasses.replace(QUICK, checkpoint=path))
+            more = self.farm(16, target_error=9.0, options=dataclasses.replace(QUICK, checkpoint=path))
         self.assertEqual(found.film, self.whole)
         self.assertEqual(found.progress.forgotten, 0)
+        self.assertEqual((more.progress.samples, more.progress.samples_wanted), (SAMPLES, SAMPLES))
 
     def test_the_scheduler_dies(self):
         """What came back is kept, and another cluster goes on from it."""

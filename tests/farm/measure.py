@@ -10,6 +10,7 @@ scheduler  bytes that a scheduler in a process of its own takes and sends"""
 
 import argparse
 import json
+import math
 import os
 import pathlib
 import re
@@ -23,22 +24,28 @@ import numpy as np
 import pt
 from distributed import Client, LocalCluster
 from pt import farm
-from pt.farm import _packing, _task
-from pt.farm._job import job_of
+from pt.farm import _task
+from pt.farm._job import packed
 from pt.farm._part import Part, is_film_of
 from pt.farm._sum import Sum
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENE = ROOT / "cli/scenes/coursework.json"
-CODECS = _packing.codecs()
+CODECS = _task.codecs()
+WARM, ORANGE = pt.Material(emission=(135, 135, 75)), pt.Material(emission=(120, 45, 15))
+BLUE = pt.Material(diffuse=(0.2, 0.5, 0.8), specular=0.8, glossiness=40)
+PALE = pt.Material(diffuse=(0.9, 0.8, 0.8), specular=1.0, glossiness=10)
+BACK = pt.Material(diffuse=(0.9, 0.6, 0.3), specular=0.02, glossiness=3000)
+SIDE = pt.Material(diffuse=0.2, specular=0.1, glossiness=100)
+SCENE = pt.Scene(  # cli/scenes/coursework.json
+    [pt.Sphere((7, -2, -12), 2, WARM), pt.Sphere((-8, 4, -13), 1, ORANGE), pt.Sphere((-2, -2, -12), 3, BLUE),
+     pt.Sphere((3, -3.5, -14), 1, PALE)],
+    [pt.Plane((0, 1, 0), 4.5, pt.Material(diffuse=0.8)), pt.Plane((0, 0, 1), 18.5, BACK), pt.Plane((1, 0, 0), 10, SIDE),
+     pt.Plane((-1, 0, 0), 10, SIDE)])
+CAMERA = pt.Camera((0, 0, 1), (0, 0, 0), vertical_fov=2 * math.atan(0.5))
 
 
-def job(size, *options):
-    done = subprocess.run([ARGUMENTS.pt, "render", SCENE, "--describe", "-", "-q", "--size", size, *options],
-                          stdout=subprocess.PIPE, check=True)
-    found = job_of(json.loads(done.stdout), None)
-    os.environ.update(found.environment)  # for this process, as workers do
-    return found
+def job(size):
+    width, height = map(int, size.split("x"))
+    return farm.Job(SCENE, CAMERA, pt.RenderSettings(width, height, max_path_length=2))
 
 
 def cluster(count=2):
@@ -67,7 +74,7 @@ def costs():
     """In processor seconds, with one thread, as others may use the machine meanwhile."""
     what = job("1920x1080")
     os.environ["LP_NUM_THREADS"] = "1"
-    _task.introduce(what.packed())
+    _task.introduce(packed(what), CODECS)
     name, shape = _task._ready.name, (135, 240)
     rows = []
     for tiles in (16, 64, 256, 1024, 4096, 32400):
@@ -82,7 +89,7 @@ def costs():
         _task.render_part(name, Part(samples, samples + 1, chosen), CODECS)
         least = time.process_time() - begun  # nearly nothing to render: what a part costs its worker besides
         begun = time.process_time()
-        data = _packing.unpack(outcome.data)
+        data = _task.unpack(outcome.data)
         film = pt.Film(data)
         assert is_film_of(film, Part(0, samples, chosen), shape)
         opened = time.process_time() - begun
@@ -97,11 +104,11 @@ def costs():
         parts = []
         for first in range(0, 32400, tiles):
             part = Part(0, 9, np.arange(first, min(first + tiles, 32400), dtype=np.uint32))
-            parts.append(_packing.unpack(_task.render_part(name, part, CODECS).data))
+            parts.append(_task.unpack(_task.render_part(name, part, CODECS).data))
         whole = Sum(None, 1920, 1080)
         add_all(whole, parts)
         begun = time.process_time()
-        second = [_packing.unpack(_task.render_part(name, Part(9, 18, np.arange(
+        second = [_task.unpack(_task.render_part(name, Part(9, 18, np.arange(
             first, min(first + tiles, 32400), dtype=np.uint32)), CODECS).data) for first in range(0, 32400, tiles)]
         begun = time.process_time()
         add_all(whole, second)
@@ -197,7 +204,7 @@ def scheduler():
         progress = result.progress
         print(f"{progress.parts} parts of {progress.part_bytes / 1e6:.1f} MB in {progress.seconds:.0f} s: the "
               f"scheduler took {taken / 1e3:.0f} kB and sent {sent / 1e3:.0f} kB, "
-              f"{(taken + sent) / progress.parts / 1e3:.1f} kB a part; the job is {len(what.packed()) / 1e3:.1f} kB")
+              f"{(taken + sent) / progress.parts / 1e3:.1f} kB a part; the job is {len(packed(what)) / 1e3:.1f} kB")
     finally:
         for each in (*workers, program):
             each.terminate()
@@ -211,7 +218,6 @@ def bytes_of_port(port):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=("costs", "memory", "overhead", "error", "scheduler"))
-    parser.add_argument("--pt", default="pt")
     parser.add_argument("--json")
     parser.add_argument("--samples", type=int, default=512)
     parser.add_argument("--target", type=float, default=0.01)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import importlib
 import threading
 import weakref
 from collections.abc import Callable
@@ -14,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt import _structs as structs
+from pt import _zstd
 from pt._callbacks import CallbackGuard
 from pt._enums import Estimator, Format, Quantity, Result, Sampler
 from pt._errors import IncompatibleError
@@ -24,7 +24,6 @@ from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._stats import Stats, stats_of
 
 TILE_SIDE = 8  # pixels
-ZSTD_MAGIC = bytes.fromhex("28b52ffd")
 
 
 @dataclass(frozen=True)
@@ -234,15 +233,12 @@ def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
 
 def _unpacked(data: bytes) -> bytes:
     """What a frame of zstd holds; other bytes as they are."""
-    if not data.startswith(ZSTD_MAGIC):
+    if not data.startswith(_zstd.MAGIC):
         return data
-    for name in ("compression.zstd", "zstandard"):
-        try:
-            module = importlib.import_module(name)
-        except ImportError:
-            continue
-        try:
-            return bytes(module.decompress(data))
-        except Exception as error:
-            raise IncompatibleError(f"the film's zstd frame is damaged: {error}") from error
-    raise IncompatibleError("the film is packed: install the Python module zstandard, or unpack it by zstd -d")
+    module = _zstd.module()
+    if module is None:
+        raise IncompatibleError("the film is packed: install the Python module zstandard, or unpack it by zstd -d")
+    try:
+        return bytes(module.decompress(data))
+    except Exception as error:
+        raise IncompatibleError(f"the film's zstd frame is damaged: {error}") from error

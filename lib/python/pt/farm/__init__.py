@@ -9,10 +9,8 @@
 The program for scene files is pt-farm. lib/python/FARM.md tells what may die, what is promised, and whom to trust.
 """
 
-from pt.farm._errors import FarmError
 from pt.farm._job import Job
-from pt.farm._options import Options, Result
-from pt.farm._progress import Progress
+from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._render import render
 
 __all__ = ["FarmError", "Job", "Options", "Progress", "Result", "render"]

@@ -21,10 +21,6 @@ CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBL
 
 PICTURES = (".exr", ".png", ".jpg", ".jpeg")
 
-# What `pt render` alone can do: its meaning would be lost.
-REFUSED = ("--time", "--crop", "--layers", "--alpha", "--preview-every", "--piece-rows", "--watch", "--shader-dir",
-           "--validation", "--submit-ms", "--format", "--describe", "--stats")
-
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
     print(f"pt-farm: {message}", file=sys.stderr)
@@ -63,6 +59,7 @@ def parser() -> argparse.ArgumentParser:
     command.add_argument("--tls", nargs=3, metavar=("CA", "CERT", "KEY"), help="files, for a tls:// scheduler")
     command.add_argument("--device", help="of each worker, as of pt render")
     command.add_argument("--checkpoint", metavar="FILM")
+    command.add_argument("--checkpoint-every", type=at_least(0.01, float), default=30.0, metavar="SECONDS")
     command.add_argument("--resume", action="store_true")
     command.add_argument("--part-seconds", type=at_least(0.1, float), default=5.0)
     command.add_argument("--patience", type=at_least(0.1, float), default=10.0)
@@ -72,7 +69,6 @@ def parser() -> argparse.ArgumentParser:
                          help="take other devices and drivers than the first worker's")
     command.add_argument("--frames", metavar="A-B")
     command.add_argument("--skip-existing", action="store_true")
-    command.add_argument("--tev", nargs="?", const="", metavar="HOST:PORT")
     command.add_argument("-q", "--quiet", action="store_true")
     return root
 
@@ -87,10 +83,18 @@ def numbered(pattern: str, frame: int | None) -> str:
     return pattern[:place.start()] + str(frame).zfill(len(place.group())) + pattern[place.end():]
 
 
-def check(arguments: argparse.Namespace, others: list[str]) -> None:
-    for word in others:
-        if word.partition("=")[0] in REFUSED:
-            refuse(f"{word}: a farm has no such option; see pt render")
+def frames_of(arguments: argparse.Namespace) -> list[int | None]:
+    """Those that are to be rendered; of a picture one without a number."""
+    if arguments.frames is None:
+        return [None]
+    found = re.fullmatch(r"(\d+)(?:-(\d+))?", arguments.frames, re.ASCII)
+    first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
+    if last < first:
+        refuse(f"--frames {arguments.frames}: must be two whole numbers like 0-23, or one")
+    return [frame for frame in range(first, last + 1) if not (arguments.skip_existing and is_done(arguments, frame))]
+
+
+def check(arguments: argparse.Namespace) -> None:
     if not (arguments.output or arguments.film):
         refuse("-o or --film is missing: there is nothing to write")
     if arguments.resume and not arguments.checkpoint:

@@ -1,12 +1,11 @@
-"""pt-farm: scene files on a Dask cluster. The program `pt` reads them and writes the pictures, so that options,
-messages and files are its own; workers need the package alone."""
+"""pt-farm: scene files on a Dask cluster. The program `pt` reads and renders them on the workers, and writes the
+pictures here, so that options, messages and files are its own."""
 
 from __future__ import annotations
 
 import argparse
 import contextlib
 import importlib
-import json
 import logging
 import os
 import shutil
@@ -14,35 +13,21 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
+from pt._camera import RenderSettings
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
-from pt.farm._arguments import (CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, check, is_done,
+from pt.farm._arguments import (CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, check, frames_of,
                                 numbered, parser, refuse)
-from pt.farm._errors import FarmError
-from pt.farm._job import job_of
-from pt.farm._options import Options
+from pt.farm._job import FileJob, read_job
+from pt.farm._options import FarmError, Options
 from pt.farm._render import render
+from pt.farm._renderer import Program, program
 from pt.farm._shown import Shown, Signals
 from pt.farm._sum import write_film
-
-
-def program() -> str:
-    return os.environ.get("PT_PROGRAM", "pt")
-
-
-def run_program(*arguments: str) -> str:
-    """What `pt` prints. SystemExit with its code where it fails, which it has explained."""
-    try:
-        done = subprocess.run([program(), *arguments], stdout=subprocess.PIPE, text=True)
-    except OSError as error:
-        refuse(f"the program pt, which reads scenes and writes pictures, is not found (PT_PROGRAM names it): {error}",
-               INTERNAL)
-    if done.returncode:
-        sys.exit(done.returncode)
-    return done.stdout
 
 
 @contextlib.contextmanager
@@ -74,50 +59,57 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
         yield client
 
 
-def write_pictures(film: Film, arguments: argparse.Namespace, display: dict[str, Any], frame: int | None) -> None:
+def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, Any], frame: int | None) -> None:
     if arguments.film:
         write_film(film, numbered(arguments.film, frame))
     if not arguments.output and not arguments.standard_error:
         return
+    options = ["--exposure", str(facts["exposure"]), "--tonemap", facts["tonemap"], "--png-bits", arguments.png_bits]
+    options += ["--gamma", str(facts["gamma"])] if facts["gamma"] else []
+    options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
+    options += ["--standard-error", numbered(arguments.standard_error, frame)] if arguments.standard_error else []
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "sum.ptfilm")
         write_film(film, path)
-        options = ["--exposure", str(display["exposure"]), "--tonemap", display["tonemap"], "--png-bits",
-                   arguments.png_bits]
-        options += ["--gamma", str(display["gamma"])] if display["gamma"] else []
-        options += [word for name in arguments.output for word in ("-o", numbered(name, frame))]
-        options += ["--standard-error", numbered(arguments.standard_error, frame)] if arguments.standard_error else []
-        try:
-            run_program("merge", path, "-q", *options)
-        except SystemExit:
+        done = subprocess.run([program(), "merge", path, "-q", *options])
+        if done.returncode:  # it has said why
             if not (arguments.film or arguments.checkpoint):
                 kept = tempfile.mkstemp(prefix="pt-farm-", suffix=".ptfilm")[1]
                 shutil.copyfile(path, kept)
                 print(f"pt-farm: the film is kept: pt merge {kept} -o ...", file=sys.stderr)
-            raise
+            sys.exit(done.returncode)
+
+
+def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
+    """A job with its settings, and the facts that pt says of it here. Error: it is refused."""
+    job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
+    reader = Program(job)
+    reader.close()
+    facts = reader.facts
+    settings = RenderSettings(facts["width"], facts["height"], first_sample=facts["first_sample"])
+    return replace(job, settings=settings), facts
 
 
 def render_pictures(arguments: argparse.Namespace, others: list[str], signals: Signals) -> int:
-    check(arguments, others)
-    frames = ["--frames", arguments.frames] if arguments.frames else []
-    lines = run_program("render", arguments.scene, "--describe", "-", "-q", *frames, *others).splitlines()
-    shown, code = Shown(arguments, signals), 0
+    check(arguments)
+    frames = frames_of(arguments)
+    scene = read_job(arguments.scene, others, arguments.device)
+    code = 0
     options = Options(part_seconds=arguments.part_seconds, patience=arguments.patience, mixed=arguments.mixed,
-                      checkpoint=arguments.checkpoint, wait_for_workers=arguments.wait)
+                      checkpoint=arguments.checkpoint, checkpoint_every=arguments.checkpoint_every,
+                      wait_for_workers=arguments.wait)
+    for frame in frames[:1]:
+        described(scene, frame)  # what is refused is refused before workers start
     with cluster(arguments) as client:
-        for line in lines:
-            description = json.loads(line)
-            frame = description["frame"]
-            if arguments.skip_existing and frame is not None and is_done(arguments, frame):
-                continue
-            shown.next_picture(arguments.scene if frame is None else f"{arguments.scene}, frame {frame}")
+        for frame in frames:
+            job, facts = described(scene, frame)
             signals.is_rendering = True
-            result = render(client, job_of(description, arguments.device), description["samples"],
-                            target_error=description["target_error"], sampling=Sampling(description["sampling"]),
-                            options=options, progress=shown)
+            result = render(client, job, facts["samples"], target_error=facts["target_error"],
+                            sampling=Sampling(facts["sampling"]), options=options,
+                            progress=Shown(arguments.quiet, signals))
             if signals.number and frame is not None:
                 break  # half a frame would pass for a whole one
-            write_pictures(result.film, arguments, description["display"], frame)
+            write_pictures(result.film, arguments, facts, frame)
             signals.is_rendering = False
             if len(result.devices) > 1 and not arguments.quiet:
                 print("pt-farm: devices were mixed, so that the picture is statistically, and not bitwise, that of one "

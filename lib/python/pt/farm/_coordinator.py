@@ -6,20 +6,20 @@ import contextlib
 import queue
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pt._errors import IncompatibleError
-from pt._film import Film
+from pt._film import TILE_SIDE, Film
 from pt._stats import Stats
-from pt.farm import _packing, _task
+from pt.farm import _task
 from pt.farm._crew import Crew
-from pt.farm._errors import FarmError
-from pt.farm._job import Job, name_of
-from pt.farm._options import Options, Result
+from pt.farm._identity import Identity, identity_of
+from pt.farm._job import AnyJob, name_of, packed
+from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Cells, Goals, Part, cells_of, further_parts, grid_shape, has_only, is_film_of, missing_parts
-from pt.farm._progress import Progress
 from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
@@ -35,23 +35,36 @@ LATE = 3.0  # times the expected seconds
 LOOK_SHARE = 0.05  # of the time, for the error that is shown: looking takes as long as planning a round
 
 
+class _Opened(NamedTuple):
+    """A film that came back."""
+
+    film: Film
+    size: int  # bytes
+    identity: Identity
+
+
 class Coordinator:
-    def __init__(self, client: Any, job: Job, options: Options,
-                 show: Callable[[Progress, Film | None], object]) -> None:
+    """final: samples that each pixel will have at last; 0: that will be decided."""
+
+    def __init__(self, client: Any, job: AnyJob, options: Options,
+                 show: Callable[[Progress, Film | None], object], final: int) -> None:
         self._client, self._job, self._options, self._show = client, job, options, show
-        packed = job.packed()
-        self._name = name_of(packed)
+        data = packed(job)
+        self._name = name_of(data)
         self._shape = grid_shape(job.settings.width, job.settings.height)
+        self._pixels = np.outer(*(np.minimum(TILE_SIDE, side - TILE_SIDE * np.arange(count)) for side, count in
+                                  zip((job.settings.height, job.settings.width), self._shape)))  # of each tile
+        self._final = final
         self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
         self._closed = False
         self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number, once it has been given out
         self._open: set[int] = set()  # numbers of parts that were given out and are not merged
-        self._tries: dict[int, int] = {}  # that came to nothing, by number
+        self._tries: dict[int, list[str]] = {}  # that came to nothing, by number: addresses of their workers
         self._next_number = 0
         self._progress = Progress()
         self._sum = Sum(read_film(options.checkpoint) if options.checkpoint else None, job.settings.width,
                         job.settings.height, mixed=options.mixed)
-        self._crew = Crew(client, packed, self._met, self._progress, self._sum.identity, mixed=options.mixed,
+        self._crew = Crew(client, data, self._met, self._progress, self._sum.identity, mixed=options.mixed,
                           patience=options.wait_for_workers)
         self._start = self._checkpoint_time = now()
         self._checkpoint_error = ""
@@ -81,21 +94,28 @@ class Coordinator:
             if has_worked:
                 self._forgot(missing)
             self._waiting.extend((None, part) for part in missing)
-            self._progress.samples_wanted = float(self._goals.mean())
+            self._want()
             self._work(more)
             has_worked = True
         return False
 
     def _work(self, more: Callable[[], Goals | None]) -> None:
         while (self._waiting or self._open or not self._crew.is_there) and not self._stopped:
-            for lost in self._crew.look():
-                self._lose(lost, "its worker died")
+            for address, lost in self._crew.look():
+                self._lose(address, lost)
             self._look_for_late()
             self._hand_out()
             self._take_in(min(TICK, max(self._seconds_to_ask(), 0.0)))
             if self._seconds_to_ask() <= 0.0:
                 self._ask_for(more)
         self._sum.merge()
+
+    def _want(self) -> None:
+        """Tells how many samples a pixel will have, as far as that is decided."""
+        wanted = np.maximum(self._goals, self._final).astype(np.float64)
+        for samples, tiles in self._cells or ():  # a film that is gone on from may have more
+            wanted.ravel()[tiles] = np.maximum(wanted.ravel()[tiles], sum(map(len, samples)))
+        self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
         """Until shortly before a worker will have nothing to do, if a part has been merged since the last time; but the
@@ -112,7 +132,7 @@ class Coordinator:
             further = further_parts(self._goals, goals, self._job.settings.first_sample)
             self._waiting.extend((None, part) for part in further)
             self._goals = np.maximum(self._goals, goals)
-            self._progress.samples_wanted = float(self._goals.mean())
+            self._want()
         self._asked_at, self._ask_end = self._progress.parts, now()
         self._ask_cost = self._ask_end - start
 
@@ -139,7 +159,7 @@ class Coordinator:
         self._progress.error, self._progress.error_high = stats.relative_rmse, stats.relative_rmse_high
         return stats
 
-    def glance(self) -> None:
+    def _glance(self) -> None:
         """Looks for those who watch, if that takes less than LOOK_SHARE of the time."""
         if now() - self._look_end > self._look_cost / LOOK_SHARE:
             self.look()
@@ -189,25 +209,33 @@ class Coordinator:
         waiting = sum(each == number for each, _ in self._waiting)
         return waiting + sum(each.number == number for member in self._crew for each in member.tries.values())
 
-    def _lose(self, each: Try, reason: str) -> None:
+    def _lose(self, address: str, each: Try) -> None:
         self._progress.lost += 1
-        self._again(each, reason)
+        self._again(address, each, "its worker died")
 
-    def _again(self, each: Try, reason: str) -> None:
+    def _again(self, address: str, each: Try, reason: str) -> None:
         """After a try that came to nothing."""
         if each.number not in self._open:
             return
-        self._tries[each.number] = self._tries.get(each.number, 0) + 1
-        if self._tries[each.number] >= self._options.most_tries:
-            raise FarmError(f"a part came to nothing {self._options.most_tries} times, at last since {reason}",
+        tries = self._tries.setdefault(each.number, [])
+        tries.append(address)
+        if len(tries) >= self._options.most_tries:
+            raise FarmError(f"a part came to nothing {len(tries)} times, at last since {reason}",
                             self._progress.last_result)
         if self._under_way(each.number) == 0:
             self._waiting.appendleft((each.number, each.part))
 
+    def _may_try(self, member: Member, number: int) -> bool:
+        """Not a part that it has already, nor, while there are others, one that came to nothing there."""
+        if any(each.number == number for each in member.tries.values()):
+            return False
+        tried = self._tries.get(number, [])
+        return member.address not in tried or all(other.address in tried for other in self._crew if other.is_fit)
+
     def _hand_out(self) -> None:
         free = [member for member in self._crew if member.can_take(SLOTS)]
         remaining = sum(part.work for _, part in self._waiting)
-        speeds = sum(member.speed.value for member in self._crew if member.facts) or 1.0
+        speeds = sum(member.speed.value for member in self._crew if member.identity) or 1.0
         adding = self._sum.seconds / max(self._progress.parts, 1)
         least = least_seconds(self._progress.workers, adding)
         for slot in range(SLOTS):
@@ -217,32 +245,31 @@ class Coordinator:
                 number, part = self._waiting.popleft()
                 if number is None:
                     share = member.speed.share(self._options.part_seconds, least, remaining, speeds)
-                    assert member.facts is not None
-                    part, rest = part.split(share, LEAST_TILES[member.facts.is_cpu])
+                    part, rest = part.split(share, LEAST_TILES[member.is_cpu])
                     self._waiting.extendleft((None, each) for each in rest)
                     number, self._next_number = self._next_number, self._next_number + 1
                     self._open.add(number)
                     remaining -= part.work
                 elif number not in self._open:
                     continue
-                elif any(each.number == number for each in member.tries.values()):
+                elif not self._may_try(member, number):
                     self._waiting.appendleft((number, part))
                     continue
                 self._give(member, number, part)
 
     def _give(self, member: Member, number: int, part: Part) -> None:
-        def done(future: Any, outcome: _task.Outcome | None, reason: str) -> None:
-            self._tell_of(future, *self._opened(part, outcome, reason))
-        future = submit(self._client, member.address, done, _task.render_part, self._name, part, _packing.codecs())
+        def done(future: Any, outcome: _task.Outcome | None) -> None:
+            self._tell_of(future, *self._opened(part, outcome, member.identity))
+        future = submit(self._client, member.address, done, _task.render_part, self._name, part, _task.codecs())
         before = sum(each.part.work for each in member.tries.values())
         member.tries[future.key] = Try(number, part, future, now(), member.speed.seconds(before + part.work))
         self._progress.issued += 1
 
     # ---- what comes back ----
 
-    def _met(self, future: Any, outcome: _task.Outcome | None, reason: str) -> None:
+    def _met(self, future: Any, outcome: _task.Outcome | None) -> None:
         """Called by threads."""
-        self._tell_of(future, outcome, reason, None, 0)
+        self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
         """Waits for its turn, so that films do not pile up here."""
@@ -251,18 +278,21 @@ class Coordinator:
                 self._events.put(event, timeout=TICK)
                 return
 
-    def _opened(self, part: Part, outcome: _task.Outcome | None, reason: str) -> tuple[Any, ...]:
-        """Called by threads, so that films are unpacked beside each other."""
+    def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
+                ) -> tuple[_task.Outcome | None, _Opened | None]:
+        """Called by threads, so that films are unpacked beside each other. identity: that it has to have."""
         if outcome is None or outcome.error:
-            return outcome, reason, None, 0
+            return outcome, None
         try:
-            data = _packing.unpack(outcome.data)
-            film = Film(data)
-            if not is_film_of(film, part, self._shape):
+            data = _task.unpack(outcome.data)
+            opened = _Opened(Film(data), len(data), identity_of(data))
+            if not is_film_of(opened.film, part, self._shape):
                 raise ValueError("it has other samples than were asked for")
-            return outcome, reason, film, len(data)
+            if identity not in (None, opened.identity):
+                raise ValueError("it is of another picture or device than the films before")
+            return outcome, opened
         except (ValueError, IncompatibleError) as error:
-            return outcome, f"its film is not taken: {error}", None, 0
+            return replace(outcome, error=f"its film is not taken: {error}"), None
 
     def _take_in(self, patience: float) -> None:
         event = self._next_event(patience)
@@ -281,24 +311,22 @@ class Coordinator:
         except queue.Empty:
             return None
 
-    def _take(self, future: Any, outcome: _task.Outcome | None, reason: str, film: Film | None, size: int) -> None:
+    def _take(self, future: Any, outcome: _task.Outcome | None, opened: _Opened | None) -> None:
         member = self._crew.of_introduction(future)
         if member is not None:
-            self._crew.meet(member, outcome, reason)
+            self._crew.meet(member, outcome, opened.identity if opened else None)
             return
         member = self._crew.of_part(future)
         if member is None:
             return  # of a worker that was taken for dead: the part has been given out again
         each = member.tries.pop(future.key)
         if outcome is None:
-            self._lose(each, reason)
+            self._lose(member.address, each)
             return
         member.is_late = False
-        if film is None and not outcome.error:
-            outcome = _task.Outcome(error=f"worker {member.address}: {reason}", may_help_elsewhere=True)
-        if outcome.error or film is None:
+        if opened is None:
             self._crew.blame(member, outcome)
-            self._again(each, outcome.error)
+            self._again(member.address, each, outcome.error)
             return
         member.failures = 0
         member.speed.measure(each.part.work, outcome.seconds)
@@ -306,12 +334,13 @@ class Coordinator:
             self._progress.dropped += 1
             return
         self._open.remove(each.number)
-        assert member.facts is not None
-        self._sum.add(film, size, member.facts.identity.models)
+        self._sum.add(opened.film, opened.size, opened.identity.models)
         self._progress.parts += 1
         self._progress.part_bytes += len(outcome.data)
 
     def _tell(self) -> None:
         self._progress.seconds = now() - self._start
+        if self._sum.film is not None:
+            self._glance()
         if self._show(self._progress, self._sum.film):
             self._stopped = True

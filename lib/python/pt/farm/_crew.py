@@ -6,11 +6,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from pt._enums import Result
-from pt._library import library, version_text
-from pt.farm._errors import FarmError
-from pt.farm._identity import WORTH_ANOTHER_WORKER, LAST, Identity
-from pt.farm._progress import Progress
-from pt.farm._task import Outcome, Worker, introduce
+from pt.farm._identity import LAST, WORTH_ANOTHER_WORKER, Identity
+from pt.farm._options import FarmError, Progress
+from pt.farm._task import Outcome, codecs, introduce
 from pt.farm._workers import Done, Member, Try, addresses, now, submit
 
 MOST_FAILURES = 3  # of a worker, one after the other, until it gets nothing more
@@ -33,16 +31,17 @@ class Crew:
         return iter(self._members.values())
 
     def _count(self) -> int:
-        self._progress.workers = sum(member.facts is not None and not member.is_banned for member in self)
+        self._progress.workers = sum(member.identity is not None and not member.is_banned for member in self)
         return self._progress.workers
 
     @property
     def is_there(self) -> bool:
         """Whether a worker has been found fit."""
-        return any(member.facts for member in self)
+        return any(member.identity for member in self)
 
-    def look(self) -> list[Try]:
-        """Who has come and gone; what those who have gone had to do. FarmError: nobody can work."""
+    def look(self) -> list[tuple[str, Try]]:
+        """Who has come and gone; what those who have gone had to do, with their addresses. FarmError: nobody can
+        work."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -53,8 +52,9 @@ class Crew:
         self._looked = now()
         for address in there - set(self._members):
             member = self._members[address] = Member(address, now())
-            member.introduction = submit(self._client, address, self._done, introduce, self._packed)
-        lost = [each for address in set(self._members) - there for each in self._members.pop(address).tries.values()]
+            member.introduction = submit(self._client, address, self._done, introduce, self._packed, codecs())
+        lost = [(address, each) for address in set(self._members) - there
+                for each in self._members.pop(address).tries.values()]
         usable = [member for member in self if not member.is_banned]
         if self._members and not usable:
             raise FarmError("every worker has failed or was refused: " + "; ".join(self._progress.messages[-4:]),
@@ -73,48 +73,44 @@ class Crew:
     def of_part(self, future: Any) -> Member | None:
         return next((member for member in self if future.key in member.tries), None)
 
-    def meet(self, member: Member, outcome: Outcome | None, reason: str) -> None:
-        """After its introduction."""
+    def meet(self, member: Member, outcome: Outcome | None, identity: Identity | None) -> None:
+        """After its introduction. identity: of the film that came with it."""
         member.introduction = None
         if outcome is None:
-            self._ban(member, reason)  # if it has died, it will be gone at the next look
-        elif outcome.error:
-            self.blame(member, outcome)
-            member.is_banned = True
+            member.is_banned = True  # it has died, and will be gone at the next look
+        elif identity is None:
+            self.blame(member, outcome, most=1)
         else:
-            assert outcome.worker is not None
-            self._compare(member, outcome.worker)
+            member.is_cpu = outcome.is_cpu
+            self._compare(member, identity)
 
-    def blame(self, member: Member, outcome: Outcome) -> None:
+    def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
         """For an error. FarmError: no other worker could do better."""
         self._progress.failed += 1
-        self._progress.messages.append(outcome.error)
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:
             raise FarmError(outcome.error, outcome.result)
         member.failures += 1
-        member.is_banned = member.failures >= MOST_FAILURES
+        member.is_banned = member.failures >= most
+        word = " is refused" if member.failures == most else ""
+        self._progress.messages.append(f"worker {member.address}{word}: {outcome.error}")
 
-    def _compare(self, member: Member, facts: Worker) -> None:
-        mine = version_text(library())
-        if facts.version != mine:
-            self._ban(member, f"it has version {facts.version} of pt, and the coordinator {mine}")
-            return
+    def _compare(self, member: Member, identity: Identity) -> None:
         if self.identity is None:
-            self.identity = facts.identity
-        differences = facts.identity.differences(self.identity, (LAST,) if self._mixed else ())
+            self.identity = identity
+        differences = identity.differences(self.identity, (LAST,) if self._mixed else ())
         others = [name for name in differences if name not in WORTH_ANOTHER_WORKER]
         if others and self._goes_on:
             raise FarmError(f"the checkpoint is of another picture: its {', '.join(others)} differs",
                             Result.ERROR_INCOMPATIBLE)
         if differences == [LAST]:
-            models, theirs = (" and ".join(sorted(each.models)) for each in (facts.identity, self.identity))
+            models, theirs = (" and ".join(sorted(each.models)) for each in (identity, self.identity))
             self._ban(member, f"it has {models}, and the others {theirs}: films of different devices do not add up to "
                               "the bits of one (mixed allows it)")
         elif differences:
             self._ban(member, f"its films would differ from the others in {', '.join(differences)}")
         else:
-            member.facts = facts
+            member.identity = identity
             self._count()
 
     def _ban(self, member: Member, reason: str) -> None:

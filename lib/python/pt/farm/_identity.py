@@ -22,7 +22,8 @@ class Identity:
 
     def differences(self, other: Identity, but: tuple[str, ...] = ()) -> list[str]:
         """Names of lines."""
-        return [name for (name, mine), (_, its) in zip(self.lines, other.lines) if mine != its and name not in but]
+        mine, its = dict(self.lines), dict(other.lines)
+        return [name for name in {**mine, **its} if mine.get(name) != its.get(name) and name not in but]
 
 
 def identity_of(data: bytes) -> Identity:

@@ -1,12 +1,22 @@
-"""How a farm works, and what it comes to."""
+"""How a farm works, what it tells meanwhile, and what it comes to."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from pt import _enums as enums
 from pt._film import Film
 from pt._files import Path
-from pt.farm._progress import Progress
+
+
+class FarmError(RuntimeError):
+    """The picture cannot be made; with what workers said. What came back before is in the checkpoint.
+
+    result: the library's, of the worker's error that is to blame; ERROR_INTERNAL if there is none."""
+
+    def __init__(self, message: str, result: int = enums.Result.ERROR_INTERNAL) -> None:
+        super().__init__(message)
+        self.result = enums.Result(result)
 
 
 @dataclass(frozen=True)
@@ -31,6 +41,35 @@ class Options:
     checkpoint_every: float = 30.0
     wait_for_workers: float = 300.0
     mixed: bool = False
+
+
+@dataclass
+class Progress:
+    """Counts so far. A number of parts that were issued is that of those merged, dropped, failed, lost and under way."""
+
+    seconds: float = 0.0
+    samples: float = 0.0  # a pixel, the mean of all, when the film was last looked at
+    samples_wanted: float = 0.0  # likewise, at the end; with a target error as far as that is decided
+    error: float = float("inf")  # relative, and the upper bound of 95%
+    error_high: float = float("inf")
+    workers: int = 0
+    parts: int = 0  # merged
+    issued: int = 0
+    repeated: int = 0  # tries that began since others were late
+    dropped: int = 0  # duplicates that came second
+    failed: int = 0  # tries, which were repeated elsewhere
+    lost: int = 0  # tries whose worker died
+    forgotten: int = 0  # samples of tiles that the coordinator lost by mistakes of its own, and had taken again
+    part_bytes: int = 0  # received
+    messages: list[str] = field(default_factory=list)  # of workers
+    last_result: int = enums.Result.OK  # the library's, of the error that came last
+    ended_by: str = ""  # "samples", "error", "limit"; "stopped" where progress() returned True
+
+    def line(self) -> str:
+        error = "" if self.error == float("inf") else f", error {self.error:.3%} (to {self.error_high:.3%})"
+        return (f"{self.samples:.1f} of {self.samples_wanted:.1f} spp{error}, {self.workers} workers, "
+                f"{self.parts} parts, {self.repeated} repeated, {self.dropped} dropped, {self.lost} lost, "
+                f"{self.failed} failed, {self.seconds:.0f} s")
 
 
 @dataclass(frozen=True)

@@ -13,16 +13,14 @@ from pt._enums import Sampling
 from pt._film import Film
 from pt._library import library
 from pt.farm._coordinator import Coordinator
-from pt.farm._errors import FarmError
-from pt.farm._job import Job
-from pt.farm._options import Options, Result
+from pt.farm._job import AnyJob
+from pt.farm._options import FarmError, Options, Progress, Result
 from pt.farm._part import Goals, grid_shape
-from pt.farm._progress import Progress
 
 FIRST_LOOK = 16  # samples a pixel, from which on there is an error to see
 
 
-def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
+def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0, sampling: Sampling = Sampling.BEST,
            options: Options = Options(), progress: Callable[[Progress, Film | None], object] = lambda *_: None
            ) -> Result:
     """Renders a picture on the workers of a Dask cluster.
@@ -41,7 +39,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
             importlib.import_module("xxhash")
         except ImportError as error:
             raise FarmError("mixed: the Python module xxhash is needed, to say so in films") from error
-    coordinator = Coordinator(client, job, options, progress)
+    coordinator = Coordinator(client, job, options, progress, 0 if target_error else samples)
     try:
         if target_error:
             return _to_error(coordinator, job, samples, target_error, sampling)
@@ -50,7 +48,7 @@ def render(client: Any, job: Job, samples: int, *, target_error: float = 0.0, sa
         coordinator.close()
 
 
-def _to_samples(coordinator: Coordinator, job: Job, samples: int) -> Result:
+def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
     """By and by, so that the picture so far is one of all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
@@ -69,7 +67,7 @@ def _counts_to(samples: int) -> Iterator[int]:
     yield samples
 
 
-def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: float, sampling: Sampling) -> Result:
+def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
         """What tiles take that have come back while others have not: their own samples decide it, whatever those are
         (lib/film/adaptive_plan.h)."""
@@ -93,7 +91,6 @@ def _to_error(coordinator: Coordinator, job: Job, samples: int, target_error: fl
         if result != Outcome.PENDING:
             coordinator.look()
             return coordinator.finish("error" if result == Outcome.TARGET_REACHED else "limit")
-        coordinator.glance()
         ended = coordinator.run(goals, further)
     coordinator.look()
     return coordinator.finish("stopped")

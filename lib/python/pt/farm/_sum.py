@@ -8,10 +8,10 @@ import pathlib
 from collections import deque
 from typing import BinaryIO
 
+from pt import _zstd
 from pt._errors import IncompatibleError
 from pt._film import Film
 from pt._files import Path, write_atomically
-from pt.farm import _packing
 from pt.farm._identity import Identity, identity_of, with_models
 from pt.farm._workers import now
 
@@ -87,7 +87,7 @@ def _give_back() -> None:
 def write_film(film: Film, path: Path) -> None:
     """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
     both."""
-    packer = _packing.packer(film.size)
+    packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)
         return

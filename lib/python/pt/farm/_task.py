@@ -3,65 +3,67 @@
 from __future__ import annotations
 
 import os
-import pathlib
-import pickle
 import socket
 import threading
 import time
 import zlib
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from pt._context import Context
-from pt._enums import DeviceKind, Result
+from pt import _zstd
+from pt._enums import Result
 from pt._errors import Error, IncompatibleError, InvalidArgumentError, InvalidSceneError
-from pt._library import library, version_text
-from pt.farm import _packing
-from pt.farm._identity import Identity, identity_of
-from pt.farm._job import Job, name_of
-from pt.farm._part import Part, grid_shape
+from pt.farm._job import AnyJob, name_of, unpacked
+from pt.farm._part import Part
+from pt.farm._renderer import Renderer, renderer_of
 
-PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError, ImportError, TypeError)
-
-
-@dataclass(frozen=True)
-class Worker:
-    """What a worker says of itself."""
-
-    host: str
-    process: int
-    identity: Identity  # of its films
-    is_cpu: bool
-    version: str  # of the library
+CLOCKS = 1.01  # how much faster a worker's may go than another's
+PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a task came to: its film, packed, or an error. Errors are values: one that is raised is blamed on workers by
-    Dask in ways of its own."""
+    """What a task came to: its film, packed, or an error."""
 
     data: bytes = b""
-    worker: Worker | None = None
     seconds: float = 0.0
+    is_cpu: bool = False
     error: str = ""
-    may_help_elsewhere: bool = False
+    may_help_elsewhere: bool = True
     result: int = Result.OK  # of an error, that of the library
+
+
+def fault_of(value: object, seconds: float) -> str:
+    """What is wrong with a value that should be an Outcome, of a task that was given out so many seconds ago; a worker
+    may send anything."""
+    if not isinstance(value, Outcome):
+        return f"a value of type {type(value).__name__}"
+    for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
+                       ("may_help_elsewhere", bool), ("result", int)):
+        if not isinstance(getattr(value, name, None), kind):
+            return f"{name} of type {type(getattr(value, name, None)).__name__}"
+    if not 0.0 <= value.seconds <= CLOCKS * seconds:  # no number is not
+        return f"seconds = {value.seconds}, which must be from 0 to the {seconds:.3g} since it was asked"
+    return "" if value.result in set(Result) else f"result = {value.result}"
+
+
+def first_part(job: AnyJob) -> Part:
+    """By which a worker shows whose samples it takes."""
+    first = job.settings.first_sample
+    return Part(first, first + 1, np.zeros(1, np.uint32))
 
 
 @dataclass
 class _Ready:
     name: str
-    job: Job
-    context: Context
-    facts: Worker
+    job: AnyJob
+    renderer: Renderer
     has_failed: bool = False
 
 
-_lock = threading.Lock()  # one context, one call at a time, however many threads a worker has
+_lock = threading.Lock()  # one renderer, one call at a time, however many threads a worker has
 _ready: _Ready | None = None
-_environment: Mapping[str, str] | None = None  # with which this process has loaded the driver
 
 
 def _failed(error: Exception) -> Outcome:
@@ -70,56 +72,20 @@ def _failed(error: Exception) -> Outcome:
                    result=error.result if isinstance(error, Error) else Result.ERROR_INTERNAL)
 
 
-def _set_environment(variables: Mapping[str, str]) -> None:
-    """Drivers read theirs once."""
-    global _environment
-    if _environment is not None and dict(variables) != dict(_environment):
-        raise RuntimeError(f"the driver of this process has been loaded with {dict(_environment)}, and cannot be with "
-                           f"{dict(variables)}: start workers anew")
-    _environment = dict(variables)
-    os.environ.update(variables)
-    folder = variables.get("MESA_SHADER_CACHE_DIR")
-    if folder:
-        try:
-            pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
-        except OSError:
-            pass  # Mesa goes without a cache
-
-
-def introduce(packed: bytes) -> Outcome:
-    """Makes a worker ready for a job, in place of the one before, and says what it is."""
+def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
+    """Makes a worker ready for a packed job, in place of the one before; the film of its first part."""
     global _ready
     with _lock:
         try:
-            if _ready is not None and _ready.name == name_of(packed) and not _ready.has_failed:
-                return Outcome(worker=_ready.facts)
-            job: Job = pickle.loads(zlib.decompress(packed))
-            if _ready is not None:
-                _ready.context.close()
-                _ready = None
-            _set_environment(job.environment)
-            context = Context(job.device or os.environ.get("PT_DEVICE"))
-            context.set_scene(job.scene)
-            context.set_camera(job.camera)
-            context.set_render(job.settings)
-            context.prepare()
-            first = job.settings.first_sample
-            identity = identity_of(_film_of(context, job, Part(first, first + 1, np.zeros(1, np.uint32))))
-            facts = Worker(socket.gethostname(), os.getpid(), identity, context.device.kind == DeviceKind.CPU,
-                           version_text(library()))
-            _ready = _Ready(name_of(packed), job, context, facts)
-            return Outcome(worker=facts)
+            if _ready is None or _ready.name != name_of(data):
+                if _ready is not None:
+                    _ready.renderer.close()
+                    _ready = None
+                job = unpacked(data)
+                _ready = _Ready(name_of(data), job, renderer_of(job))
         except Exception as error:
             return _failed(error)
-
-
-def _film_of(context: Context, job: Job, part: Part) -> bytes:
-    settings = job.settings
-    context.set_render(replace(settings, first_sample=part.first))
-    counts = np.zeros(grid_shape(settings.width, settings.height), np.uint32)
-    counts.ravel()[part.tiles] = part.end - part.first
-    context.accumulate_tiles(counts)
-    return context.film().to_bytes()
+    return render_part(_ready.name, first_part(_ready.job), codecs)
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
@@ -128,10 +94,31 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
+            if _ready.has_failed:  # as a device that was lost does not come back, but to another context or process
+                _ready.renderer.close()
+                _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()
-            data = _packing.pack(_film_of(_ready.context, _ready.job, part), codecs)
-            return Outcome(data=data, seconds=time.monotonic() - start)
+            data = pack(_ready.renderer.film(part), codecs)
+            return Outcome(data, time.monotonic() - start, _ready.renderer.is_cpu)
         except Exception as error:
             if _ready is not None:
-                _ready.has_failed = True  # it begins anew with the next introduction
+                _ready.has_failed = True
             return _failed(error)
+
+
+def codecs() -> frozenset[str]:
+    """What this machine unpacks besides zlib, which Python has."""
+    return frozenset({"zstd"} if _zstd.module() else ())
+
+
+def pack(data: bytes, theirs: frozenset[str]) -> bytes:
+    module = _zstd.module() if "zstd" in theirs else None
+    return bytes(module.compress(data)) if module else zlib.compress(data, 1)
+
+
+def unpack(data: bytes) -> bytes:
+    """ValueError: damaged."""
+    try:
+        return bytes(_zstd.module().decompress(data)) if data.startswith(_zstd.MAGIC) else zlib.decompress(data)
+    except Exception as error:
+        raise ValueError(f"a part's bytes are damaged: {error}") from error

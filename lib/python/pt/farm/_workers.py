@@ -9,16 +9,18 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from pt._enums import Result
+from pt.farm._identity import Identity
 from pt.farm._part import Part
 from pt.farm._speed import Speed
-from pt.farm._task import Outcome, Worker
+from pt.farm._task import Outcome, fault_of
 
 FETCH_SECONDS = 60.0  # for a film, which is 35 MB where it has all of 1920x1080
 MOST_FETCHED = 16  # results that are on their way or wait: more would only fill the memory
 
 _fetching = threading.BoundedSemaphore(MOST_FETCHED)
 
-Done = Callable[[Any, "Outcome | None", str], None]  # future, outcome or None, why there is none
+Done = Callable[[Any, "Outcome | None"], None]  # future, and its outcome; None: its worker died
 
 
 @dataclass
@@ -38,7 +40,8 @@ class Member:
 
     address: str
     joined: float
-    facts: Worker | None = None  # once it is ready
+    identity: Identity | None = None  # of its films, once it is ready
+    is_cpu: bool = False
     speed: Speed = field(default_factory=Speed)
     tries: dict[Any, Try] = field(default_factory=dict)  # by key of the future
     introduction: Any = None
@@ -51,8 +54,12 @@ class Member:
         """As its speed lets expect."""
         return max((each.issued + each.expected for each in self.tries.values()), default=0.0)
 
+    @property
+    def is_fit(self) -> bool:
+        return self.identity is not None and not self.is_late and not self.is_banned
+
     def can_take(self, slots: int) -> bool:
-        return self.facts is not None and not self.is_late and not self.is_banned and len(self.tries) < slots
+        return self.is_fit and len(self.tries) < slots
 
 
 def addresses(client: Any) -> set[str]:
@@ -64,38 +71,42 @@ def addresses(client: Any) -> set[str]:
 
 def submit(client: Any, address: str, done: Done, function: Callable[..., Any], *arguments: Any) -> Any:
     """Runs a function on one worker alone, whose result comes from the worker itself. done is called by threads."""
+    start = now()
     future = client.submit(function, *arguments, workers=[address], allow_other_workers=False, pure=False, retries=0)
 
     # A thread for each that has ended, as a worker may have been stopped since, so that fetching takes for ever.
     def fetch(ended: Any) -> None:
-        threading.Thread(target=_fetch, args=(client, ended, done), daemon=True).start()
+        threading.Thread(target=fetch_one, args=(ended, now() - start), daemon=True).start()
+
+    def fetch_one(ended: Any, seconds: float) -> None:
+        with _fetching:
+            done(ended, _fetched(client, ended, seconds))
 
     future.add_done_callback(fetch)
     return future
 
 
-async def _gathered(client: Any, future: Any) -> Outcome:
+async def _gathered(client: Any, future: Any) -> object:
     """Dask fetches five at a time, so that some stopped workers would hold up all others for ever."""
     results = await asyncio.wait_for(client.gather([future], direct=True, asynchronous=True), FETCH_SECONDS)
-    return results[0]  # type: ignore[no-any-return]
+    return results[0]
 
 
-def _fetch(client: Any, future: Any, done: Done) -> None:
-    with _fetching:
-        done(future, *_fetched(client, future))
-
-
-def _fetched(client: Any, future: Any) -> tuple[Outcome | None, str]:
-    outcome, reason = None, "its worker died"
+def _fetched(client: Any, future: Any, seconds: float) -> Outcome | None:
+    """Whatever a worker that lives did wrong is an outcome that counts against it."""
+    if future.status not in ("finished", "error"):
+        return None
     try:
-        if future.status == "finished":
-            outcome = client.sync(_gathered, client, future)
-        elif future.status == "error":  # before the function was entered: it could not be unpickled
-            error = future.exception(timeout=10)
-            reason = f"{type(error).__name__}: {error}"
-    except (Exception, asyncio.CancelledError) as error:  # the worker has gone, in one of many ways
-        reason = f"its film could not be fetched: {type(error).__name__}: {error}"
-    return outcome, reason
+        value = client.sync(_gathered, client, future)
+        fault = fault_of(value, seconds)
+        if not fault:
+            return value  # type: ignore[no-any-return]
+        reason = f"it has returned {fault}"
+    except (Exception, asyncio.CancelledError) as error:
+        if type(error).__name__ == "KilledWorker":
+            return None
+        reason = f"{type(error).__name__}: {error}"  # raised by the task, or by the way here
+    return Outcome(error=reason, result=Result.ERROR_INTERNAL)
 
 
 def now() -> float:

@@ -1,0 +1,31 @@
+"""Frames of zstd, by whichever Python module there is."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+MAGIC = bytes.fromhex("28b52ffd")
+
+
+def module() -> Any:
+    """With compress and decompress; None if there is none."""
+    for name in ("compression.zstd", "zstandard"):
+        try:
+            return importlib.import_module(name)
+        except ImportError:
+            continue
+    return None
+
+
+def packer(size: int) -> Any:
+    """With compress(piece) and flush(), for a frame that tells the size of what is in it, as readers of films ask; None
+    if there is no module for it."""
+    found = module()
+    if found is None:
+        return None
+    if hasattr(found.ZstdCompressor, "compressobj"):  # of zstandard
+        return found.ZstdCompressor().compressobj(size=size)
+    compressor = found.ZstdCompressor()
+    compressor.set_pledged_input_size(size)
+    return compressor

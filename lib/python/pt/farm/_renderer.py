@@ -1,0 +1,129 @@
+"""Renders parts of a job on the machine of a worker."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from pt._context import Context
+from pt._enums import DeviceKind, Result
+from pt._errors import ERROR_OF_RESULT, InternalError, NoDeviceError
+from pt.farm._job import AnyJob, FileJob, Job
+from pt.farm._part import Part, grid_shape
+
+RESULT_OF_CODE = {2: Result.ERROR_INVALID_ARGUMENT, 3: Result.ERROR_INVALID_SCENE, 4: Result.ERROR_NO_DEVICE,
+                  5: Result.ERROR_DEVICE_LOST}  # exit codes of pt
+
+
+class Renderer(Protocol):
+    is_cpu: bool  # what it renders on; known after the first film
+
+    def film(self, part: Part) -> bytes:
+        """Error: it could not be rendered."""
+
+    def close(self) -> None:
+        """Frees the device."""
+
+
+def renderer_of(job: AnyJob) -> Renderer:
+    if isinstance(job, FileJob):
+        return Program(job)
+    return Library(job)
+
+
+def device_of(job: AnyJob) -> str | None:
+    return job.device or os.environ.get("PT_DEVICE") or None
+
+
+class Library:
+    """A context of this process."""
+
+    def __init__(self, job: Job) -> None:
+        self._settings = job.settings
+        self._context = Context(device_of(job))
+        self._context.set_scene(job.scene)
+        self._context.set_camera(job.camera)
+        self._context.set_render(job.settings)
+        self._context.prepare()
+        self.is_cpu = self._context.device.kind == DeviceKind.CPU
+
+    def film(self, part: Part) -> bytes:
+        self._context.set_render(replace(self._settings, first_sample=part.first))
+        counts = np.zeros(grid_shape(self._settings.width, self._settings.height), np.uint32)
+        counts.ravel()[part.tiles] = part.end - part.first
+        self._context.accumulate_tiles(counts)
+        return self._context.film().to_bytes()
+
+    def close(self) -> None:
+        self._context.close()
+
+
+class Program:
+    """`pt render --parts` (cli/render/parts_command.h tells its requests and answers).
+
+    facts: what it says of the job, before it has looked for a device."""
+
+    def __init__(self, job: FileJob) -> None:
+        self.is_cpu = False
+        device = device_of(job)
+        command = [program(), "render", *job.arguments, *(("--device", device) if device else ()), "--parts", "-q"]
+        self._errors = tempfile.TemporaryFile()
+        with tempfile.TemporaryDirectory(prefix="pt-farm-") as folder:  # until pt has read what is in it
+            for name, data in job.files.items():
+                place = pathlib.Path(folder, name)
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_bytes(data)
+            try:
+                self._process = subprocess.Popen(command, cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                                 stderr=self._errors)
+            except OSError as error:
+                raise NoDeviceError(f"the program pt is not found (PT_PROGRAM names it): {error}") from error
+            line = self._line()
+        self.facts: dict[str, Any] = json.loads(line)
+
+    def film(self, part: Part) -> bytes:
+        assert self._process.stdin and self._process.stdout
+        tiles = np.ascontiguousarray(part.tiles, np.uint32)
+        try:
+            self._process.stdin.write(struct.pack("=3I", part.first, part.end, len(tiles)) + tiles.tobytes())
+            self._process.stdin.flush()
+        except OSError:
+            pass  # it has ended, and has said why
+        kind, size = map(int, self._line().split())
+        self.is_cpu = kind == DeviceKind.CPU
+        data = self._process.stdout.read(size)
+        if len(data) < size:
+            self._fail()
+        return data
+
+    def close(self) -> None:
+        self._process.kill()
+        self._process.communicate()
+        self._errors.close()
+
+    def _line(self) -> bytes:
+        assert self._process.stdout
+        line: bytes = self._process.stdout.readline()
+        if not line.endswith(b"\n"):
+            self._fail()
+        return line
+
+    def _fail(self) -> None:
+        code = self._process.wait()
+        self._errors.seek(0)
+        said = self._errors.read()[-4000:].decode(errors="replace").strip().removeprefix("pt: ")
+        error = ERROR_OF_RESULT[RESULT_OF_CODE[code]] if code in RESULT_OF_CODE else InternalError
+        raise error(said or f"{program()} ended with code {code}")
+
+
+def program() -> str:
+    """The program pt of this machine."""
+    return os.environ.get("PT_PROGRAM") or "pt"
