@@ -1,17 +1,15 @@
 // The program `pt`: chooses the command, and turns every exception into an exit code.
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/help_formatter.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/other_program.h"
 #include "cli/base/standard_streams.h"
 #include "cli/base/usage_reason.h"
 #include "cli/compare/compare_command.h"
-#include "cli/figure/figure_command.h"
 #include "cli/film/merge_command.h"
 #include "cli/film/merge_options.h"
-#include "cli/help/help_commands.h"
-#include "cli/help/help_text.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
@@ -27,6 +25,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -45,7 +44,7 @@ class Program {
 public:
     Program() {
         app_.require_subcommand(0, 1);
-        app_.formatter(cli::help_formatter());
+        app_.formatter(std::make_shared<cli::HelpFormatter>());
         app_.footer(
             "pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, view and farm come\n"
             "with the Python package.\n\n" +
@@ -106,6 +105,7 @@ private:
     CLI::App &add(const std::string &name, const std::string &description, const std::string &notes,
                   std::function<int()> run) {
         CLI::App *app = app_.add_subcommand(name, description);
+        app->group("Commands");
         app->footer(notes + (notes.empty() ? "" : "\n") + cli::exit_code_help);
         say_help(*app);
         commands_.push_back({app, std::move(run)});
@@ -116,9 +116,6 @@ private:
         cli::add_render_options(add("render", "Render a scene file to images", cli::render_help,
                                     [this] { return cli::run_render(render_); }),
                                 render_);
-        cli::add_figure_options(add("figure", "Make a picture of particles, without a scene file", cli::figure_help,
-                                    [this] { return cli::run_figure(figure_); }),
-                                figure_);
         cli::add_tonemap_options(add("tonemap", "Make a picture of a file of radiance, without rendering",
                                      cli::tonemap_help, [this] { return cli::run_tonemap(tonemap_); }),
                                  tonemap_);
@@ -138,12 +135,6 @@ private:
         add("devices", "List the Vulkan devices", "", [this] {
             return cli::run_devices(devices_as_json_);
         }).add_flag("--json", devices_as_json_, "Print JSON");
-        cli::add_completion_options(add("completion", "Print a script by which a shell completes command lines",
-                                        cli::completion_help,
-                                        [this] { return cli::run_completion(completion_, app_); }),
-                                    completion_);
-        cli::add_man_options(
-            add("man", "Print a manual page", cli::man_help, [this] { return cli::run_man(man_, app_); }), app_, man_);
     }
 
     std::string names() const {
@@ -158,13 +149,10 @@ private:
     CLI::App app_{"An offscreen path tracer for spheres and planes on any Vulkan device", "pt"};
     std::vector<Command> commands_;
     cli::RenderOptions render_;
-    cli::FigureOptions figure_;
     cli::TonemapOptions tonemap_;
     cli::CompareOptions compare_;
     cli::MergeOptions merge_;
     cli::SelftestOptions selftest_;
-    cli::CompletionOptions completion_;
-    cli::ManOptions man_;
     bool devices_as_json_ = false;
 };
 

@@ -42,12 +42,6 @@ install(
   COMPONENT pt_program EXCLUDE_FROM_ALL
 )
 
-install(
-  FILES ${PROJECT_BINARY_DIR}/cli/share/zsh/site-functions/_pt
-  DESTINATION share/zsh/vendor-completions
-  COMPONENT pt_program EXCLUDE_FROM_ALL OPTIONAL
-)
-
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR})
 set(CPACK_PACKAGE_NAME ${PROJECT_NAME})

@@ -1,19 +1,22 @@
-# Writes the manual pages and the shells' completions into FOLDER, as PROGRAM prints them, laid out as below share/. Run
-# by cmake -P while the program is built.
-function(pt_print file)
-  cmake_path(GET file PARENT_PATH folder)
-  file(MAKE_DIRECTORY ${FOLDER}/${folder})
-  execute_process(COMMAND ${PROGRAM} ${ARGN} OUTPUT_FILE ${FOLDER}/${file} COMMAND_ERROR_IS_FATAL ANY)
+# Writes the manual pages pt.1 and pt-COMMAND.1 into FOLDER: the help that PROGRAM prints, as it is. Run by cmake -P while
+# the program is built.
+function(pt_write_page name) # [command]
+  execute_process(COMMAND ${PROGRAM} ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "^[^\n]*" description "${help}")
+  # What troff takes for a command, an escape or a hyphen.
+  string(REPLACE "\\" "\\e" help "${help}")
+  string(REPLACE "-" "\\-" help "${help}")
+  string(REGEX REPLACE "(^|\n)([.'])" "\\1\\\\&\\2" help "${help}")
+  string(TOUPPER ${name} title)
+  file(WRITE ${FOLDER}/${name}.1 ".TH ${title} 1\n.SH NAME\n${name} \\- ${description}\n.SH DESCRIPTION\n.nf\n${help}.fi\n")
+  set(help "${help}" PARENT_SCOPE)
 endfunction()
 
 file(REMOVE_RECURSE ${FOLDER}) # pages of commands that are no more
-pt_print(man/man1/pt.1 man)
-# Which commands there are, the first page says.
-file(STRINGS ${FOLDER}/man/man1/pt.1 references REGEX "^\\.BR pt")
-foreach(reference IN LISTS references)
-  string(REGEX REPLACE "^\\.BR pt\\\\-([a-z]+) .*" "\\1" command "${reference}")
-  pt_print(man/man1/pt-${command}.1 man ${command})
+pt_write_page(pt)
+string(REGEX REPLACE ".*\nCommands:\n(.*\n)\n.*" "\\1" commands "${help}")
+string(REGEX MATCHALL "(^|\n)  [a-z]+ " commands "\n${commands}")
+foreach(command IN LISTS commands)
+  string(STRIP "${command}" command)
+  pt_write_page(pt-${command} ${command})
 endforeach()
-pt_print(bash-completion/completions/pt completion bash)
-pt_print(zsh/site-functions/_pt completion zsh)
-pt_print(fish/vendor_completions.d/pt.fish completion fish)

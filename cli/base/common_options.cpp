@@ -1,13 +1,18 @@
 #include "cli/base/common_options.h"
 
-#include "cli/help/value_words.h"
-
 #include <pt/pt.h>
 
 #include <algorithm>
 #include <array>
 
 namespace cli {
+
+std::string alternatives(std::span<const std::string_view> names) {
+    std::string text;
+    for (const std::string_view name : names)
+        text.append(text.empty() ? "" : "|").append(name);
+    return text;
+}
 
 void refuse_option(const std::string &option, const std::string &rule, const std::string &text) {
     throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");

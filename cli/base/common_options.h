@@ -3,7 +3,6 @@
 
 #include "cli/base/number.h"
 #include "cli/base/suggestion.h"
-#include "cli/help/value_words.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,6 +14,9 @@
 #include <string_view>
 
 namespace cli {
+
+// "best|random|sobol", of these names.
+std::string alternatives(std::span<const std::string_view> names);
 
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 

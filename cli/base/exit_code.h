@@ -27,7 +27,7 @@ inline constexpr const char *exit_code_help =
     "  0    done\n"
     "  1    internal error, a message of the validation layer, or a failed selftest\n"
     "  2    usage: a wrong option or value\n"
-    "  3    scene: the scene file, a file of particles, or a shader of --shader-dir, is not valid\n"
+    "  3    scene: the scene file, a file that it names, or a shader of --shader-dir, is not valid\n"
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -30,9 +31,11 @@ bool is_utf16(std::string_view contents) {
     return contents.size() >= 4 && (has_zeros(0) || has_zeros(1));
 }
 
-std::string read_all(int descriptor, const std::string &name) {
+// size: as it is expected, so that large files are not moved while they grow.
+std::string read_all(int descriptor, const std::string &name, std::size_t size) {
     constexpr std::size_t block = std::size_t{1} << 20;
     std::string text;
+    text.reserve(size + block);
     for (;;) {
         const std::size_t used = text.size();
         text.resize(used + block);
@@ -55,11 +58,13 @@ std::string read_file(const std::string &path) {
     if (!file.is_open()) {
         fail(path);
     }
-    return read_all(file.get(), path);
+    struct stat status;
+    const bool is_file = fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
+    return read_all(file.get(), path, is_file ? static_cast<std::size_t>(status.st_size) : 0);
 }
 
 std::string read_standard_input() {
-    return read_all(STDIN_FILENO, "standard input");
+    return read_all(STDIN_FILENO, "standard input", 0);
 }
 
 std::string_view require_text(std::string_view contents, const std::string &path) {

@@ -7,7 +7,7 @@
 #include "cli/base/message.h"
 #include "cli/base/report_file.h"
 #include "cli/compare/compare_report.h"
-#include "cli/data/number_colours.h"
+#include "cli/compare/viridis.h"
 #include "cli/image/image_file.h"
 
 #include <array>
@@ -61,8 +61,7 @@ std::vector<std::uint8_t> difference_picture(std::span<const float> differences,
     bytes.reserve(3 * differences.size());
     for (const float difference : differences) {
         const double share = largest > 0.0F ? difference / largest : 0.0;
-        const auto colour =
-            std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : map_colour("viridis", share);
+        const auto colour = std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : viridis(share);
         bytes.insert(bytes.end(), colour.begin(), colour.end());
     }
     return bytes;

@@ -54,10 +54,9 @@ bool is_done(const RenderOptions &frame) {
 
 class FramesRender {
 public:
-    FramesRender(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) :
+    FramesRender(const RenderOptions &options, ValidationLog &log) :
         options_(options),
         log_(log),
-        viewer_(viewer),
         text_(read_scene_text(options.scene)),
         scene_(parse_scene(text_.text, text_.path, options.overrides)) {
         if (scene_.animation.empty()) {
@@ -126,13 +125,11 @@ private:
             choose_vector_width();
             context_ = std::make_unique<Context>(render_create_info(options_, log_));
         }
-        return render_picture(
-            *context_, options, file, settings, times, [] { return interrupt_signal() != 0; }, viewer_);
+        return render_picture(*context_, options, file, settings, times, [] { return interrupt_signal() != 0; });
     }
 
     const RenderOptions &options_;
     ValidationLog &log_;
-    TevViewer *viewer_;
     SceneText text_; // read once, so that all frames are of one scene
     SceneFile scene_;
     std::unique_ptr<Context> context_; // for all frames: kernels are kept
@@ -141,8 +138,8 @@ private:
 
 } // namespace
 
-int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
-    FramesRender frames(options, log, viewer);
+int render_frames(const RenderOptions &options, ValidationLog &log) {
+    FramesRender frames(options, log);
     return options.parts ? frames.parts() : frames.run();
 }
 

@@ -6,10 +6,8 @@
 
 namespace cli {
 
-class TevViewer;
-
 // viewer: where frames are shown; NULL: nowhere. Returns the exit code; throws Failure. A frame that a signal stops is
 // not written: each file is a whole frame.
-int render_frames(const RenderOptions &options, ValidationLog &log, TevViewer *viewer);
+int render_frames(const RenderOptions &options, ValidationLog &log);
 
 } // namespace cli

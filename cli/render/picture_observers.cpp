@@ -1,14 +1,11 @@
 #include "cli/render/picture_observers.h"
 
-#include "cli/render/render_output.h"
-
 #include <limits>
 
 namespace cli {
 
-PictureObservers::PictureObservers(const Context &context, const RenderOptions &options, const ImageWindow &window,
-                                   Progress &progress, std::function<bool(const PiecewiseImage &)> write_preview,
-                                   TevViewer *viewer) {
+PictureObservers::PictureObservers(const Context &context, const RenderOptions &options, Progress &progress,
+                                   std::function<bool(const PiecewiseImage &)> write_preview) {
     const auto say = [&progress](const std::string &message) { progress.say(message); };
     if (!options.frames) {
         preview_.emplace(context, options.preview_seconds.value_or(std::numeric_limits<double>::infinity()),
@@ -17,9 +14,6 @@ PictureObservers::PictureObservers(const Context &context, const RenderOptions &
     if (!options.checkpoint.empty()) {
         checkpoint_.emplace(context, options.checkpoint,
                             options.checkpoint_seconds.value_or(default_checkpoint_seconds), say);
-    }
-    if (viewer != nullptr) {
-        tev_.emplace(context, *viewer, picture_name(options), window, say);
     }
     if (options.time_limit) {
         time_limit_.emplace(TimeLimitObserver::Clock::now(), *options.time_limit);
@@ -31,9 +25,6 @@ std::vector<PieceObserver *> PictureObservers::list() {
     std::vector<PieceObserver *> all;
     if (preview_) {
         all.push_back(&*preview_);
-    }
-    if (tev_) {
-        all.push_back(&*tev_);
     }
     if (checkpoint_) {
         all.push_back(&*checkpoint_);

@@ -8,7 +8,6 @@
 #include "cli/render/preview_observer.h"
 #include "cli/render/render_options.h"
 #include "cli/render/time_limit_observer.h"
-#include "cli/tev/tev_observer.h"
 
 #include <cstdint>
 #include <functional>
@@ -19,10 +18,9 @@ namespace cli {
 
 class PictureObservers {
 public:
-    // All must outlive it. The time that is limited begins now. write_preview: see PreviewObserver. viewer: may be
-    // NULL.
-    PictureObservers(const Context &context, const RenderOptions &options, const ImageWindow &window,
-                     Progress &progress, std::function<bool(const PiecewiseImage &)> write_preview, TevViewer *viewer);
+    // All must outlive it. The time that is limited begins now. write_preview: see PreviewObserver.
+    PictureObservers(const Context &context, const RenderOptions &options, Progress &progress,
+                     std::function<bool(const PiecewiseImage &)> write_preview);
 
     std::vector<PieceObserver *> list();
 
@@ -34,7 +32,6 @@ public:
 
 private:
     std::optional<PreviewObserver> preview_; // of one picture: the file of a frame is to mean that it is done
-    std::optional<TevObserver> tev_;
     std::optional<CheckpointObserver> checkpoint_;
     std::optional<TimeLimitObserver> time_limit_;
 };

@@ -19,7 +19,7 @@
 namespace cli {
 namespace {
 
-int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
+int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
     if (!options.parts) {
@@ -38,8 +38,7 @@ int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *vie
 
     times.create_start = std::chrono::steady_clock::now();
     const Context context(render_create_info(options, log));
-    const Outcome outcome = render_picture(
-        context, options, file, settings, times, [] { return false; }, viewer);
+    const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
     return exit_code_of(outcome, interrupt_signal());
 }
 
@@ -47,18 +46,9 @@ int render_once(const RenderOptions &options, ValidationLog &log, TevViewer *vie
 
 int run_render(const RenderOptions &options) {
     ValidationLog log;
-    std::optional<TevViewer> viewer;
-    if (options.tev) {
-        viewer.emplace(*options.tev);
-    }
-    TevViewer *const shown_in = viewer ? &*viewer : nullptr;
-    const int code = options.watch    ? watch(options, log, shown_in)
-                     : options.frames ? render_frames(options, log, shown_in)
-                                      : render_once(options, log, shown_in);
-    if (viewer) {
-        viewer->finish();
-        print_message(viewer->take_complaint());
-    }
+    const int code = options.watch    ? watch(options, log)
+                     : options.frames ? render_frames(options, log)
+                                      : render_once(options, log);
     // Only now, for the layer reports leaks when the context goes.
     return log.count > 0 ? static_cast<int>(ExitCode::internal) : code;
 }

@@ -2,7 +2,6 @@
 
 #include "cli/base/common_options.h"
 #include "cli/base/method_names.h"
-#include "cli/help/value_words.h"
 #include "cli/render/picture_layer.h"
 
 #include <algorithm>
@@ -160,20 +159,6 @@ void add_live_options(CLI::App &command, RenderOptions &options) {
     add_real_number(command, "--preview-every", options.preview_seconds, least_seconds, most_seconds,
                     "Write the picture so far every S seconds (default: only on SIGUSR1)")
         ->type_name("S")
-        ->group(group);
-    const auto read_address = [&options](const std::string &text) {
-        options.tev = text.empty() ? TevAddress{} : parse_tev_address(text);
-        if (!options.tev) {
-            refuse_option("--tev", "must be HOST:PORT like 127.0.0.1:14158, or stand last or before another option",
-                          text);
-        }
-    };
-    command
-        .add_option_function<std::string>("--tev", read_address,
-                                          "Show the picture so far, and at the end, in the image viewer tev that "
-                                          "listens there (default: 127.0.0.1:14158)")
-        ->expected(0, 1)
-        ->type_name("HOST:PORT")
         ->group(group);
     command
         .add_flag("--watch", options.watch,

@@ -6,7 +6,6 @@
 #include "cli/image/image_file.h"
 #include "cli/render/frame_range.h"
 #include "cli/scene/scene_override.h"
-#include "cli/tev/tev_address.h"
 
 #include <cstdint>
 #include <optional>
@@ -34,7 +33,6 @@ struct RenderOptions {
     bool resume = false;
     std::optional<double> checkpoint_seconds;
     std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks
-    std::optional<TevAddress> tev;         // nothing: no viewer
 
     // Nothing where the scene file or a default decides.
     std::optional<ImageSize> size;

@@ -10,7 +10,6 @@
 #include "cli/film/film_file.h"
 #include "cli/image/display_image.h"
 #include "cli/image/image_target.h"
-#include "cli/scene/scene_completion.h"
 #include "cli/scene/source_files.h"
 
 #include <algorithm>
@@ -141,14 +140,10 @@ SceneFile read_scene(const RenderOptions &options) {
 
 void complete_scene(const RenderOptions &options, SceneFile &scene) {
     std::vector<NamedFile> sources;
-    for (const std::string &path : particle_paths(scene)) {
-        sources.push_back({"the particles", path});
-    }
+    for (const std::string &path : column_paths(scene))
+        sources.push_back({"a column of spheres", path});
     require_distinct_files(sources, outputs_of(options));
-    complete_scene(scene, options.size);
-    if (!options.quiet) {
-        tell_chosen_ranges(scene);
-    }
+    load_columns(scene);
 }
 
 void check_names(const RenderOptions &options) {
@@ -231,11 +226,6 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
         write(options.standard_error, images.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
     }
     return written;
-}
-
-std::string picture_name(const RenderOptions &options) {
-    const bool has_file = !options.outputs.empty() && options.outputs.front() != standard_stream;
-    return "pt: " + (has_file ? options.outputs.front() : !options.film.empty() ? options.film : options.scene);
 }
 
 bool needs_module(const RenderOptions &options) {

@@ -16,11 +16,10 @@
 
 namespace cli {
 
-// With the values that --set gives in place of its own, but without the particles of files. Throws Failure.
+// With the values that --set gives in place of its own, but without the columns of files. Throws Failure.
 SceneFile read_scene(const RenderOptions &options);
 
-// Reads the files of particles, which no output may be, and fits the figure, if the scene is one; tells the ranges that
-// colours show by default. Throws Failure.
+// Reads the files of columns, which no output may be. Throws Failure.
 void complete_scene(const RenderOptions &options, SceneFile &scene);
 
 // Throws Failure(ExitCode::usage) if an output's name tells no known format, or the output is another one or a source.
@@ -56,9 +55,6 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
 
 // Writes a film. False if that is not possible, which is said on stderr.
 bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path);
-
-// How a live view calls the picture: by its first file.
-std::string picture_name(const RenderOptions &options);
 
 // Whether any output is in a format that the image module encodes.
 bool needs_module(const RenderOptions &options);

@@ -55,11 +55,11 @@ struct Rendered {
 
 Rendered render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
                               const RenderSettings &settings, std::uint32_t rows, const Stop &stop,
-                              const std::function<bool(const PiecewiseImage &)> &write_preview, TevViewer *viewer) {
+                              const std::function<bool(const PiecewiseImage &)> &write_preview) {
     const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.window.part.height;
     Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
     progress.begin_at(context.sample_count());
-    PictureObservers observers(context, options, settings.window, progress, write_preview, viewer);
+    PictureObservers observers(context, options, progress, write_preview);
     Rendered rendered{};
     const std::vector<std::uint32_t> layers = wanted_layers(options);
     const WantedImages wanted{!options.standard_error.empty(), layers};
@@ -174,8 +174,7 @@ void print_interruption(const RenderSettings &settings, std::uint32_t done, std:
 } // namespace
 
 Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
-                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded,
-                       TevViewer *viewer) {
+                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded) {
     RenderReport report{};
     report.scene = file.path;
     report.date = source_date();
@@ -185,9 +184,6 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.target_error = settings.target_error;
 
     context.require(pt_get_context_device(context.get(), &report.device));
-    if (viewer != nullptr) {
-        viewer->look(Clock::now());
-    }
     if (!take_scene(context, options, file, superseded)) {
         if (superseded()) {
             return Outcome::superseded;
@@ -222,7 +218,7 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview, viewer);
+    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview);
     const PiecewiseImage &image = rendered.image;
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
@@ -238,9 +234,6 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
         }
     } else if (superseded()) {
         return Outcome::superseded;
-    }
-    if (viewer != nullptr && viewer->may_show()) {
-        viewer->show(tev_picture(picture_name(options), settings.window, image));
     }
     report.tone_map = tone_map_of(options, settings, image.radiance);
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;

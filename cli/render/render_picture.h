@@ -7,7 +7,6 @@
 #include "cli/render/stop_observer.h"
 #include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
-#include "cli/tev/tev_viewer.h"
 
 #include <chrono>
 
@@ -20,10 +19,8 @@ struct RenderTimes {
 };
 
 // Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far;
-// so does superseded(), but then nothing is written. viewer: where the picture is shown meanwhile and at the end; NULL:
-// nowhere. Throws Failure.
+// so does superseded(), but then nothing is written. Throws Failure.
 Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
-                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded,
-                       TevViewer *viewer);
+                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded);
 
 } // namespace cli

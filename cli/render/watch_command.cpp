@@ -49,10 +49,9 @@ void require_files(const RenderOptions &options) {
 
 class WatchedRender {
 public:
-    WatchedRender(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) :
+    WatchedRender(const RenderOptions &options, ValidationLog &log) :
         options_(options),
         log_(log),
-        viewer_(viewer),
         sources_(options.scene, options.shader_dir) {}
 
     // Returns the exit code.
@@ -103,8 +102,8 @@ private:
         times.start = std::chrono::steady_clock::now();
         check_names(options_);
         SceneFile file = read_scene(options_);
-        const std::vector<std::string> particles = particle_paths(file);
-        sources_.follow({particles.begin(), particles.end()}); // before they are read
+        const std::vector<std::string> columns = column_paths(file);
+        sources_.follow({columns.begin(), columns.end()}); // before they are read
         complete_scene(options_, file);
         const RenderSettings settings = merge_settings(options_, file);
         check_outputs(options_, settings);
@@ -117,7 +116,7 @@ private:
         }
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
         rendered_scene_.reset();
-        outcome_ = render_picture(*context_, options_, file, settings, times, superseded, viewer_);
+        outcome_ = render_picture(*context_, options_, file, settings, times, superseded);
         if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
             edited_.clear();
             rendered_outcome_ = *outcome_;
@@ -148,7 +147,7 @@ private:
 
     void tell_once_what_is_watched() {
         if (!std::exchange(is_told_, true) && !options_.quiet) {
-            const std::string data = sources_.has_data() ? " and its particles" : "";
+            const std::string data = sources_.has_data() ? " and its columns" : "";
             const std::string shaders = options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir;
             print_for_people("watching " + options_.scene + data + shaders + "; Ctrl-C ends\n",
                              options_.stats == standard_stream);
@@ -179,7 +178,6 @@ private:
 
     const RenderOptions &options_;
     ValidationLog &log_;
-    TevViewer *viewer_;
     SourceWatch sources_;
     std::unique_ptr<Context> context_;
     std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
@@ -192,11 +190,11 @@ private:
 
 } // namespace
 
-int watch(const RenderOptions &options, ValidationLog &log, TevViewer *viewer) {
+int watch(const RenderOptions &options, ValidationLog &log) {
     require_files(options);
     catch_interrupts();
     catch_picture_requests();
-    return WatchedRender(options, log, viewer).run();
+    return WatchedRender(options, log).run();
 }
 
 } // namespace cli

@@ -5,8 +5,6 @@
 #include "cli/base/json_value.h"
 #include "cli/base/report_file.h"
 #include "cli/base/text_file.h"
-#include "cli/import/foreign_format.h"
-#include "cli/import/scene_items.h"
 #include "cli/scene/json_sections.h"
 #include "cli/scene/scene_override.h"
 #include "cli/scene/scene_place.h"
@@ -30,7 +28,7 @@ std::size_t hash_of(std::string_view text) {
 // The text that was read, if the file still holds it: one that was edited does not, and a pipe is read once.
 std::optional<std::string> read_again(const SceneFile &scene) {
     std::error_code ignored;
-    if (scene.is_foreign || !std::filesystem::is_regular_file(scene.path, ignored)) {
+    if (!std::filesystem::is_regular_file(scene.path, ignored)) {
         return std::nullopt;
     }
     try {
@@ -101,8 +99,8 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     if (!sphere_colours.empty()) {
         arrays.push_back(coloured(spheres, sphere_colours));
     }
-    std::transform(particles.begin(), particles.end(), std::back_inserter(arrays),
-                   [](const ParticleEntry &entry) { return entry.spheres(); });
+    std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),
+                   [](const SphereColumns &each) { return each.spheres(); });
     return arrays;
 }
 
@@ -116,6 +114,12 @@ std::vector<std::uint32_t> SceneFile::material_flags() const {
 
 bool SceneFile::is_hidden(std::uint32_t material) const {
     return std::find(hidden_materials.begin(), hidden_materials.end(), material) != hidden_materials.end();
+}
+
+std::size_t SceneFile::item_of(std::size_t sphere) const {
+    for (const SphereColumns &each : sphere_columns)
+        sphere += each.item <= sphere ? 1 : 0;
+    return sphere;
 }
 
 std::string SceneFile::explain(const BrokenRule &rule) const {
@@ -150,21 +154,21 @@ SceneFile parse_scene(std::string_view text, const std::string &path, const std:
     OverridingHandler handler(reader, overrides);
     const std::string_view checked = require_text(text, path);
     try {
-        if (const auto format = foreign_format(checked, path)) {
-            ForeignScene foreign = read_foreign_scene(*format, checked, path);
-            scene.is_foreign = true;
-            hand_on(foreign, handler);
-            scene.left_out = std::move(foreign.left_out);
-        } else {
-            parse_json_sections(checked, path, handler);
-        }
+        parse_json_sections(checked, path, handler);
         handler.finish();
         reader.finish();
     } catch (const JsonRefusal &refusal) {
-        const auto line = scene.is_foreign ? std::nullopt : find_line(checked, refusal.path, refusal.occurrence);
+        const auto line = find_line(checked, refusal.path, refusal.occurrence);
         throw Failure(ExitCode::scene, place_text(path, line, path_text(refusal.path)) + ": " + refusal.what());
     }
     return scene;
+}
+
+SceneFile read_scene_file(const std::string &path) {
+    const SceneText scene = read_scene_text(path);
+    SceneFile file = parse_scene(scene.text, scene.path);
+    load_columns(file);
+    return file;
 }
 
 SceneText read_scene_text(const std::string &path) {

@@ -1,4 +1,4 @@
-// The scene file: JSON, or the text of another program, -> the structs of pt.h. Names, types and units are checked
+// The scene file: JSON -> the structs of pt.h. Names, types and units are checked
 // here, the rules of a scene by the library; explain() leads its messages back to the file.
 #pragma once
 
@@ -7,9 +7,8 @@
 #include "cli/base/library_error.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
-#include "cli/layout/figure_look.h"
 #include "cli/scene/animation.h"
-#include "cli/scene/particle_section.h"
+#include "cli/scene/sphere_columns.h"
 
 #include <pt/pt.h>
 
@@ -42,12 +41,9 @@ struct SceneFile {
     std::vector<pt_sphere> spheres;
     std::vector<std::array<float, 3>> sphere_colours; // of each sphere where any has one, else empty
     std::vector<pt_plane> planes;
-    std::vector<ParticleEntry> particles; // as they are asked for, before complete_scene
-    std::optional<FigureLook> figure;     // camera and light are to follow from the particles
+    std::vector<SphereColumns> sphere_columns; // without what their files have, before load_columns
     pt_camera camera;
     std::vector<AnimatedValue> animation;
-    bool is_foreign = false;           // of another program, and so without lines of JSON
-    std::vector<std::string> left_out; // warnings: what such a file has and the picture will not
 
     std::optional<std::uint32_t> width;
     std::optional<std::uint32_t> height;
@@ -62,12 +58,13 @@ struct SceneFile {
 
     void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour);
 
-    // Both point into this object. Particles are in arrays, one an entry; spheres too, in the first one, if any of them
-    // has a colour.
+    // Both point into this object. Spheres are in the first array if any of them has a colour; each item that is many
+    // spheres is another.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
     std::vector<std::uint32_t> material_flags() const; // empty: 0 for all
     bool is_hidden(std::uint32_t material) const;      // from the camera
+    std::size_t item_of(std::size_t sphere) const;     // index in the file's section of spheres[sphere]
 
     // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
     // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
@@ -81,6 +78,10 @@ struct SceneFile {
 // Throw Failure(ExitCode::scene) if the text is not a scene file.
 SceneFile parse_scene(std::string_view text, const std::string &path);
 SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides);
+
+// The path - is standard input. Reads the files of columns too. Throws Failure: ExitCode::file if a file cannot be
+// read, ExitCode::scene if it is not what it has to be.
+SceneFile read_scene_file(const std::string &path);
 
 // The text of a scene file, and what it is called in messages. path: "-" is standard input. Throws
 // Failure(ExitCode::file) if it cannot be read.

@@ -21,15 +21,14 @@ JsonPath renamed_path(const FieldName &name) {
     return path;
 }
 
-// Of an element of a column: spheres of the file may be an array before those of particles, whose components are
-// spheres.
+// Of an element of a column, whose components are spheres. The file's single spheres may be an array before others.
 JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t of_spheres = scene.sphere_colours.empty() ? 0 : 1;
-    if (*rule.index < of_spheres) {
-        return {{"spheres", 0, false}, {{}, rule.component.value_or(0), true}, {rule.member, 0, false}};
-    }
-    JsonPath path{{"particles", 0, false}, {{}, *rule.index - of_spheres, true}, {rule.member, 0, false}};
-    if (rule.component) {
+    const bool is_single = *rule.index < of_spheres;
+    const std::size_t item =
+        is_single ? scene.item_of(rule.component.value_or(0)) : scene.sphere_columns[*rule.index - of_spheres].item;
+    JsonPath path{{"spheres", 0, false}, {{}, item, true}, {rule.member, 0, false}};
+    if (rule.component && !is_single) {
         path.push_back({{}, *rule.component, true});
     }
     return path;
@@ -47,8 +46,8 @@ JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
     JsonPath path{{rule.subject, 0, false}};
     if (rule.index) {
         const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
-        path.push_back(is_named ? JsonStep{scene.material_names[*rule.index], 0, false}
-                                : JsonStep{{}, *rule.index, true});
+        const std::size_t item = rule.subject == "spheres" ? scene.item_of(*rule.index) : *rule.index;
+        path.push_back(is_named ? JsonStep{scene.material_names[item], 0, false} : JsonStep{{}, item, true});
     }
     path.push_back({rule.member, 0, false});
     return path;

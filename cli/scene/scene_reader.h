@@ -3,7 +3,6 @@
 
 #include "cli/scene/animation_section.h"
 #include "cli/scene/camera_section.h"
-#include "cli/scene/figure_section.h"
 #include "cli/scene/json_sections.h"
 #include "cli/scene/picture_sections.h"
 #include "cli/scene/scene_file.h"
@@ -33,10 +32,6 @@ private:
     }
     void material_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.material(place, value); }
     void sphere_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.sphere(place, value); }
-    void figure_item(const JsonPlace &place, const nlohmann::json &value) {
-        read_figure_item(*scene_.figure, place, value);
-    }
-    void particle_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.particles(place, value); }
     void plane_item(const JsonPlace &place, const nlohmann::json &value) { surfaces_.plane(place, value); }
 
     SceneFile &scene_;

@@ -1,11 +1,8 @@
 #include "cli/scene/scene_schema.h"
 
 #include "cli/base/method_names.h"
-#include "cli/data/number_colours.h"
-#include "cli/data/particle_file.h"
 #include "cli/image/exposure.h"
 #include "cli/image/tone_map.h"
-#include "cli/layout/figure_look.h"
 #include "cli/scene/camera_section.h"
 
 #include <cstdint>
@@ -137,60 +134,22 @@ Schema list_of(const std::string &description, const Schema &element) {
 }
 
 Schema spheres() {
-    return list_of("Hollow, and seen from both sides",
-                   object({{"center", described("At time 0", vector())},
-                           {"radius", number(least_length, largest_length)},
-                           {"material", {{"type", "string"}}},
-                           {"motion", described("Way from time 0 to time 1; default [0, 0, 0]", vector())},
-                           {"color", described("Multiplies the material's diffuse; default 1", share_colour())}},
-                          {"center", "radius", "material"}));
-}
-
-// A value for each type of particles, by its name.
-Schema by_type(const Schema &value) {
-    return {{"type", "object"}, {"additionalProperties", value}, {"minProperties", 1}};
-}
-
-Schema figure() {
-    const Schema view{{"anyOf", {one_of(view_names), direction()}}};
-    const Schema up{{"anyOf", {{{"enum", {"x", "y", "z", "-x", "-y", "-z"}}}, direction()}}};
-    return described("In place of a camera: camera and light follow from the particles, as of pt figure",
-                     object({{"view", described("Where they are seen from; default three-quarter", view)},
-                             {"up", described("What is up in the data; default z", up)},
-                             {"projection", described("Default perspective", one_of(projection_names))},
-                             {"style", described("Surfaces and light; default matte", one_of(figure_style_names))},
-                             {"floor", described("For shadows; default false", {{"type", "boolean"}})}}));
-}
-
-Schema particles() {
-    const Schema text{{"type", "string"}};
-    const Schema range = array_of({{"type", "number"}}, 2);
-    const Schema scale{{"type", "number"}};
-    const Schema length = number(least_length, largest_length);
-    const Schema radius{
-        {"anyOf",
-         {length, object({{"column", text}, {"scale", scale}}, {"column"}),
-          object({{"elements", {{"enum", {"van-der-waals", "covalent"}}}}, {"scale", scale}}, {"elements"}),
-          object({{"types", by_type({{"type", "number"}, {"exclusiveMinimum", 0}})}, {"scale", scale}}, {"types"})}}};
-    const Schema colours{
-        {"anyOf",
-         {share_colour(),
-          {{"const", "type"}},
-          object({{"types", by_type(share_colour())}}, {"types"}),
-          object({{"columns", array_of(text, 3)}, {"map", one_of(colour_map_names)}, {"range", range}}, {"columns"}),
-          object({{"column", text}, {"map", one_of(colour_map_names)}, {"range", range}}, {"column"})}}};
-    return list_of("Spheres at the particles of a file",
-                   object({{"file", described("Relative to the scene's folder", text)},
-                           {"format", described("Default: by its first bytes or its name", one_of(particle_formats))},
-                           {"frame", described("From 0, or from the last, -1, on; default -1", {{"type", "integer"}})},
-                           {"wrap", described("Into the periodic box; default false", {{"type", "boolean"}})},
-                           {"where", list_of("Conditions that all hold, like z < 5", text)},
-                           {"radius", described("Default: as of pt figure", radius)},
-                           {"color", described("Multiplies the material's diffuse; default 1, or without a material "
-                                               "as of pt figure",
-                                               colours)},
-                           {"material", described("Default: that of the figure", text)}},
-                          {"file"}));
+    const auto or_file = [](const Schema &value) {
+        return Schema{{"anyOf", {value, {{"type", "string"}, {"minLength", 1}}}}};
+    };
+    const Schema radius = number(least_length, largest_length);
+    const auto sphere = [&](const std::string &center_text, const Schema &center, const auto &column) {
+        return object({{"center", described(center_text, center)},
+                       {"radius", column(radius)},
+                       {"material", {{"type", "string"}}},
+                       {"motion", described("Way from time 0 to time 1; default [0, 0, 0]", column(vector()))},
+                       {"color", described("Multiplies the material's diffuse; default 1", column(share_colour()))}},
+                      {"center", "radius", "material"});
+    };
+    const Schema one = sphere("At time 0", vector(), [](const Schema &value) { return value; });
+    const Schema many =
+        sphere("NPY file with one for each of many spheres", {{"type", "string"}, {"minLength", 1}}, or_file);
+    return list_of("Hollow, and seen from both sides", {{"anyOf", {one, many}}});
 }
 
 Schema planes() {
@@ -215,12 +174,10 @@ Schema animation() {
 
 nlohmann::ordered_json scene_schema() {
     Schema schema = object({{"camera", camera()},
-                            {"figure", figure()},
                             {"film", film()},
                             {"render", render()},
                             {"materials", materials()},
                             {"spheres", spheres()},
-                            {"particles", particles()},
                             {"planes", planes()},
                             {"animation", animation()}});
     schema["$schema"] = "http://json-schema.org/draft-07/schema#";

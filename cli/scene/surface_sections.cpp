@@ -36,6 +36,12 @@ void SurfaceSections::material(const JsonPlace &place, const json &value) {
 }
 
 void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
+    if (is_sphere_columns(value)) {
+        SphereColumns columns = read_sphere_columns(place, value);
+        columns.material = references_.number(place.member("material"), value.at("material"));
+        scene_.sphere_columns.push_back(std::move(columns));
+        return;
+    }
     const JsonObject object(value, place, {"center", "radius", "material", "motion", "color"});
     pt_sphere sphere{};
     store(read_vector(object.require("center"), place.member("center")), sphere.center);
@@ -47,14 +53,6 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
     const json *colour = object.find("color");
     scene_.add_sphere(sphere,
                       colour == nullptr ? std::nullopt : std::optional(read_colour(*colour, place.member("color"))));
-}
-
-void SurfaceSections::particles(const JsonPlace &place, const json &value) {
-    ParticleEntry entry = read_particle_entry(place, value);
-    if (entry.has_material) {
-        entry.material = references_.number(place.member("material"), value.at("material"));
-    }
-    scene_.particles.push_back(std::move(entry));
 }
 
 void SurfaceSections::plane(const JsonPlace &place, const json &value) {
@@ -71,8 +69,8 @@ void SurfaceSections::resolve_materials() {
     for (pt_sphere &sphere : scene_.spheres) {
         sphere.material = indices[sphere.material];
     }
-    for (ParticleEntry &entry : scene_.particles) {
-        entry.material = entry.has_material ? indices[entry.material] : 0;
+    for (SphereColumns &each : scene_.sphere_columns) {
+        each.material = indices[each.material];
     }
     for (pt_plane &plane : scene_.planes) {
         plane.material = indices[plane.material];

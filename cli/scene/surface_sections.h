@@ -13,7 +13,6 @@ public:
 
     void material(const JsonPlace &place, const nlohmann::json &value);
     void sphere(const JsonPlace &place, const nlohmann::json &value);
-    void particles(const JsonPlace &place, const nlohmann::json &value);
     void plane(const JsonPlace &place, const nlohmann::json &value);
 
     // At the end of the file: gives spheres and planes the indices of their materials.

@@ -38,8 +38,8 @@ std::vector<bool> used_materials(const SceneFile &scene) {
     for (const pt_sphere &sphere : scene.spheres) {
         used[sphere.material] = true;
     }
-    for (const ParticleEntry &entry : scene.particles) {
-        used[entry.material] = true;
+    for (const SphereColumns &each : scene.sphere_columns) {
+        used[each.material] = true;
     }
     for (const pt_plane &plane : scene.planes) {
         used[plane.material] = true;
@@ -132,9 +132,9 @@ private:
             const auto [low, high] = std::minmax({height(open_), height(close_)});
             return emits(material_of(lamp)) && low <= ball.radius && high >= -ball.radius;
         };
-        // Where particles shine is not looked at: they may be millions.
-        const auto particles_shine = [this](const ParticleEntry &entry) { return emits(material_of(entry)); };
-        return std::any_of(scene_.particles.begin(), scene_.particles.end(), particles_shine) ||
+        // Where spheres of columns shine is not looked at: they may be millions.
+        const auto columns_shine = [this](const SphereColumns &each) { return emits(material_of(each)); };
+        return std::any_of(scene_.sphere_columns.begin(), scene_.sphere_columns.end(), columns_shine) ||
                std::any_of(scene_.spheres.begin(), scene_.spheres.end(), sphere_reaches_in) ||
                std::any_of(scene_.planes.begin(), scene_.planes.end(), plane_reaches_in);
     }
@@ -229,11 +229,11 @@ bool is_known_to_be_black(const RenderReport &report) {
 } // namespace
 
 std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSettings &settings) {
-    std::vector<std::string> warnings = scene.left_out;
+    std::vector<std::string> warnings;
     if (!is_lit(scene)) {
         warnings.push_back(scene.path + ": no surface emits light: the picture is black");
     } else if (const auto ball = ShutInCamera(scene).find()) {
-        warnings.push_back(scene.path + ": the camera is inside of spheres[" + std::to_string(*ball) +
+        warnings.push_back(scene.path + ": the camera is inside of spheres[" + std::to_string(scene.item_of(*ball)) +
                            "], which no light gets into: the picture is black");
     }
     if (const auto materials = brightening_materials(scene)) {

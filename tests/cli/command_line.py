@@ -26,6 +26,14 @@ RESULT = {"INVALID_ARGUMENT": -1, "INVALID_SCENE": -2, "INVALID_STATE": -3, "UNS
           "INCOMPATIBLE": -11}
 
 
+def npy(type_code, shape, numbers, version=1):
+    """An NPY file, as numpy.save writes it."""
+    head = f"{{'descr': '{type_code}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
+    size = struct.pack("<H" if version == 1 else "<I", len(head))
+    letter = {"<f4": "f", "<f8": "d", "|u1": "B"}[type_code]
+    return b"\x93NUMPY" + bytes([version, 0]) + size + head + struct.pack(f"<{len(numbers)}{letter}", *numbers)
+
+
 def png_chunks(data):
     """Name and contents of each."""
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
@@ -146,8 +154,8 @@ class CommandLineTest(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
+        with open(self.path(name), "wb") as file:
+            file.write(text if isinstance(text, bytes) else text.encode())
 
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:

@@ -28,7 +28,7 @@ CASES = [
     (1, [*RENDER, "--validation"], {"FAKE_PT_LOG": "accumulate"}, "pt: validation: a message of the layer", ["a.png"]),
     (1, ["selftest"], {"FAKE_PT_FAIL": "accuracy_bound:1"}, "", []),
     (1, RENDER, fails("accumulate", "INTERNAL"), "pt: the reason", []),
-    (2, [], {}, "pt: a command is missing: render, figure, ", []),
+    (2, [], {}, "pt: a command is missing: render, tonemap, ", []),
     (2, ["rendr"], {}, 'pt: unknown command "rendr", did you mean "render"? (see pt --help)', []),
     (2, ["render"], {}, "pt: SCENE is required (see pt render --help)", []),
     (2, ["render", COURSEWORK], {}, "pt: -o or --film is missing: there is nothing to write", []),

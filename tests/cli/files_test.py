@@ -139,7 +139,7 @@ class SameFiles(CommandLineTest):
         self.expect(0, "render", "s.png", "-o", "a.png", "-o", "a/a.png", "-o", "A.png", "-o", "a.exr", "--stats",
                     "a.json")
         with open("/dev/null", encoding="utf-8") as null:  # may be all three streams
-            done = subprocess.run([self.program, "render", "-", "-o", "b.png", "--stats", "-"], stdin=null,
+            done = subprocess.run([self.program, "render", "-", "-o", "-", "--format", "png"], stdin=null,
                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr[:25]), (3, "pt: standard input:1:1: s"))
 

@@ -13,21 +13,14 @@ from command_line import PT, SCENES, CommandLineTest, main, read_png
 with open(os.path.join(os.path.dirname(SCENES), "README.md"), encoding="utf-8") as file:
     MANUAL = file.read()
 
-SECTIONS = {"camera": "{%s}", "figure": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
-            "spheres": "[{%s}]", "particles": "[{%s}]", "planes": "[{%s}]"}
+SECTIONS = {"camera": "{%s}", "film": "{%s}", "render": "{%s}", "materials": '{"a": {%s}}',
+            "spheres": "[{%s}]", "planes": "[{%s}]"}
 # What a section has to have beside the key that is looked at.
 REQUIRED = {"camera": {"position": [0, 0, 1], "look_at": [0, 0, 0]},
             "spheres": {"center": [0, 0, -5], "radius": 1, "material": "red"},
-            "particles": {"file": "melt.dump", "format": "xyz", "radius": 1, "material": "red"},
             "planes": {"normal": [0, 1, 0], "offset": 0, "material": "red"}}
 # Keys that cannot stand together: examples are tried without the ones and without the others.
 EITHER = {"camera": (["vertical_fov"], ["projection", "vertical_extent"])}
-# What the examples of `particles` read.
-PARTICLES = """2
-Properties=species:S:1:pos:R:3:vx:R:1
-O 0 0 -5 1.5
-H 1 0 -5 -0.5
-"""
 
 
 def rows_after(heading):
@@ -67,8 +60,6 @@ def scene_with(section, values):
     """A scene file whose section has these values, by key, and no more than it has to have beside them."""
     members = json.dumps({**REQUIRED.get(section, {}), **values})
     others = "" if section == "materials" else ', "materials": {"red": {"diffuse": 0.5}}'
-    if section == "figure":
-        others += ', "particles": [{"file": "melt.dump", "format": "xyz"}]'
     return '{"%s": %s%s}' % (section, SECTIONS[section] % members[1:-1], others)
 
 
@@ -109,8 +100,6 @@ class RealDevice(CommandLineTest):
     def setUp(self):
         super().setUp()
         shutil.copy(os.path.join(SCENES, "first.json"), self.path("scene.json"))
-        particles, = re.findall(r"```xyz\n(.*?)```", MANUAL, re.DOTALL)
-        self.write("water.xyz", particles)
 
     def test_the_scene_is_the_shipped_one(self):
         example, = re.findall(r"```json\n(.*?)```", MANUAL, re.DOTALL)
@@ -129,8 +118,7 @@ class RealDevice(CommandLineTest):
                     for line in block.splitlines() if line.startswith("pt ")]
         self.assertGreater(len(commands), 5)
         for command in commands:
-            smaller = ["--size", "96x48"] if command[1] in ("render", "figure") and "--size" not in command else []
-            smaller += ["--spp", "2"] if command[1] == "figure" else []
+            smaller = ["--size", "96x48"] if command[1] == "render" and "--size" not in command else []
             words = command[1:command.index(">")] if ">" in command else command[1:]
             if "--watch" not in command:  # which does not end by itself
                 self.expect(0, *words, *smaller)
@@ -172,7 +160,6 @@ class RealDevice(CommandLineTest):
             self.assertIn(os.path.basename(picture), self.files())
 
     def render_scene(self, code, section, values):
-        self.write("melt.dump", PARTICLES)
         self.write("s.json", scene_with(section, values))
         self.expect(code, "render", "s.json", *self.small)
 
@@ -203,12 +190,11 @@ class RealDevice(CommandLineTest):
         for option, ends in ranges.items():
             for number in beyond(*ends):
                 self.expect(2, "render", "scene.json", "-o", "a.png", f"{option}={number}", error=option)
-        found = len(ranges)
+        self.assertEqual(len(ranges), 10)
         ranges["--spp"] = (1, 1)  # the most would take a while
         for end in 0, 1:
             options = [f"{option}={ends[end]}" for option, ends in ranges.items()]
             self.expect(0, "render", "scene.json", "-o", "a.png", "--size", "4x2", *options)
-        self.assertEqual(found, 10)
 
     def test_reports_have_the_keys_that_are_told(self):
         self.expect(0, "render", "scene.json", *self.small, "--stats", "s.json", "--progress", "json")

@@ -68,7 +68,7 @@ class OtherProgram(CommandLineTest):
                 self.assertEqual((run.returncode, run.stdout), (2, ""), run.stderr)
 
     def test_what_is_missing_says_how_to_install_it(self):
-        for name, extra in ("view", "figure"), ("farm", "farm"):
+        for name, extra in ("figure", "figure"), ("view", "figure"), ("farm", "farm"):
             run = self.run_with(self.path("empty"), name, "data.xyz")
             self.assertEqual(run.returncode, 2)
             self.assertEqual(run.stderr, f"pt: there is no pt-{name} in the PATH, which comes with the Python package: "

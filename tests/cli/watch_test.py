@@ -5,7 +5,7 @@ import os
 import signal
 import time
 
-from command_line import PATIENCE, PT, main, read_png
+from command_line import PATIENCE, PT, main, npy, read_png
 from watching import WatchTest, scene_text
 
 
@@ -38,20 +38,20 @@ class Scenes(WatchTest):
         self.assertEqual(pt.end(), 0)
         self.assertEqual(pt.count("wrote"), 5, pt.seen)
 
-    def test_particles_of_files(self):
+    def test_columns_of_files(self):
         scene = json.loads(scene_text(3))
-        scene["particles"] = [{"file": "data/a.xyz", "radius": 1, "material": "light"}]
+        scene["spheres"] = [{"center": "data/a.npy", "radius": 1, "material": "light"}]
         os.mkdir(self.path("data"))
-        self.write("data/a.xyz", "1\n\nH 0 0 0\n")
+        self.write("data/a.npy", npy("<f4", (1, 3), [0, 0, 0]))
         self.write("s.json", json.dumps(scene))
         pt = self.watch()
-        pt.line_with("watching s.json and its particles; Ctrl-C ends")
-        self.write("data/a.xyz", "2\n\nH 0 0 0\nH 1 0 0\n")
-        pt.line_with("pt: changed: data/a.xyz")
+        pt.line_with("watching s.json and its columns; Ctrl-C ends")
+        self.save("data/a.npy", npy("<f4", (2, 3), [0, 0, 0, 1, 0, 0]))
+        pt.line_with("pt: changed: data/a.npy")
         pt.line_with("wrote a.png")
-        self.save("data/a.xyz", "1\n\nH 0 0 zero\n")
-        pt.line_with("pt: s.json: particles[0]: data/a.xyz:3: ")
-        self.save("data/a.xyz", "1\n\nH 0 0 0\n")
+        self.save("data/a.npy", npy("<f4", (2, 3), [0, 0, 0]))
+        pt.line_with("pt: s.json: spheres[0].center: data/a.npy: ends after 1 of 2 rows")
+        self.save("data/a.npy", npy("<f4", (1, 3), [0, 0, 0]))
         pt.line_with("wrote a.png")
         self.save("s.json", scene_text(4))
         pt.line_with("wrote a.png: 4x2")

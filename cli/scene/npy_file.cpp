@@ -1,0 +1,134 @@
+#include "cli/scene/npy_file.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/base/number.h"
+
+#include <pt/pt.h>
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace cli {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "NPY files are used as they are");
+
+constexpr std::string_view magic = "\x93NUMPY";
+
+std::uint32_t size_of(std::uint32_t type) {
+    return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
+}
+
+class NpyHeader {
+public:
+    NpyHeader(const std::string &file, const std::string &name) : name_(name) {
+        constexpr std::size_t version_place = magic.size();
+        if (!file.starts_with(magic) || file.size() < version_place + 2)
+            refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");
+        const int version = static_cast<unsigned char>(file[version_place]);
+        if (version != 1 && version != 2)
+            refuse("has NPY version " + std::to_string(version) + ", must be 1 or 2, of arrays without named fields");
+        const std::size_t size_bytes = version == 1 ? 2 : 4;
+        const std::size_t begin = version_place + 2 + size_bytes;
+        std::size_t size = 0;
+        for (std::size_t i = 0; i < size_bytes && version_place + 2 + i < file.size(); ++i)
+            size |= std::size_t{static_cast<unsigned char>(file[version_place + 2 + i])} << (8 * i);
+        if (file.size() < begin || file.size() - begin < size)
+            refuse("ends within its head: it was cut short");
+        text_ = std::string_view(file).substr(begin, size);
+        end_ = begin + size;
+    }
+
+    NpyArray read() const {
+        NpyArray array;
+        array.first = end_;
+        array.type = type();
+        if (!value_of("fortran_order").starts_with("False"))
+            refuse("is in column order: save numpy.ascontiguousarray(array)");
+        const std::vector<std::size_t> shape = read_shape();
+        if (shape.empty() || shape.size() > 2)
+            refuse("has " + std::to_string(shape.size()) + " dimensions, must have 1 or 2");
+        array.row_count = shape[0];
+        array.row_length = shape.size() == 2 ? shape[1] : 0;
+        if (shape.size() == 2 && (shape[1] == 0 || shape[1] > longest_row))
+            refuse("has rows of " + std::to_string(shape[1]) + " numbers, must have 1 to 3");
+        return array;
+    }
+
+    [[noreturn]] void refuse(const std::string &what) const { throw Failure(ExitCode::scene, name_ + ": " + what); }
+
+private:
+    static constexpr std::size_t longest_row = 3;
+
+    // What stands behind a key of the dictionary of Python that the head is.
+    std::string_view value_of(std::string_view key) const {
+        const std::string quoted = "'" + std::string(key) + "':";
+        const std::size_t place = text_.find(quoted);
+        if (place == std::string_view::npos)
+            refuse("its head has no " + std::string(key));
+        const std::string_view rest = text_.substr(place + quoted.size());
+        return rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+    }
+
+    std::uint32_t type() const {
+        const std::string_view value = value_of("descr");
+        const std::string_view code =
+            value.starts_with('\'') ? value.substr(1, value.find('\'', 1) - 1) : value.substr(0, value.find(','));
+        if (code == "<f4")
+            return PT_TYPE_FLOAT32;
+        if (code == "<f8")
+            return PT_TYPE_FLOAT64;
+        if (code == "|u1")
+            return PT_TYPE_SRGB8;
+        refuse("has numbers of the type " + std::string(code) +
+               ", must be <f4, <f8 or |u1: save array.astype(\"float32\")");
+    }
+
+    // "(10, 3), ..."
+    std::vector<std::size_t> read_shape() const {
+        std::string_view text = value_of("shape");
+        const std::size_t end = text.find(')');
+        if (!text.starts_with('(') || end == std::string_view::npos)
+            refuse("its head has a shape that is none");
+        text = text.substr(1, end - 1);
+        std::vector<std::size_t> shape;
+        while (!text.empty()) {
+            const std::size_t length = std::min(text.find(','), text.size());
+            const auto number = parse_number<std::size_t>(text.substr(0, length));
+            if (!number)
+                refuse("its head has a shape that is none");
+            shape.push_back(*number);
+            text.remove_prefix(std::min(text.find_first_not_of(", ", length), text.size()));
+        }
+        return shape;
+    }
+
+    const std::string &name_;
+    std::string_view text_;
+    std::size_t end_ = 0;
+};
+
+} // namespace
+
+std::uint32_t NpyArray::row_bytes() const {
+    return size_of(type) * static_cast<std::uint32_t>(std::max<std::size_t>(row_length, 1));
+}
+
+NpyArray parse_npy(std::string file, const std::string &name) {
+    const NpyHeader header(file, name);
+    NpyArray array = header.read();
+    const std::size_t bytes = file.size() - array.first;
+    const std::size_t rows = bytes / array.row_bytes();
+    if (rows < array.row_count)
+        header.refuse("ends after " + std::to_string(rows) + " of " + std::to_string(array.row_count) +
+                      " rows: it was cut short");
+    if (bytes != array.row_count * array.row_bytes())
+        header.refuse("goes on after its " + std::to_string(array.row_count) + " rows");
+    array.file = std::move(file);
+    return array;
+}
+
+} // namespace cli

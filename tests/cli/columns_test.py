@@ -1,0 +1,123 @@
+"""Tests of scenes whose spheres are columns of NPY files. Arguments: see command_line.py."""
+
+import json
+import os
+
+from command_line import PT, CommandLineTest, main, npy, read_exr_channels
+
+CENTERS = [0.0, 0.5, -5.0, 1.25, 0.5, -6.0, -1.0, 0.25, -4.0]
+RADII = [0.5, 1.0, 0.25]
+COLORS = [255, 0, 128, 0, 255, 64, 30, 60, 90]
+
+
+class ColumnsTest(CommandLineTest):
+    def scene(self, *spheres, **others):
+        materials = {"a": {"diffuse": 0.75}, "sky": {"emission": 1}}
+        sky = {"center": [0, 0, 0], "radius": 100, "material": "sky"}
+        self.write("s.json", json.dumps({"materials": materials, "spheres": [sky, *spheres], **others}, indent=1))
+
+    def files_of(self):
+        self.write("c.npy", npy("<f8", (3, 3), CENTERS))
+        self.write("r.npy", npy("<f4", (3,), RADII))
+        self.write("k.npy", npy("|u1", (3, 3), COLORS))
+
+
+class Refusals(ColumnsTest):
+    def refuse(self, data, error, key="radius", code=3):
+        self.files_of()
+        self.write("bad.npy", data)
+        self.scene({"center": "c.npy", "radius": 1, "material": "a", key: "bad.npy"})
+        self.expect(code, "render", "s.json", "-o", "a.png", "--size", "4x2", "--spp", "1",
+                    error=f"pt: s.json: spheres[1].{key}: bad.npy: {error}")
+
+    def test_files_that_do_not_fit(self):
+        good = npy("<f4", (3,), RADII)
+        for data, error in (
+                (b"", "is no NPY file"), (b"PK\3\4" + good, "is no NPY file"), (good[:5], "is no NPY file"),
+                (good[:9], "ends within its head"), (good[:40], "ends within its head"),
+                (good[:-1], "ends after 2 of 3 rows"), (good + b"\0", "goes on after its 3 rows"),
+                (good[:6] + b"\3" + good[7:], "has NPY version 3, must be 1 or 2"),
+                (good.replace(b"<f4", b">f4"), "has numbers of the type >f4, must be <f4, <f8 or |u1: save array"),
+                (good.replace(b"<f4", b"<i4"), "has numbers of the type <i4"),
+                (good.replace(b"'<f4'", b"[('x'"), "has numbers of the type [('x'"),
+                (good.replace(b"False", b"True "), "is in column order: save numpy.ascontiguousarray(array)"),
+                (good.replace(b"(3,)", b"()  "), "has 0 dimensions, must have 1 or 2"),
+                (good.replace(b"(3,)", b"(-1)"), "its head has a shape that is none"),
+                (good.replace(b"'shape'", b"'shade'"), "its head has no shape"),
+                (npy("<f4", (3, 1, 1), RADII), "has 3 dimensions"),
+                (npy("<f4", (3, 1), RADII), "has the shape (3, 1), must be (N,)"),
+                (npy("<f4", (2,), RADII[:2]), "has 2 rows, and the centers 3"),
+                (npy("<f4", (2**62, 2), RADII), "ends after 1 of 4611686018427387904 rows"),
+                (npy("|u1", (3,), [1, 2, 3]), "has numbers of the type |u1, which colors alone may have")):
+            with self.subTest(error=error):
+                self.refuse(data, error)
+        self.refuse(npy("<f4", (3,), RADII), "has the shape (3,), must be (N, 3)", "color")
+        self.refuse(npy("<f8", (3, 2), [0] * 6), "has the shape (3, 2), must be (N, 3)", "motion")
+
+    def test_files_that_are_not_there_or_are_outputs(self):
+        self.scene({"center": "c.npy", "radius": "no.npy", "material": "a"})
+        self.files_of()
+        arguments = "render", "s.json", "-o", "a.png", "--size", "4x2", "--spp", "1"
+        self.expect(6, *arguments, error="spheres[1].radius: cannot read no.npy: No such file or directory")
+        os.symlink("c.npy", self.path("same.json"))
+        self.expect(2, *arguments, "--stats", "same.json", error="is the same file as a column of spheres c.npy")
+
+    def test_sections_of_before_name_the_new_way(self):
+        for section in '"figure": {}', '"particles": []':
+            self.write("s.json", "{%s}" % section)
+            self.expect(3, "render", "s.json", "-o", "a.png", error="--write-scene SCENE` writes a scene whose spheres")
+
+    def test_paths_are_relative_to_the_scene(self):
+        os.mkdir(self.path("sub"))
+        self.files_of()
+        os.rename(self.path("c.npy"), self.path("sub/c.npy"))
+        self.scene({"center": "c.npy", "radius": 1, "material": "a"})
+        os.rename(self.path("s.json"), self.path("sub/s.json"))
+        self.expect(0, "render", "sub/s.json", "-o", "a.png", "--size", "4x2", "--spp", "1")
+
+
+class RealDevice(ColumnsTest):
+    program = PT
+
+    def radiance(self):
+        self.expect(0, "render", "s.json", "-o", "a.exr", "--size", "24x16", "--spp", "4", "-q")
+        return read_exr_channels(self.path("a.exr"))
+
+    def test_columns_are_the_spheres_that_they_list(self):
+        """The same image as by single spheres, whatever the types of the files; a colour is the linear value of sRGB."""
+        def linear(byte):
+            share = byte / 255
+            return share / 12.92 if share <= 0.04045 else ((share + 0.055) / 1.055) ** 2.4
+
+        motion = [0.25, 0, 0]
+        singles = [{"center": CENTERS[3 * i:3 * i + 3], "radius": RADII[i], "material": "a", "motion": motion,
+                    "color": [linear(byte) for byte in COLORS[3 * i:3 * i + 3]]} for i in range(3)]
+        self.scene(*singles)
+        expected = self.radiance()
+        self.assertGreater(len({value for line in expected["R"] for value in line}), 10)
+        self.files_of()
+        for float_type, version in (("<f4", 1), ("<f8", 2)):
+            self.write("c.npy", npy(float_type, (3, 3), CENTERS, version))
+            self.write("r.npy", npy(float_type, (3,), RADII, version))
+            self.write("m.npy", npy(float_type, (3, 3), motion * 3, version))
+            for moved in "m.npy", motion:
+                self.scene({"center": "c.npy", "radius": "r.npy", "material": "a", "motion": moved, "color": "k.npy"})
+                found = self.radiance()
+                for name, lines in expected.items():
+                    for line, other in zip(lines, found[name]):
+                        for a, b in zip(line, other):
+                            # The library decodes to float32, here to double: an ulp of a colour is one of the light.
+                            self.assertLessEqual(abs(a - b), 2**-20 * abs(a))
+
+    def test_rules_of_the_library_lead_back_to_the_file(self):
+        self.files_of()
+        self.write("r.npy", npy("<f4", (3,), [1, -1, 1]))
+        one = {"center": [0, 1, -5], "radius": 1, "material": "a"}
+        self.scene({"center": "c.npy", "radius": "r.npy", "material": "a"}, {**one, "radius": -2})
+        self.expect(3, "render", "s.json", "-o", "a.png", error="spheres[2].radius = -2: must be > 0")
+        self.scene({"center": "c.npy", "radius": "r.npy", "material": "a"}, one)
+        self.expect(3, "render", "s.json", "-o", "a.png", error=": spheres[1].radius[1] = -1: must be > 0")
+
+
+if __name__ == "__main__":
+    main()
