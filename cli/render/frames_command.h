@@ -6,7 +6,7 @@
 
 namespace cli {
 
-// viewer: where frames are shown; NULL: nowhere. Returns the exit code; throws Failure. A frame that a signal stops is
+// Returns the exit code; throws Failure. A frame that a signal stops is
 // not written: each file is a whole frame.
 int render_frames(const RenderOptions &options, ValidationLog &log);
 

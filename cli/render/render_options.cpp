@@ -214,7 +214,7 @@ const char *const render_help =
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
     command
-        .add_option("SCENE", options.scene, "Scene file (JSON), or a scene of Tachyon or in NFF; - is standard input")
+        .add_option("SCENE", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
     add_output_options(command, options);

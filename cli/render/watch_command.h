@@ -6,7 +6,7 @@
 
 namespace cli {
 
-// viewer: where the picture is shown; NULL: nowhere. Returns the exit code once a signal has come: 0 if it came while
+// Returns the exit code once a signal has come: 0 if it came while
 // waiting. Throws Failure where no change of a source could help, and for the first picture where the fault is not in a
 // scene or shader.
 int watch(const RenderOptions &options, ValidationLog &log);

@@ -1,7 +1,7 @@
 // Reads the data of the analytic tests; see scenes.h.
 #include "tests/analytic/scenes.h"
 
-#include "cli/scene/scene_completion.h"
+#include "cli/scene/scene_file.h"
 
 #include <fstream>
 #include <sstream>

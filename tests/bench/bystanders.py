@@ -1,22 +1,17 @@
-"""What checkpoints and viewers cost a rendering, which they must not hold up: CPU and wall seconds of the same picture
-with and without, in turn, so that a disturbed machine is so for all alike.
+"""What checkpoints cost a rendering, which they must not hold up: CPU and wall seconds of the same picture with and
+without, in turn, so that a disturbed machine is so for all alike.
 
     python3 tests/bench/bystanders.py --pt build/bin/pt --size 1920x1080 --spp 24
 
 plain        nothing beside the rendering
-checkpoints  one every --every seconds, and one at the end
-absent       --tev, but nobody listens
-silent       --tev to a viewer that never reads
-leaving      --tev to a viewer that reads some bytes and goes"""
+checkpoints  one every --every seconds, and one at the end"""
 
 import argparse
 import os
 import resource
-import socket
 import statistics
 import subprocess
 import tempfile
-import threading
 import time
 
 from table import print_table
@@ -36,31 +31,6 @@ def parse_arguments():
     return parser.parse_args()
 
 
-class Viewer:
-    """Listens on a port of its own."""
-
-    def __init__(self, leaves):
-        self.leaves = leaves
-        self.listener = socket.create_server(("127.0.0.1", 0))
-        self.address = "127.0.0.1:%d" % self.listener.getsockname()[1]
-        self.connections = []
-        threading.Thread(target=self.accept, daemon=True).start()
-
-    def accept(self):
-        while True:
-            connection, _ = self.listener.accept()
-            if self.leaves:
-                connection.recv(1000)
-                connection.close()
-            else:
-                self.connections.append(connection)
-
-
-def absent_address():
-    with socket.create_server(("127.0.0.1", 0)) as listener:
-        return "127.0.0.1:%d" % listener.getsockname()[1]
-
-
 def run(arguments, folder, extra):
     """CPU and wall seconds."""
     command = [arguments.pt, "render", arguments.scene, "-o", os.path.join(folder, "a.exr"), "--size", arguments.size,
@@ -78,9 +48,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         checkpoint = os.path.join(folder, "kept.ptfilm")
         variants = {"plain": [],
-                    "checkpoints": ["--checkpoint", checkpoint, "--checkpoint-every", str(arguments.every)],
-                    "absent": ["--tev=" + absent_address()], "silent": ["--tev=" + Viewer(leaves=False).address],
-                    "leaving": ["--tev=" + Viewer(leaves=True).address]}
+                    "checkpoints": ["--checkpoint", checkpoint, "--checkpoint-every", str(arguments.every)]}
         runs = {name: [] for name in variants}
         run(arguments, folder, [])  # with kernels to compile
         for _ in range(arguments.rounds):
