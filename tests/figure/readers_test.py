@@ -101,9 +101,10 @@ class Cells(InAFolder):
 
     def test_wrapping_goes_by_whole_edges(self):
         edges = np.array([[2.0, 0, 0], [1, 4, 0], [1, -2, 8]])
-        inside = np.random.default_rng(1).uniform(0.01, 0.99, (50, 3)) @ edges + (1, -2, 10)
+        fractions = np.random.default_rng(1).uniform((0.01, -2, 0.01), (0.99, 3, 0.99), (50, 3))
+        inside = fractions @ edges + (1, -2, 10)
         turns = np.random.default_rng(2).integers(-3, 4, (50, 3))
-        turns[:, 1] = 0  # along which the cell does not repeat
+        turns[:, 1] = 0  # the cell does not repeat along it, so particles stay outside
         outside = inside + turns @ edges
         data = {"positions": outside, "v": np.arange(50)}
         found = load(data)
