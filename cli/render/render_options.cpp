@@ -213,8 +213,7 @@ const char *const render_help =
     "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 void add_render_options(CLI::App &command, RenderOptions &options) {
-    command
-        .add_option("SCENE", options.scene, "Scene file (JSON); - is standard input")
+    command.add_option("SCENE", options.scene, "Scene file (JSON); - is standard input")
         ->required()
         ->type_name("SCENE");
     add_output_options(command, options);
