@@ -120,6 +120,10 @@ class Schema(CommandLineTest):
     def test_it_refuses_what_the_program_refuses(self):
         counts = {"valid": 0, "reader": 0, "library": 0, "beyond": 0}
         for scene in changes():
+            spheres = scene.get("spheres")
+            if isinstance(spheres, list) and any(isinstance(each, dict) and isinstance(each.get("center"), str)
+                                                 for each in spheres):
+                continue  # the name of a file, see above
             is_valid = self.validator.is_valid(scene)
             refused = self.refused_by(self.fake, scene, "--size", "4x2")
             kind = "valid" if is_valid else "reader"
