@@ -66,16 +66,13 @@ public:
         try {
             app_.parse(arguments_of(argument_count, arguments));
         } catch (const CLI::ParseError &error) {
-            if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+            if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
                 return app_.exit(error); // --help and --version
-            }
             return fail(cli::ExitCode::usage, cli::usage_reason(app_, error));
         }
-        for (const Command &command : commands_) {
-            if (command.app->parsed()) {
+        for (const Command &command : commands_)
+            if (command.app->parsed())
                 return command.run();
-            }
-        }
         return fail(cli::ExitCode::usage, "a command is missing: " + names() + " (see pt --help)");
     }
 
@@ -85,11 +82,9 @@ private:
     static std::vector<std::string> arguments_of(int argument_count, char **arguments) {
         std::vector<std::string> given(arguments + std::min(argument_count, 1), arguments + argument_count);
         if (const auto mark = std::find(given.begin(), given.end(), "--"); mark != given.end()) {
-            for (auto file = given.erase(mark); file != given.end(); ++file) {
-                if (file->starts_with('-') && file->size() > 1) {
+            for (auto file = given.erase(mark); file != given.end(); ++file)
+                if (file->starts_with('-') && file->size() > 1)
                     file->insert(0, "./");
-                }
-            }
         }
         std::reverse(given.begin(), given.end());
         return given;

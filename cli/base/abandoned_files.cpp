@@ -19,9 +19,8 @@ constexpr std::string_view prefix = ".pt-";
 constexpr std::string_view suffix = ".tmp";
 
 bool is_temporary_name(std::string_view name) {
-    if (!name.starts_with(prefix) || !name.ends_with(suffix) || name.size() < prefix.size() + suffix.size()) {
+    if (!name.starts_with(prefix) || !name.ends_with(suffix) || name.size() < prefix.size() + suffix.size())
         return false;
-    }
     const std::string_view numbers = name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
     const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
     const std::size_t dash = numbers.find('-');
@@ -47,17 +46,14 @@ bool lock_temporary(int descriptor) {
 void remove_abandoned(const std::filesystem::path &folder) {
     std::error_code error;
     const std::filesystem::directory_iterator files(folder.empty() ? "." : folder, error);
-    if (error) {
+    if (error)
         return;
-    }
     for (auto file = begin(files); file != end(files) && !error; file.increment(error)) {
-        if (!is_temporary_name(file->path().filename().native())) {
+        if (!is_temporary_name(file->path().filename().native()))
             continue;
-        }
         const FileDescriptor descriptor(open(file->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-        if (descriptor.is_open() && flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0) {
+        if (descriptor.is_open() && flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0)
             unlink(file->path().c_str());
-        }
     }
 }
 

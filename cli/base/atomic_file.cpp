@@ -29,9 +29,8 @@ bool may_follow(const std::filesystem::path &link, const struct stat &of_link) {
 AtomicFile::AtomicFile(const std::string &path) : path_(path), target_(target_of(path)), file_(create_temporary()) {}
 
 AtomicFile::~AtomicFile() {
-    if (file_.is_open()) {
+    if (file_.is_open())
         unlink(temporary_.c_str());
-    }
 }
 
 std::filesystem::path AtomicFile::target_of(const std::string &path) {
@@ -64,20 +63,16 @@ void AtomicFile::fail(int error) const {
 void AtomicFile::refuse_unsuitable_target() const {
     struct stat status {};
     if (stat(target_.c_str(), &status) != 0) {
-        if (errno == ENOENT) {
+        if (errno == ENOENT)
             return;
-        }
         fail(errno);
     }
-    if (S_ISDIR(status.st_mode)) {
+    if (S_ISDIR(status.st_mode))
         fail(EISDIR);
-    }
-    if (!S_ISREG(status.st_mode)) {
+    if (!S_ISREG(status.st_mode))
         throw Failure(ExitCode::file, "cannot write " + path_ + ": not a regular file");
-    }
-    if (access(target_.c_str(), W_OK) != 0) {
+    if (access(target_.c_str(), W_OK) != 0)
         fail(errno);
-    }
 }
 
 FileDescriptor AtomicFile::create_temporary() {
@@ -86,36 +81,31 @@ FileDescriptor AtomicFile::create_temporary() {
     for (int attempt = 0;; ++attempt) {
         temporary_ = target_.parent_path() / temporary_name(attempt);
         const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-        if (descriptor >= 0 && lock_temporary(descriptor)) {
+        if (descriptor >= 0 && lock_temporary(descriptor))
             return FileDescriptor(descriptor);
-        }
-        if (descriptor >= 0) {
+        if (descriptor >= 0)
             ::close(descriptor);
-        } else if (errno != EEXIST) {
+        else if (errno != EEXIST)
             fail(errno);
-        }
     }
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-        if (count < 0 && errno != EINTR) {
+        if (count < 0 && errno != EINTR)
             fail(errno);
-        }
         bytes = bytes.subspan(static_cast<std::size_t>(count < 0 ? 0 : count));
     }
 }
 
 void AtomicFile::commit() {
     struct stat status {};
-    if (lstat(target_.c_str(), &status) == 0 && S_ISREG(status.st_mode)) {
+    if (lstat(target_.c_str(), &status) == 0 && S_ISREG(status.st_mode))
         fchmod(file_.get(), status.st_mode & 0777); // a replaced file keeps its permissions where possible
-    }
     // The data have to be on the disk before the name is: otherwise a crash could leave an empty file in its place.
-    if (fsync(file_.get()) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    if (fsync(file_.get()) != 0 || std::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail(errno);
-    }
     file_.close();
 }
 

@@ -12,9 +12,8 @@ public:
     // Begins work in a thread, or does it here where there is none to be had. None may be under way.
     void start(std::function<void()> work) {
         future_ = std::async(std::launch::async | std::launch::deferred, std::move(work));
-        if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred) {
+        if (future_.wait_for(std::chrono::seconds(0)) == std::future_status::deferred)
             future_.wait();
-        }
     }
 
     // Whether work has not ended yet.
@@ -27,9 +26,8 @@ public:
 
     // Waits for its end, and throws what it threw.
     void finish() {
-        if (future_.valid()) {
+        if (future_.valid())
             future_.get();
-        }
     }
 
 private:

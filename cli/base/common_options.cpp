@@ -20,18 +20,16 @@ void refuse_option(const std::string &option, const std::string &rule, const std
 
 double read_target_error(const std::string &option, const std::string &text) {
     const std::optional<double> share = parse_share(text);
-    if (!share || *share <= 0.0) {
+    if (!share || *share <= 0.0)
         refuse_option(option, "must be a number above 0 like 0.005 or 0.5%", text);
-    }
     return *share;
 }
 
 CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size) {
     const auto read = [&size](const std::string &text) {
         size = parse_size(text);
-        if (!size) {
+        if (!size)
             refuse_option("--size", "must be two whole numbers like 1920x1080", text);
-        }
     };
     return command.add_option_function<std::string>("--size", read, "Pixels (default: the scene's, else 512x512)")
         ->type_name("WxH");
@@ -63,9 +61,8 @@ void add_reporting(CLI::App &command, std::string &progress, bool &quiet) {
         .add_option_function<std::string>(
             "--progress",
             [&progress](const std::string &text) {
-                if (std::find(styles.begin(), styles.end(), text) == styles.end()) {
+                if (std::find(styles.begin(), styles.end(), text) == styles.end())
                     throw CLI::ValidationError("--progress", unknown_name("style", text, styles));
-                }
                 progress = text;
             },
             "On stderr: auto (a line if it is a terminal; the default), json (an object a line), none")

@@ -66,9 +66,8 @@ template <typename Find>
 auto read_name(const std::string &option, const std::string &text, Find find, const std::string &kind,
                std::span<const std::string_view> known) {
     const auto found = find(text);
-    if (!found) {
+    if (!found)
         throw CLI::ValidationError(option, unknown_name(kind, text, known));
-    }
     return *found;
 }
 

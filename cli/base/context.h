@@ -24,9 +24,8 @@ public:
     explicit Context(pt_create_info info) : shader_dir_(info.shader_dir == nullptr ? "" : info.shader_dir) {
         kernels_.serve(info);
         const pt_result result = pt_create(&info, &context_);
-        if (result < 0) {
+        if (result < 0)
             fail(result, cli::last_error(nullptr));
-        }
     }
     Context(const Context &) = delete;
     Context &operator=(const Context &) = delete;
@@ -37,9 +36,8 @@ public:
 
     // For calls whose arguments do not come from the scene file.
     void require(pt_result result) const {
-        if (result < 0) {
+        if (result < 0)
             fail(result, last_error());
-        }
     }
 
     // Samples so far. Cheap: unlike read_stats(), it reads nothing back.
@@ -105,9 +103,8 @@ private:
 
     // Shaders of --shader-dir are the user's to mend, like a scene file. Their compiler is a file.
     ExitCode code_of(pt_result result, const LibraryError &error) const {
-        if (result == PT_ERROR_SHADER && !shader_dir_.empty()) {
+        if (result == PT_ERROR_SHADER && !shader_dir_.empty())
             return ExitCode::scene;
-        }
         const bool lacks_compiler = !error.rules.empty() && error.rules.front().member == "shader_dir";
         return lacks_compiler ? ExitCode::file : exit_code_of(result);
     }

@@ -27,9 +27,8 @@ std::string kind_name(std::uint32_t kind) {
 std::string memory_text(std::uint64_t bytes) {
     static constexpr std::array<const char *, 6> larger_units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
     constexpr double rounds_to_1024 = 1023.95; // with one decimal
-    if (bytes < 1024) {
+    if (bytes < 1024)
         return std::to_string(bytes) + " B";
-    }
     double count = static_cast<double>(bytes) / 1024.0;
     std::size_t unit = 0;
     while (count >= rounds_to_1024) {
@@ -46,9 +45,8 @@ std::string uuid_text(const std::uint8_t (&uuid)[16]) {
     for (std::size_t i = 0; i < 16; ++i) {
         std::array<char, 3> digits{};
         std::snprintf(digits.data(), digits.size(), "%02x", uuid[i]);
-        if (i == 4 || i == 6 || i == 8 || i == 10) {
+        if (i == 4 || i == 6 || i == 8 || i == 10)
             text += '-';
-        }
         text += digits.data();
     }
     return text;

@@ -27,9 +27,8 @@ std::vector<pt_device_info> list_devices() {
         result = pt_get_devices(devices.data(), &count);
         devices.resize(count);
     }
-    if (result < 0) {
+    if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
-    }
     return devices;
 }
 
@@ -48,19 +47,15 @@ Row table_row(std::size_t index, const pt_device_info &device) {
 
 void print_table(const std::vector<pt_device_info> &devices) {
     std::vector<Row> rows{{"index", "kind", "name", "driver", "memory", "UUID", "suitable"}};
-    for (const pt_device_info &device : devices) {
+    for (const pt_device_info &device : devices)
         rows.push_back(table_row(rows.size() - 1, device));
-    }
     std::array<std::size_t, column_count> widths{};
-    for (const Row &row : rows) {
-        for (std::size_t column = 0; column < column_count; ++column) {
+    for (const Row &row : rows)
+        for (std::size_t column = 0; column < column_count; ++column)
             widths[column] = std::max(widths[column], row[column].size());
-        }
-    }
     for (const Row &row : rows) {
-        for (std::size_t column = 0; column + 1 < column_count; ++column) {
+        for (std::size_t column = 0; column + 1 < column_count; ++column)
             std::cout << std::left << std::setw(static_cast<int>(widths[column] + 2)) << row[column];
-        }
         std::cout << row.back() << '\n';
     }
 }
@@ -85,11 +80,10 @@ void print_json(const std::vector<pt_device_info> &devices) {
 int run_devices(bool as_json) {
     choose_vector_width(); // it is part of llvmpipe's name
     const std::vector<pt_device_info> devices = list_devices();
-    if (as_json) {
+    if (as_json)
         print_json(devices);
-    } else {
+    else
         print_table(devices);
-    }
     const bool any_suitable =
         std::any_of(devices.begin(), devices.end(), [](const pt_device_info &device) { return device.suitable != 0; });
     return static_cast<int>(any_suitable ? ExitCode::done : ExitCode::no_device);

@@ -22,9 +22,8 @@ constexpr std::chrono::milliseconds least_interval{20};
 // The directory, or the nearest of its parents that exists: its appearance is an event there.
 std::filesystem::path nearest_existing(std::filesystem::path directory) {
     std::error_code ignored;
-    while (!std::filesystem::is_directory(directory, ignored) && directory.has_relative_path()) {
+    while (!std::filesystem::is_directory(directory, ignored) && directory.has_relative_path())
         directory = directory.parent_path();
-    }
     return directory.empty() ? "." : directory;
 }
 
@@ -41,14 +40,12 @@ DirectoryEvents::DirectoryEvents(Method method, std::chrono::milliseconds notifi
     notified_interval_(notified_interval) {}
 
 void DirectoryEvents::watch(const std::filesystem::path &directory) {
-    if (!notifications_.is_open()) {
+    if (!notifications_.is_open())
         return;
-    }
     // Watching a directory again gives the same watch. If the system has none left, everything is polled.
     const int watch = inotify_add_watch(notifications_.get(), nearest_existing(directory).c_str(), events);
-    if (watch < 0 && errno != ENOENT) {
+    if (watch < 0 && errno != ENOENT)
         notifications_.close();
-    }
 }
 
 bool DirectoryEvents::wait(std::chrono::milliseconds timeout) {
@@ -57,13 +54,11 @@ bool DirectoryEvents::wait(std::chrono::milliseconds timeout) {
     const Clock::time_point earliest_look = last_look_ + least_interval;
     pollfd descriptor{notifications_.get(), POLLIN, 0}; // a negative one is ignored
     poll_until(nullptr, 0, std::min(earliest_look, end));
-    if (Clock::now() < earliest_look) {
+    if (Clock::now() < earliest_look)
         return false;
-    }
     const bool told = poll_until(&descriptor, 1, std::min(next_look, end));
-    if (!told && Clock::now() < next_look) {
+    if (!told && Clock::now() < next_look)
         return false;
-    }
     last_look_ = Clock::now();
     read_notifications();
     return true;

@@ -37,25 +37,21 @@ std::filesystem::path folder_of(const std::filesystem::path &path) {
 // Nothing for an empty path, or if there is not even a folder.
 std::optional<Identity> identity_of(const std::string &path) {
     struct stat status {};
-    if (path.empty()) {
+    if (path.empty())
         return std::nullopt;
-    }
-    if (stat(path.c_str(), &status) == 0) {
+    if (stat(path.c_str(), &status) == 0)
         return identity_of(status);
-    }
     const std::filesystem::path target = AtomicFile::target_of(path);
-    if (stat(folder_of(target).c_str(), &status) == 0) {
+    if (stat(folder_of(target).c_str(), &status) == 0)
         return identity_of(status, target.filename());
-    }
     return std::nullopt;
 }
 
 // "-" is whatever standard output leads to: two reports on one stream would be mixed up.
 std::optional<Identity> identity_of_output(const std::string &path) {
     struct stat status {};
-    if (path == standard_stream) {
+    if (path == standard_stream)
         return fstat(STDOUT_FILENO, &status) == 0 ? std::optional(identity_of(status)) : std::nullopt;
-    }
     return identity_of(path);
 }
 
@@ -77,16 +73,13 @@ std::string text_of(const NamedFile &file) {
 
 void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs) {
     std::map<Identity, const NamedFile *> known;
-    for (const NamedFile &input : inputs) {
-        if (const auto identity = identity_of_input(input.path)) {
+    for (const NamedFile &input : inputs)
+        if (const auto identity = identity_of_input(input.path))
             known.emplace(*identity, &input);
-        }
-    }
     for (const NamedFile &output : outputs) {
         const auto identity = identity_of_output(output.path);
-        if (identity && !known.emplace(*identity, &output).second) {
+        if (identity && !known.emplace(*identity, &output).second)
             throw Failure(ExitCode::usage, text_of(output) + ": is the same file as " + text_of(*known.at(*identity)));
-        }
     }
 }
 

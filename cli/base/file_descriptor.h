@@ -18,9 +18,8 @@ public:
 
     void close() {
         const int descriptor = std::exchange(descriptor_, -1);
-        if (descriptor >= 0) {
+        if (descriptor >= 0)
             ::close(descriptor);
-        }
     }
 
 private:

@@ -28,9 +28,8 @@ std::uint64_t address_space_limit() {
 // The most that this process could ever have: memory and swap space, within its limits. What others use is not counted.
 std::uint64_t most_bytes() {
     struct sysinfo system {};
-    if (sysinfo(&system) != 0) {
+    if (sysinfo(&system) != 0)
         return address_space_limit();
-    }
     const std::uint64_t memory = std::min(std::uint64_t{system.totalram} * system.mem_unit, container_limit());
     return std::min(memory + std::uint64_t{system.totalswap} * system.mem_unit, address_space_limit());
 }
@@ -45,9 +44,8 @@ std::uint64_t image_bytes(const ImageWindow &window, std::uint32_t image_count) 
 void require_host_memory(const RenderSettings &settings, const std::string &scene, std::uint32_t image_count) {
     const std::uint64_t needed = image_bytes(settings.window, image_count);
     const std::uint64_t most = most_bytes();
-    if (needed <= most) {
+    if (needed <= most)
         return;
-    }
     const std::string size = window_text(settings.window);
     const bool from_scene = settings.is_size_from_scene();
     throw Failure(from_scene ? ExitCode::scene : ExitCode::usage,

@@ -47,9 +47,8 @@ void catch_interrupts() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
-        if (old.sa_handler == SIG_IGN) {
+        if (old.sa_handler == SIG_IGN)
             continue; // whoever started this program wants it so: a background job, nohup
-        }
         struct sigaction action {};
         action.sa_handler = &note_signal;
         action.sa_flags = SA_RESTART;

@@ -87,9 +87,8 @@ public:
 private:
     // Members are looked at with their key, elements when they begin.
     bool value() {
-        if (levels_.empty() || !levels_.back().in_array) {
+        if (levels_.empty() || !levels_.back().in_array)
             return levels_.empty() ? look() : true;
-        }
         ++levels_.back().index;
         return look();
     }
@@ -110,9 +109,8 @@ private:
         const std::size_t depth = levels_.size();
         const bool leads_there =
             depth >= depth_ && depth <= path_.size() && std::equal(levels_.begin(), levels_.end(), path_.begin());
-        if (!leads_there) {
+        if (!leads_there)
             return true;
-        }
         depth_ = depth;
         if (depth > 0 || path_.empty()) {
             // Without the last character read: of a number the parser has read one more, maybe the end of the line.
@@ -150,9 +148,8 @@ std::optional<JsonStep> parse_bracketed(std::string_view text) {
 std::optional<std::size_t> bracketed_length(std::string_view text) {
     bool is_quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == ']' && !is_quoted) {
+        if (text[i] == ']' && !is_quoted)
             return i;
-        }
         is_quoted = (text[i] == '"') != is_quoted;
         i += text[i] == '\\' && is_quoted ? 1 : 0;
     }
@@ -168,22 +165,19 @@ std::optional<ParsedPath> parse_path(std::string_view text) {
         if (rest.starts_with('[')) {
             const auto length = bracketed_length(rest.substr(1));
             const auto step = length ? parse_bracketed(rest.substr(1, *length)) : std::nullopt;
-            if (!step) {
+            if (!step)
                 return std::nullopt;
-            }
             parsed.path.push_back(*step);
             rest.remove_prefix(*length + 2);
             continue;
         }
         const bool is_first = parsed.path.empty();
-        if (!is_first && !rest.starts_with('.')) {
+        if (!is_first && !rest.starts_with('.'))
             break;
-        }
         rest.remove_prefix(is_first ? 0 : 1);
         const std::size_t length = identifier_length(rest);
-        if (length == 0) {
+        if (length == 0)
             return std::nullopt;
-        }
         parsed.path.push_back({std::string(rest.substr(0, length)), 0, false});
         rest.remove_prefix(length);
     }
@@ -199,13 +193,12 @@ std::string path_text(const JsonPath &path) {
     for (const JsonStep &step : path) {
         const bool is_identifier =
             !step.key.empty() && std::all_of(step.key.begin(), step.key.end(), is_identifier_letter);
-        if (step.in_array) {
+        if (step.in_array)
             text.append("[").append(std::to_string(step.index)).append("]");
-        } else if (is_identifier) {
+        else if (is_identifier)
             text.append(text.empty() ? "" : ".").append(step.key);
-        } else {
+        else
             text.append("[").append(json(step.key).dump(-1, ' ', false, json::error_handler_t::replace)).append("]");
-        }
     }
     return text;
 }

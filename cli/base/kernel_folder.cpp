@@ -49,9 +49,8 @@ std::vector<KeptFile> files_in(const fs::path &folder) {
         std::error_code gone;
         const std::uint64_t size = entry->is_regular_file(gone) ? entry->file_size(gone) : 0;
         const fs::file_time_type last_use = entry->last_write_time(gone);
-        if (!gone && entry->is_regular_file(gone)) {
+        if (!gone && entry->is_regular_file(gone))
             files.push_back({entry->path(), size, last_use});
-        }
     }
     return files;
 }
@@ -59,27 +58,23 @@ std::vector<KeptFile> files_in(const fs::path &folder) {
 } // namespace
 
 std::uint64_t KernelFolder::load(const std::string &key, std::span<std::byte> bytes) const {
-    if (path_.empty() || !is_key(key)) {
+    if (path_.empty() || !is_key(key))
         return 0;
-    }
     const fs::path file = path_ / key;
     std::error_code error;
     const std::uint64_t size = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
-    if (error || size == 0 || size > most_bytes || bytes.size() < size) {
+    if (error || size == 0 || size > most_bytes || bytes.size() < size)
         return error || size > most_bytes ? 0 : size;
-    }
     std::ifstream stream(file, std::ios::binary);
-    if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size))) {
+    if (!stream.read(reinterpret_cast<char *>(bytes.data()), static_cast<std::streamsize>(size)))
         return 0;
-    }
     fs::last_write_time(file, fs::file_time_type::clock::now(), error); // it is in use
     return size;
 }
 
 void KernelFolder::store(const std::string &key, std::span<const std::byte> bytes) const {
-    if (path_.empty() || !is_key(key) || bytes.size() > most_bytes) {
+    if (path_.empty() || !is_key(key) || bytes.size() > most_bytes)
         return;
-    }
     std::error_code error;
     fs::create_directories(path_, error);
     try {

@@ -14,13 +14,11 @@ template <typename Number>
 std::optional<Number> parse_number(std::string_view text) {
     Number number{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || end != text.data() + text.size()) {
+    if (error != std::errc{} || end != text.data() + text.size())
         return std::nullopt;
-    }
     if constexpr (std::is_floating_point_v<Number>) {
-        if (!std::isfinite(number)) {
+        if (!std::isfinite(number))
             return std::nullopt;
-        }
     }
     return number;
 }
@@ -40,14 +38,12 @@ struct ImageSize {
 // "1920x1080"; nothing unless both are whole numbers. Which sizes are possible is the library's to say.
 inline std::optional<ImageSize> parse_size(std::string_view text) {
     const std::size_t cross = text.find('x');
-    if (cross == std::string_view::npos) {
+    if (cross == std::string_view::npos)
         return std::nullopt;
-    }
     const auto width = parse_number<std::uint32_t>(text.substr(0, cross));
     const auto height = parse_number<std::uint32_t>(text.substr(cross + 1));
-    if (!width || !height) {
+    if (!width || !height)
         return std::nullopt;
-    }
     return ImageSize{*width, *height};
 }
 

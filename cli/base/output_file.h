@@ -17,17 +17,15 @@ class OutputFile {
 public:
     // This and all functions below throw Failure(ExitCode::file) with the reason.
     explicit OutputFile(const std::string &path) {
-        if (path != standard_stream) {
+        if (path != standard_stream)
             file_.emplace(path);
-        }
     }
 
     void write(std::span<const std::byte> bytes) {
-        if (file_) {
+        if (file_)
             file_->write(bytes);
-        } else {
+        else
             std::cout.write(reinterpret_cast<const char *>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        }
     }
 
     void commit() {

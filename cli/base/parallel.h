@@ -23,9 +23,8 @@ void in_parallel(std::size_t count, std::size_t grain, const Work &work) {
             std::async(std::launch::async | std::launch::deferred, [&, first] { work(first, first + part); }));
     }
     work(first, count);
-    for (std::future<void> &other : others) {
+    for (std::future<void> &other : others)
         other.get();
-    }
 }
 
 } // namespace cli

@@ -34,12 +34,10 @@ std::string duration_text(double seconds) {
 } // namespace
 
 ProgressStyle progress_style(const std::string &name, bool quiet, bool is_terminal) {
-    if (quiet || name == "none") {
+    if (quiet || name == "none")
         return ProgressStyle::none;
-    }
-    if (name == "json") {
+    if (name == "json")
         return ProgressStyle::json;
-    }
     return is_terminal ? ProgressStyle::line : ProgressStyle::none;
 }
 
@@ -60,9 +58,8 @@ Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixe
     next_update_(start) {}
 
 Progress::~Progress() {
-    if (style_ == ProgressStyle::line) {
+    if (style_ == ProgressStyle::line)
         output_ << erase_line << std::flush;
-    }
 }
 
 void Progress::update(double fraction, Clock::time_point now) {
@@ -76,15 +73,13 @@ void Progress::update_samples(double samples_of_part, Clock::time_point now) {
     // The clock may not have advanced yet.
     const double seconds = std::max(std::chrono::duration<double>(now - start_).count(), 1e-9);
     fraction_ = std::max({fraction_, whole_share, std::min(seconds / limit_seconds_, 1.0)});
-    if (style_ == ProgressStyle::none || sample_count <= begun_ || (now < next_update_ && whole_share < 1.0)) {
+    if (style_ == ProgressStyle::none || sample_count <= begun_ || (now < next_update_ && whole_share < 1.0))
         return;
-    }
     next_update_ = now + update_interval;
-    if (style_ == ProgressStyle::json) {
+    if (style_ == ProgressStyle::json)
         print_json(sample_count, seconds);
-    } else {
+    else
         print_line(sample_count, seconds);
-    }
 }
 
 // What is left, if it goes on as it went so far.
@@ -98,9 +93,8 @@ std::string Progress::error_text() const {
 }
 
 void Progress::say(const std::string &message) {
-    if (style_ == ProgressStyle::line) {
+    if (style_ == ProgressStyle::line)
         output_ << erase_line << std::flush;
-    }
     print_message(message);
 }
 
@@ -117,9 +111,8 @@ void Progress::print_line(double samples, double seconds) {
     const std::size_t columns = column_count_();
     std::string line;
     for (const std::string &part : parts) {
-        if (line.size() + part.size() >= columns) { // the last column stays free: some terminals wrap behind it
+        if (line.size() + part.size() >= columns) // the last column stays free: some terminals wrap behind it
             break;
-        }
         line += part;
     }
     output_ << erase_line << line << std::flush;
@@ -141,15 +134,13 @@ SceneProgress::SceneProgress(std::ostream &output, ProgressStyle style, Clock::t
     next_update_(start + update_interval) {}
 
 SceneProgress::~SceneProgress() {
-    if (is_shown_) {
+    if (is_shown_)
         output_ << erase_line << std::flush;
-    }
 }
 
 void SceneProgress::update(double fraction, Clock::time_point now) {
-    if (style_ != ProgressStyle::line || now < next_update_) {
+    if (style_ != ProgressStyle::line || now < next_update_)
         return;
-    }
     next_update_ = now + update_interval;
     is_shown_ = true;
     output_ << erase_line << formatted("scene %3.0f %%", 100.0 * fraction) << std::flush;

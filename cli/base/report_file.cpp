@@ -9,28 +9,24 @@
 namespace cli {
 
 void check_report_file(const std::string &path) {
-    if (!path.empty() && path != standard_stream) {
+    if (!path.empty() && path != standard_stream)
         AtomicFile::check_writable(path);
-    }
 }
 
 void write_report_file(const std::string &path, std::string_view text) {
-    if (path.empty()) {
+    if (path.empty())
         return;
-    }
-    if (path != standard_stream) {
+    if (path != standard_stream)
         AtomicFile::write_text(path, text);
-    } else if (!(std::cout << text << std::flush)) {
+    else if (!(std::cout << text << std::flush))
         throw Failure(ExitCode::file, "cannot write to standard output");
-    }
 }
 
 void print_for_people(const std::string &lines, bool standard_output_is_taken) {
-    if (standard_output_is_taken) {
+    if (standard_output_is_taken)
         print_message(lines);
-    } else {
+    else
         std::cout << lines << std::flush;
-    }
 }
 
 } // namespace cli

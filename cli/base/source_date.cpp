@@ -13,9 +13,8 @@ namespace cli {
 std::string source_date() {
     constexpr std::uint64_t last_second = 253'402'300'799; // of the year 9999: later years have no such form
     const char *variable = std::getenv("SOURCE_DATE_EPOCH");
-    if (variable == nullptr) {
+    if (variable == nullptr)
         return "";
-    }
     const auto seconds = parse_number<std::uint64_t>(variable);
     if (!seconds || *seconds > last_second) {
         throw Failure(ExitCode::usage, "SOURCE_DATE_EPOCH: must be a whole number of seconds from 0 to " +

@@ -18,9 +18,8 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
     std::vector<std::size_t> before_last(to.size() + 1);
     std::vector<std::size_t> last(to.size() + 1);
     std::vector<std::size_t> row(to.size() + 1);
-    for (std::size_t column = 0; column <= to.size(); ++column) {
+    for (std::size_t column = 0; column <= to.size(); ++column)
         row[column] = column;
-    }
     for (std::size_t i = 1; i <= from.size(); ++i) {
         std::swap(before_last, last);
         std::swap(last, row);
@@ -28,9 +27,8 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
         for (std::size_t j = 1; j <= to.size(); ++j) {
             const bool same = lower(from[i - 1]) == lower(to[j - 1]);
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-            if (i > 1 && j > 1 && lower(from[i - 1]) == lower(to[j - 2]) && lower(from[i - 2]) == lower(to[j - 1])) {
+            if (i > 1 && j > 1 && lower(from[i - 1]) == lower(to[j - 2]) && lower(from[i - 2]) == lower(to[j - 1]))
                 row[j] = std::min(row[j], before_last[j - 2] + 1);
-            }
         }
     }
     return row[to.size()];
@@ -45,9 +43,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
     for (const std::string_view candidate : known) {
         const std::size_t shorter = std::min(candidate.size(), name.size());
         const std::size_t longer = std::max(candidate.size(), name.size());
-        if (longer - shorter >= best_distance) {
+        if (longer - shorter >= best_distance)
             continue; // at least as many insertions; this keeps long lists cheap
-        }
         const std::size_t distance = edit_distance(name, candidate);
         if (distance < best_distance) {
             best_distance = distance;
@@ -61,16 +58,13 @@ std::string unknown_name(std::string_view kind, std::string_view name, std::span
     constexpr std::size_t longest_list = 12;
     std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
     const std::string_view nearest = nearest_name(name, known);
-    if (!nearest.empty()) {
+    if (!nearest.empty())
         return message + ", did you mean \"" + std::string(nearest) + "\"?";
-    }
-    if (known.empty() || known.size() > longest_list) {
+    if (known.empty() || known.size() > longest_list)
         return message;
-    }
     message += ", known: ";
-    for (std::size_t i = 0; i < known.size(); ++i) {
+    for (std::size_t i = 0; i < known.size(); ++i)
         message += (i == 0 ? "" : ", ") + std::string(known[i]);
-    }
     return message;
 }
 

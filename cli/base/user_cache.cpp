@@ -21,9 +21,8 @@ std::filesystem::path user_cache(const Environment &environment) {
         const std::filesystem::path path = found == environment.end() ? "" : found->second;
         return path.is_absolute() ? path : std::filesystem::path();
     };
-    if (const std::filesystem::path path = folder("XDG_CACHE_HOME"); !path.empty()) {
+    if (const std::filesystem::path path = folder("XDG_CACHE_HOME"); !path.empty())
         return path / "pt";
-    }
     const std::filesystem::path home = folder("HOME");
     return home.empty() ? home : home / ".cache" / "pt";
 }

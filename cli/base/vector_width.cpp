@@ -33,18 +33,16 @@ bool has_avx512() {
 // and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512. The width itself
 // does not depend on that folder: it is part of the device's name, by which films know each other.
 Environment wide_vectors(const Environment &environment) {
-    if (environment.contains(width_name)) {
+    if (environment.contains(width_name))
         return {};
-    }
     const std::filesystem::path folder = cache_folder(environment);
     return folder.empty() ? Environment{{width_name, "512"}, {no_cache_name, "true"}}
                           : Environment{{width_name, "512"}, {cache_name, (folder / "shaders-512").string()}};
 }
 
 void choose_vector_width() {
-    if (!has_avx512()) {
+    if (!has_avx512())
         return;
-    }
     Environment wide = wide_vectors(own_environment());
     // Mesa makes the last folder of the path only.
     if (const auto folder = wide.find(cache_name); folder != wide.end()) {
@@ -55,9 +53,8 @@ void choose_vector_width() {
             wide.emplace(no_cache_name, "true"); // every start compiles anew
         }
     }
-    for (const auto &[name, value] : wide) {
+    for (const auto &[name, value] : wide)
         setenv(name.c_str(), value.c_str(), 1);
-    }
 }
 
 } // namespace cli

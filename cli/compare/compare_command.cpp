@@ -21,14 +21,12 @@ namespace cli {
 namespace {
 
 void check_outputs(const CompareOptions &options) {
-    if (!options.difference.empty() && image_format(options.difference) != ImageFormat::png) {
+    if (!options.difference.empty() && image_format(options.difference) != ImageFormat::png)
         throw Failure(ExitCode::usage, "--difference " + options.difference + ": the name must end in .png");
-    }
     require_distinct_files({{"the image", options.image}, {"the reference", options.reference}},
                            {{"--difference", options.difference}, {"--json", options.json}});
-    if (!options.difference.empty()) {
+    if (!options.difference.empty())
         AtomicFile::check_writable(options.difference);
-    }
     check_report_file(options.json);
 }
 
@@ -94,13 +92,11 @@ int run_compare(const CompareOptions &options) {
         text += "wrote " + options.difference + ": relative differences from 0 to " + std::to_string(largest) + "\n";
     }
     write_report_file(options.json, json_text(report.json()));
-    if (!options.quiet) {
+    if (!options.quiet)
         print_for_people(text, options.json == standard_stream);
-    }
     const std::vector<std::string> exceeded = report.exceeded();
-    for (const std::string &line : exceeded) {
+    for (const std::string &line : exceeded)
         print_message(line);
-    }
     return static_cast<int>(exceeded.empty() ? ExitCode::done : ExitCode::images_differ);
 }
 

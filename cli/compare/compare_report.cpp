@@ -29,9 +29,8 @@ Place place_of(const DecodedImage &image, std::size_t value) {
 }
 
 void check_limit(std::vector<std::string> &lines, const std::string &name, double figure, std::optional<double> limit) {
-    if (limit && !(figure <= *limit)) {
+    if (limit && !(figure <= *limit))
         lines.push_back(name + " is " + number_text(figure) + ", above the limit of " + number_text(*limit));
-    }
 }
 
 } // namespace
@@ -41,9 +40,8 @@ std::vector<std::string> CompareReport::exceeded() const {
     check_limit(lines, "mse", difference.mse, options.mse);
     check_limit(lines, "relative_mse", difference.relative_mse, options.relative_mse);
     check_limit(lines, "maximum", difference.maximum, options.maximum);
-    if (difference.not_finite > 0 && (options.mse || options.relative_mse || options.maximum)) {
+    if (difference.not_finite > 0 && (options.mse || options.relative_mse || options.maximum))
         lines.push_back(std::to_string(difference.not_finite) + " pixels are not finite");
-    }
     return lines;
 }
 
@@ -66,12 +64,10 @@ std::string CompareReport::text() const {
     const auto [x, y, channel] = place_of(image, difference.maximum_value);
     std::string text = "mse           " + number_text(difference.mse) + "\nrelative_mse  " +
                        number_text(difference.relative_mse) + "\nmaximum       " + number_text(difference.maximum);
-    if (difference.maximum > 0.0) {
+    if (difference.maximum > 0.0)
         text += " at " + std::to_string(x) + "," + std::to_string(y) + " in " + channel;
-    }
-    if (difference.not_finite > 0) {
+    if (difference.not_finite > 0)
         text += "\nnot finite    " + std::to_string(difference.not_finite) + " pixels, left out above";
-    }
     return text + "\n";
 }
 

@@ -21,9 +21,8 @@ std::vector<std::byte> saved_film(const Context &context) {
 
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes) {
     const pt_result result = pt_add_film(context.get(), bytes.data(), bytes.size());
-    if (result < 0) {
+    if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, context.last_error()));
-    }
 }
 
 } // namespace cli

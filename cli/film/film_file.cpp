@@ -25,17 +25,15 @@ constexpr std::uint64_t most_ratio = 32768;
 
 bool is_packed(std::span<const std::byte> bytes) {
     std::uint32_t magic = 0;
-    for (std::size_t i = 0; i < sizeof magic && i < bytes.size(); ++i) {
+    for (std::size_t i = 0; i < sizeof magic && i < bytes.size(); ++i)
         magic |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
-    }
     return magic == ZSTD_MAGICNUMBER;
 }
 
 std::vector<std::byte> unpacked(const std::string &path, std::span<const std::byte> bytes) {
     const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > bytes.size()) {
+    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > bytes.size())
         refuse(path, "damaged or cut short: the head of its zstd frame is no film's");
-    }
     std::vector<std::byte> film(size);
     const std::size_t count = ZSTD_decompress(film.data(), film.size(), bytes.data(), bytes.size());
     if (ZSTD_isError(count) != 0 || count != film.size()) {
@@ -50,9 +48,8 @@ std::vector<std::byte> unpacked(const std::string &path, std::span<const std::by
 void write_film_file(const std::string &path, std::span<const std::byte> film) {
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
     std::vector<std::byte> piece(ZSTD_CStreamOutSize());
-    if (!context) {
+    if (!context)
         throw std::bad_alloc();
-    }
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression_level);
     ZSTD_CCtx_setPledgedSrcSize(context.get(), film.size());
     ZSTD_inBuffer input{film.data(), film.size(), 0};
@@ -60,9 +57,8 @@ void write_film_file(const std::string &path, std::span<const std::byte> film) {
     for (std::size_t left = 1; left != 0;) {
         ZSTD_outBuffer output{piece.data(), piece.size(), 0};
         left = ZSTD_compressStream2(context.get(), &output, &input, ZSTD_e_end);
-        if (ZSTD_isError(left) != 0) {
+        if (ZSTD_isError(left) != 0)
             throw Failure(ExitCode::internal, path + ": zstd: " + ZSTD_getErrorName(left));
-        }
         file.write(std::span(piece).first(output.pos));
     }
     file.commit();

@@ -8,9 +8,8 @@ namespace {
 
 // Of calls whose arguments are not the user's.
 void require(pt_result result) {
-    if (result < 0) {
+    if (result < 0)
         throw Failure(exit_code_of(result), pt_last_error(nullptr));
-    }
 }
 
 template <typename Struct>
@@ -24,16 +23,14 @@ Struct sized() {
 
 FilmHandle::FilmHandle(const std::string &path, std::span<const std::byte> bytes) {
     const pt_result result = pt_open_film(bytes.data(), bytes.size(), &film_);
-    if (result < 0) {
+    if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
-    }
 }
 
 void FilmHandle::merge(const std::string &path, std::span<const std::byte> bytes) {
     const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
-    if (result < 0) {
+    if (result < 0)
         throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
-    }
 }
 
 pt_film_info FilmHandle::info() const {
@@ -50,9 +47,8 @@ pt_stats FilmHandle::stats() const {
 
 std::vector<pt_film_tile> FilmHandle::tiles() const {
     std::vector<pt_film_tile> tiles(info().tile_count, sized<pt_film_tile>());
-    for (std::uint32_t i = 0; i < tiles.size(); ++i) {
+    for (std::uint32_t i = 0; i < tiles.size(); ++i)
         require(pt_get_film_tile(film_, i, &tiles[i]));
-    }
     return tiles;
 }
 

@@ -11,9 +11,8 @@ namespace {
 constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
 
 std::string words_of(const std::string &path, const BrokenRule &rule) {
-    if (std::find(digests.begin(), digests.end(), rule.member) != digests.end()) {
+    if (std::find(digests.begin(), digests.end(), rule.member) != digests.end())
         return path + ": was made with another " + rule.member + " (" + rule.value + ": " + rule.rule + ")";
-    }
     const std::string text = rule_text(path + ": " + rule.member, rule);
     return rule.member == "device" ? text + "; choose that model of device by --device, or on a CPU the width of its "
                                             "vectors by LP_NATIVE_VECTOR_WIDTH, or begin anew"
@@ -29,9 +28,8 @@ std::string without_subject(const std::string &message) {
 } // namespace
 
 std::string film_words(const std::string &path, const LibraryError &error) {
-    if (error.rules.empty()) {
+    if (error.rules.empty())
         return path + ": " + without_subject(error.message);
-    }
     return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
 }
 

@@ -19,13 +19,11 @@ namespace {
 
 void check(const MergeOptions &options) {
     const RenderOptions &output = options.output;
-    if (output.outputs.empty() && output.film.empty() && output.standard_error.empty() && output.stats.empty()) {
+    if (output.outputs.empty() && output.film.empty() && output.standard_error.empty() && output.stats.empty())
         throw Failure(ExitCode::usage, "-o, --film, --standard-error or --stats is missing: there is nothing to write");
-    }
     std::vector<NamedFile> parts;
-    for (const std::string &part : options.parts) {
+    for (const std::string &part : options.parts)
         parts.push_back({"the part", part});
-    }
     check_merged_names(output, parts);
 }
 
@@ -36,26 +34,23 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     for (const std::string &part : parts) {
         try {
             const std::vector<std::byte> bytes = read_film_file(part);
-            if (sum) {
+            if (sum)
                 sum->merge(part, bytes);
-            } else {
+            else
                 sum = std::make_unique<FilmHandle>(part, bytes);
-            }
         } catch (const Failure &failure) {
             failed = failed.value_or(failure.code());
             print_message(failure.what());
         }
     }
-    if (failed) {
+    if (failed)
         throw Failure(*failed, "nothing was written");
-    }
     return sum;
 }
 
 std::optional<ToneMap> tone_map_of(const RenderOptions &options, std::span<const float> radiance) {
-    if (!needs_tone_map(options)) {
+    if (!needs_tone_map(options))
         return std::nullopt;
-    }
     const DisplayOptions &display = options.display;
     const std::optional<double> stops = display.exposure.value_or(Exposure{}).stops;
     return ToneMap{stops ? *stops : automatic_exposure(radiance), display.tone_curve.value_or(ToneCurve::none),
@@ -89,9 +84,8 @@ int run_merge(const MergeOptions &options) {
     const std::unique_ptr<FilmHandle> film = sum_of(options.parts);
     MergeReport report = merge_report(*film, options);
     check_files(options.output, report.picture.window);
-    if (!write_outputs(*film, options.output, report)) {
+    if (!write_outputs(*film, options.output, report))
         return static_cast<int>(ExitCode::file);
-    }
     if (!options.output.quiet) {
         print_summary(options.output, report);
         print_message(missing_text(report));

@@ -28,13 +28,11 @@ pt_sample_range hull_of(const std::vector<Ranges> &tiles) {
 Ranges united(Ranges ranges) {
     std::sort(ranges.begin(), ranges.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
     Ranges all;
-    for (const pt_sample_range &range : ranges) {
-        if (!all.empty() && range.first <= all.back().end) {
+    for (const pt_sample_range &range : ranges)
+        if (!all.empty() && range.first <= all.back().end)
             all.back().end = std::max(all.back().end, range.end);
-        } else {
+        else
             all.push_back(range);
-        }
-    }
     return all;
 }
 
@@ -77,9 +75,8 @@ RenderReport picture_of(const FilmHandle &film, const pt_film_info &info, const 
 
 nlohmann::ordered_json json_of(const Ranges &ranges) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const pt_sample_range &range : ranges) {
+    for (const pt_sample_range &range : ranges)
         list.push_back({range.first, range.end});
-    }
     return list;
 }
 
@@ -87,9 +84,8 @@ nlohmann::ordered_json json_of(const Ranges &ranges) {
 
 MergeReport merge_report(const FilmHandle &film, const MergeOptions &options) {
     std::vector<Ranges> tiles;
-    for (std::uint32_t i = 0; i < film.info().tile_count; ++i) {
+    for (std::uint32_t i = 0; i < film.info().tile_count; ++i)
         tiles.push_back(film.ranges(i));
-    }
     const pt_sample_range hull = hull_of(tiles);
     MergeReport report{picture_of(film, film.info(), hull), film.info(), options.parts.size(), {}, {}};
     report.samples = missing_of(hull, missing_in_any(hull, tiles));

@@ -22,9 +22,8 @@ double least_light_of(long byte, double low, const std::function<double(double)>
 
 ByteEncoder::ByteEncoder(const std::function<double(double)> &encode) {
     least_light_[0] = 0.0;
-    for (std::size_t byte = 1; byte < least_light_.size(); ++byte) {
+    for (std::size_t byte = 1; byte < least_light_.size(); ++byte)
         least_light_[byte] = least_light_of(static_cast<long>(byte), least_light_[byte - 1], encode);
-    }
     for (std::size_t cell = 0; cell < cell_bytes_.size(); ++cell) {
         const double begin = static_cast<double>(cell) / cell_count;
         const auto above = std::upper_bound(least_light_.begin(), least_light_.end(), begin);

@@ -11,11 +11,10 @@ namespace cli {
 void add_tone_map(ImageAttributes &attributes, const ToneMap &tone_map) {
     attributes.add("pt.toneMap", std::string(tone_curve_names[static_cast<std::size_t>(tone_map.curve)]));
     attributes.add_real("pt.exposure", tone_map.exposure);
-    if (tone_map.gamma) {
+    if (tone_map.gamma)
         attributes.add_real("pt.gamma", *tone_map.gamma);
-    } else {
+    else
         attributes.add("pt.encoding", "sRGB");
-    }
 }
 
 namespace {
@@ -59,11 +58,10 @@ void write_display_image(ImageWriter &writer, const ImageTarget &target, const I
         }
         return;
     }
-    if (target.format == ImageFormat::png && png_bits == 16) {
+    if (target.format == ImageFormat::png && png_bits == 16)
         writer.write_signal(target, window, map_to_16_bits(radiance, tone_map), attributes, tone_map.gamma);
-    } else {
+    else
         writer.write_signal(target, window, map_to_8_bits(radiance, tone_map), attributes, tone_map.gamma);
-    }
 }
 
 } // namespace cli

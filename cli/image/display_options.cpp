@@ -8,9 +8,8 @@ void add_display_options(CLI::App &command, DisplayOptions &options, const std::
     const std::string group = "Display (.png and .jpg only)";
     const auto read_exposure = [&options](const std::string &text) {
         options.exposure = parse_exposure(text);
-        if (!options.exposure) {
+        if (!options.exposure)
             refuse_option("--exposure", "must be a number from -64 to 64, or auto", text);
-        }
     };
     command
         .add_option_function<std::string>("--exposure", read_exposure,
@@ -25,9 +24,8 @@ void add_display_options(CLI::App &command, DisplayOptions &options, const std::
         ->type_name("G")
         ->group(group);
     const auto read_bits = [&options](const std::string &text) {
-        if (text != "8" && text != "16") {
+        if (text != "8" && text != "16")
             refuse_option("--png-bits", "must be 8 or 16", text);
-        }
         options.png_bits = text == "8" ? 8 : 16;
     };
     command.add_option_function<std::string>("--png-bits", read_bits, "Bits of a channel in .png (default: 8)")

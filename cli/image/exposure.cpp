@@ -9,9 +9,8 @@
 namespace cli {
 
 std::optional<Exposure> parse_exposure(std::string_view text) {
-    if (text == "auto") {
+    if (text == "auto")
         return Exposure{};
-    }
     const auto stops = parse_number<double>(text);
     return stops && std::abs(*stops) <= largest_exposure ? std::optional(Exposure{stops}) : std::nullopt;
 }

@@ -8,9 +8,8 @@
 #include <string>
 
 inline std::string image_attribute_text(const pt_image_attribute &attribute) {
-    if (attribute.text != nullptr) {
+    if (attribute.text != nullptr)
         return attribute.text;
-    }
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), attribute.is_float != 0 ? "%.9g" : "%.0f", attribute.number);
     return text.data();

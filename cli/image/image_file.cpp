@@ -43,15 +43,12 @@ std::optional<ImageFormat> image_format(const std::string &path) {
 }
 
 std::optional<ImageFormat> find_image_format(std::string_view name) {
-    if (name == "exr") {
+    if (name == "exr")
         return ImageFormat::exr;
-    }
-    if (name == "png") {
+    if (name == "png")
         return ImageFormat::png;
-    }
-    if (name == "jpg" || name == "jpeg") {
+    if (name == "jpg" || name == "jpeg")
         return ImageFormat::jpeg;
-    }
     return std::nullopt;
 }
 
@@ -139,19 +136,16 @@ void ImageWriter::write_png(const std::string &path, const pt_image_data &image)
 }
 
 void ImageWriter::write_by_module(const std::string &path, const pt_image_data &image) {
-    if (!encode_.valid()) {
+    if (!encode_.valid())
         load_module();
-    }
     const pt_encode_image_fn encode = encode_.get();
     OutputFile file(path);
     Sink sink{file, nullptr};
     std::array<char, 512> message{};
-    if (encode(&image, &Sink::receive, &sink, message.data(), message.size()) != 0) {
+    if (encode(&image, &Sink::receive, &sink, message.data(), message.size()) != 0)
         throw Failure(ExitCode::file, "cannot write " + path + ": " + message.data());
-    }
-    if (sink.error) {
+    if (sink.error)
         std::rethrow_exception(sink.error);
-    }
     file.commit();
 }
 

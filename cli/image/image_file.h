@@ -47,9 +47,8 @@ public:
 
     // Waits until load_module() is done, if it was called. Throws Failure(ExitCode::internal) if it failed.
     void wait() const {
-        if (encode_.valid()) {
+        if (encode_.valid())
             encode_.get();
-        }
     }
 
     // All throw Failure(ExitCode::file) and leave an existing file as it was. Values are those of the window's part.

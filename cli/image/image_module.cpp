@@ -28,9 +28,8 @@ namespace {
 std::string description(std::span<const pt_image_attribute> attributes) {
     std::string text;
     for (const pt_image_attribute &attribute : attributes) {
-        if (!text.empty()) {
+        if (!text.empty())
             text += '\n';
-        }
         text += attribute.name;
         text += ": ";
         text += image_attribute_text(attribute);
@@ -47,9 +46,8 @@ std::vector<std::string> channel_names(std::span<const pt_image_layer> layers) {
             names.push_back(name);
             continue;
         }
-        for (const char channel : std::string_view(layer.kind == PT_LAYER_VECTOR ? "XYZ" : "RGB")) {
+        for (const char channel : std::string_view(layer.kind == PT_LAYER_VECTOR ? "XYZ" : "RGB"))
             names.push_back((name.empty() ? "" : name + ".") + channel);
-        }
     }
     return names;
 }
@@ -94,15 +92,13 @@ OIIO::ImageSpec describe_bytes(const pt_image_data &image) {
 }
 
 void add_attributes(OIIO::ImageSpec &spec, std::span<const pt_image_attribute> attributes) {
-    for (const pt_image_attribute &attribute : attributes) {
-        if (attribute.text != nullptr) {
+    for (const pt_image_attribute &attribute : attributes)
+        if (attribute.text != nullptr)
             spec.attribute(attribute.name, attribute.text);
-        } else if (attribute.is_float != 0) {
+        else if (attribute.is_float != 0)
             spec.attribute(attribute.name, static_cast<float>(attribute.number));
-        } else {
+        else
             spec.attribute(attribute.name, static_cast<int>(attribute.number));
-        }
-    }
 }
 
 // One row of the file, in which the channels of all layers stand side by side: floats and whole numbers by their bits.
@@ -129,9 +125,8 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
         spec.channelformats.empty() ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UNKNOWN; // its own
     for (std::uint32_t y = 0; y < image.height; ++y) {
         interleave_row(image, y, row);
-        if (!output.write_scanline(spec.y + static_cast<int>(y), 0, type, row.data())) {
+        if (!output.write_scanline(spec.y + static_cast<int>(y), 0, type, row.data()))
             return false;
-        }
     }
     return true;
 }
@@ -140,9 +135,8 @@ bool write_layers(OIIO::ImageOutput &output, const OIIO::ImageSpec &spec, const 
 std::vector<unsigned char> encode(const pt_image_data &image) {
     const std::string name = std::string("image.") + image.extension;
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(name);
-    if (!output) {
+    if (!output)
         throw std::runtime_error(OIIO::geterror());
-    }
     OIIO::Filesystem::IOVecOutput memory;
     const bool is_radiance = image.layers != nullptr;
     OIIO::ImageSpec spec = is_radiance ? describe_radiance(image) : describe_bytes(image);
@@ -151,9 +145,8 @@ std::vector<unsigned char> encode(const pt_image_data &image) {
         output->set_ioproxy(&memory) && output->open(name, spec) &&
         (is_radiance ? write_layers(*output, spec, image) : output->write_image(spec.format, image.bytes)) &&
         output->close();
-    if (!is_written) {
+    if (!is_written)
         throw std::runtime_error(output->geterror());
-    }
     return std::move(memory.buffer());
 }
 
@@ -175,18 +168,15 @@ std::vector<pt_image_attribute> attributes_of(const OIIO::ImageSpec &spec) {
 
 void decode(const char *path, pt_decoded_sink sink, void *user) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path);
-    if (!input) {
+    if (!input)
         throw std::runtime_error(OIIO::geterror());
-    }
     const OIIO::ImageSpec &spec = input->spec();
     std::vector<float> values(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data())) {
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, values.data()))
         throw std::runtime_error(input->geterror());
-    }
     std::vector<const char *> names;
-    for (const std::string &name : spec.channelnames) {
+    for (const std::string &name : spec.channelnames)
         names.push_back(name.c_str());
-    }
     const std::vector<pt_image_attribute> attributes = attributes_of(spec);
     pt_decoded_image image{};
     image.x = spec.x - spec.full_x;

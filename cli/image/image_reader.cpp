@@ -55,9 +55,8 @@ std::optional<std::size_t> find_channel(const DecodedImage &image, const std::st
 // "R, G, B" of a file that has no layers but the main one; otherwise the names of layers.
 std::string contents_text(const DecodedImage &image) {
     std::string text;
-    for (const std::string &name : image.channels) {
+    for (const std::string &name : image.channels)
         text += (text.empty() ? "" : ", ") + name;
-    }
     return text;
 }
 
@@ -85,11 +84,9 @@ std::vector<float> DecodedImage::layer(const std::string &name) const {
     const std::array<std::size_t, 3> wanted = channels_of(*this, name);
     std::vector<float> chosen;
     chosen.reserve(std::size_t{3} * width * height);
-    for (std::size_t pixel = 0; pixel < values.size(); pixel += channels.size()) {
-        for (const std::size_t channel : wanted) {
+    for (std::size_t pixel = 0; pixel < values.size(); pixel += channels.size())
+        for (const std::size_t channel : wanted)
             chosen.push_back(values[pixel + channel]);
-        }
-    }
     return chosen;
 }
 
@@ -97,12 +94,10 @@ DecodedImage read_image(const std::string &path) {
     const auto decode = reinterpret_cast<pt_decode_image_fn>(load_symbol(module_path(), PT_DECODE_IMAGE_SYMBOL));
     DecodedSink sink{path, {}, nullptr};
     std::array<char, 512> message{};
-    if (decode(path.c_str(), &DecodedSink::receive, &sink, message.data(), message.size()) != 0) {
+    if (decode(path.c_str(), &DecodedSink::receive, &sink, message.data(), message.size()) != 0)
         throw Failure(ExitCode::file, "cannot read " + path + ": " + message.data());
-    }
-    if (sink.error) {
+    if (sink.error)
         std::rethrow_exception(sink.error);
-    }
     return std::move(sink.image);
 }
 

@@ -11,20 +11,15 @@ namespace cli {
 
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {
     const bool to_standard_output = std::find(paths.begin(), paths.end(), standard_stream) != paths.end();
-    if (to_standard_output && !format) {
+    if (to_standard_output && !format)
         throw Failure(ExitCode::usage, "-o -: standard output needs --format exr, png or jpg");
-    }
-    if (to_standard_output && isatty(STDOUT_FILENO) == 1) {
+    if (to_standard_output && isatty(STDOUT_FILENO) == 1)
         throw Failure(ExitCode::usage, "-o -: standard output is a terminal; send it to a file or a program");
-    }
-    if (format && !to_standard_output) {
+    if (format && !to_standard_output)
         throw Failure(ExitCode::usage, "--format: is for -o - alone; the names of files tell their formats");
-    }
-    for (const std::string &path : paths) {
-        if (path != standard_stream && !image_format(path)) {
+    for (const std::string &path : paths)
+        if (path != standard_stream && !image_format(path))
             throw Failure(ExitCode::usage, "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
-        }
-    }
 }
 
 ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format) {
@@ -38,9 +33,8 @@ void check_image_target(const ImageTarget &target, const ImageWindow &window) {
         throw Failure(ExitCode::usage, "-o " + target.path + ": this format holds at most " + std::to_string(longest) +
                                            " pixels a side, not " + std::to_string(side));
     }
-    if (target.path != standard_stream) {
+    if (target.path != standard_stream)
         AtomicFile::check_writable(target.path);
-    }
 }
 
 } // namespace cli

@@ -30,9 +30,8 @@ inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::size_t comma = i + 1 < numbers.size() ? text.find(',') : text.size();
         const auto number = parse_number<std::uint32_t>(text.substr(0, comma));
-        if (!number || comma == std::string_view::npos) {
+        if (!number || comma == std::string_view::npos)
             return std::nullopt;
-        }
         numbers[i] = *number;
         text.remove_prefix(std::min(comma + 1, text.size()));
     }

@@ -25,9 +25,8 @@ std::filesystem::path module_path() {
 void *load_symbol(const std::filesystem::path &path, const char *name) {
     void *module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     void *symbol = module == nullptr ? nullptr : dlsym(module, name);
-    if (symbol == nullptr) {
+    if (symbol == nullptr)
         throw Failure(ExitCode::internal, std::string("cannot load the image module: ") + dlerror());
-    }
     return symbol;
 }
 

@@ -52,9 +52,8 @@ struct Encoding {
         } catch (const std::bad_alloc &) {
             fits = false;
         }
-        if (!fits) {
+        if (!fits)
             png_error(png, "out of memory");
-        }
     }
 };
 
@@ -88,9 +87,8 @@ std::vector<png_bytep> rows_of(const pt_image_data &image) {
     const std::size_t pixel_bytes =
         (image.has_alpha != 0 ? 4 : 3) * (image.words != nullptr ? sizeof(std::uint16_t) : 1);
     std::vector<png_bytep> rows(image.height);
-    for (std::size_t y = 0; y < rows.size(); ++y) {
+    for (std::size_t y = 0; y < rows.size(); ++y)
         rows[y] = const_cast<png_bytep>(first + y * pixel_bytes * image.width); // only read
-    }
     return rows;
 }
 
@@ -102,9 +100,8 @@ int transforms_of(const pt_image_data &image) {
 
 // False after a failure. A long jump runs no destructors: this function has no objects that need one.
 bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> texts, png_bytepp rows) {
-    if (setjmp(png_jmpbuf(encoding.png)) != 0) { // NOLINT(cert-err52-cpp): libpng's way to tell of errors
+    if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
-    }
     png_set_IHDR(encoding.png, encoding.info, image.width, image.height, image.words != nullptr ? 16 : 8,
                  image.has_alpha != 0 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -127,9 +124,8 @@ std::vector<std::byte> encode_png(const pt_image_data &image) {
     std::vector<png_text> texts = texts_of(image, values);
     std::vector<png_bytep> rows = rows_of(image);
     Encoding encoding;
-    if (!write(encoding, image, texts, rows.data())) {
+    if (!write(encoding, image, texts, rows.data()))
         throw std::runtime_error(encoding.error);
-    }
     return std::move(encoding.file);
 }
 

@@ -15,16 +15,14 @@ using Rows = std::array<Colour, 3>;
 
 Colour multiply(const Rows &rows, const Colour &colour) {
     Colour product;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         product[i] = rows[i][0] * colour[0] + rows[i][1] * colour[1] + rows[i][2] * colour[2];
-    }
     return product;
 }
 
 Colour clamp(Colour colour) {
-    for (double &component : colour) {
+    for (double &component : colour)
         component = std::clamp(component, 0.0, 1.0);
-    }
     return colour;
 }
 
@@ -33,18 +31,16 @@ Colour clamp(Colour colour) {
 // out every saturated colour. The price: a channel far above the luminance may pass 1 and is clipped.
 Colour reinhard(Colour colour) {
     const double luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]; // Rec. 709
-    for (double &component : colour) {
+    for (double &component : colour)
         component /= 1.0 + luminance;
-    }
     return colour;
 }
 
 // Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES reference and output transforms, per
 // channel. More contrast and saturation than ACES itself has.
 Colour aces(Colour colour) {
-    for (double &x : colour) {
+    for (double &x : colour)
         x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
-    }
     return colour;
 }
 
@@ -71,9 +67,8 @@ Colour agx(const Colour &colour) {
         component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
     }
     Colour light = clamp(multiply(outset, signal));
-    for (double &component : light) {
+    for (double &component : light)
         component = std::pow(component, 2.2);
-    }
     return light;
 }
 
@@ -89,18 +84,15 @@ Colour neutral(Colour colour) {
     const double least = *std::min_element(colour.begin(), colour.end());
     // The parabola meets the constant at 2 * fresnel with equal slope and goes through 0.
     const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
-    for (double &component : colour) {
+    for (double &component : colour)
         component -= offset;
-    }
     const double peak = *std::max_element(colour.begin(), colour.end());
-    if (peak < start) {
+    if (peak < start)
         return colour;
-    }
     const double new_peak = 1.0 - range * range / (peak + range - start);
     const double white = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    for (double &component : colour) {
+    for (double &component : colour)
         component = std::lerp(component * new_peak / peak, new_peak, white);
-    }
     return colour;
 }
 
@@ -119,9 +111,8 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
         for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
             const Colour light =
                 apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
-            for (std::size_t channel = 0; channel < 3; ++channel) {
+            for (std::size_t channel = 0; channel < 3; ++channel)
                 numbers[i + channel] = number_of(light[channel]);
-            }
         }
     });
     return numbers;
@@ -131,9 +122,8 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
 
 std::optional<ToneCurve> find_tone_curve(std::string_view name) {
     const auto found = std::find(tone_curve_names.begin(), tone_curve_names.end(), name);
-    if (found == tone_curve_names.end()) {
+    if (found == tone_curve_names.end())
         return std::nullopt;
-    }
     return static_cast<ToneCurve>(found - tone_curve_names.begin());
 }
 

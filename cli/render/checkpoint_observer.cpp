@@ -17,9 +17,8 @@ CheckpointObserver::CheckpointObserver(const Context &context, std::string path,
     due_(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval_)) {}
 
 void CheckpointObserver::stepped(const RenderState &state) {
-    if (pauses() && state.sample_count > saved_count_) {
+    if (pauses() && state.sample_count > saved_count_)
         save(state.sample_count);
-    }
 }
 
 void CheckpointObserver::finish(std::uint32_t sample_count) {
@@ -54,9 +53,8 @@ void CheckpointObserver::write() {
 
 // What became of the last one.
 void CheckpointObserver::take_in() {
-    if (!task_.is_begun()) {
+    if (!task_.is_begun())
         return;
-    }
     try {
         task_.finish();
         written_count_ = saved_count_;
@@ -68,9 +66,8 @@ void CheckpointObserver::take_in() {
 }
 
 void CheckpointObserver::tell_failure(const std::string &reason) {
-    if (!has_told_failure_) {
+    if (!has_told_failure_)
         say_("no checkpoint: " + reason + "; the rendering goes on");
-    }
     has_told_failure_ = true;
 }
 

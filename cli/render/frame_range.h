@@ -27,9 +27,8 @@ inline std::optional<FrameRange> parse_frames(std::string_view text) {
 // if there is no #.
 inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
     const std::size_t last = pattern.rfind('#');
-    if (last == std::string::npos) {
+    if (last == std::string::npos)
         return std::nullopt;
-    }
     const std::size_t first = pattern.find_last_not_of('#', last) + 1; // npos + 1 = 0: the name begins with it
     const std::string digits = std::to_string(frame);
     const std::size_t width = last - first + 1;

@@ -33,9 +33,8 @@ std::string name_of_frame(const std::string &option, const std::string &pattern,
 
 RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame) {
     RenderOptions numbered = options;
-    for (std::string &path : numbered.outputs) {
+    for (std::string &path : numbered.outputs)
         path = name_of_frame("-o", path, frame);
-    }
     numbered.standard_error = name_of_frame("--standard-error", options.standard_error, frame);
     numbered.film = name_of_frame("--film", options.film, frame);
     numbered.stats = name_of_frame("--stats", options.stats, frame);
@@ -59,9 +58,8 @@ public:
         log_(log),
         text_(read_scene_text(options.scene)),
         scene_(parse_scene(text_.text, text_.path, options.overrides)) {
-        if (scene_.animation.empty()) {
+        if (scene_.animation.empty())
             throw Failure(ExitCode::scene, scene_.path + ": has no animation, of which --frames are rendered");
-        }
     }
 
     int run() {
@@ -69,13 +67,11 @@ public:
         for (std::uint64_t frame = frames.first; frame <= frames.last; ++frame) {
             const auto number = static_cast<std::uint32_t>(frame);
             const RenderOptions numbered = options_of_frame(options_, number);
-            if (options_.skip_existing && is_done(numbered)) {
+            if (options_.skip_existing && is_done(numbered))
                 continue;
-            }
             const Outcome outcome = render(numbered, number);
-            if (outcome == Outcome::not_all_written) {
+            if (outcome == Outcome::not_all_written)
                 return static_cast<int>(ExitCode::file);
-            }
             if (interrupt_signal() != 0) {
                 print_message("stopped by " + interrupt_name() + " in frame " + std::to_string(number));
                 return exit_code_of_signal(interrupt_signal());
@@ -87,9 +83,8 @@ public:
 
     int parts() const {
         const FrameRange frames = options_.frames.value();
-        if (frames.first != frames.last) {
+        if (frames.first != frames.last)
             throw Failure(ExitCode::usage, "--parts: takes --frames of one frame at a time");
-        }
         SceneFile file = scene_of(frames.first);
         complete_scene(options_, file);
         return render_parts(options_, file, settings_of(options_, file, frames.first), log_);

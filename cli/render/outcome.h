@@ -23,12 +23,10 @@ struct Ending {
 
 // A file that is missing weighs more than samples that are; a checkpoint says that they can still be had.
 constexpr Outcome outcome_of(const Ending &ending) {
-    if (!ending.all_written) {
+    if (!ending.all_written)
         return Outcome::not_all_written;
-    }
-    if (ending.timed_out && ending.has_checkpoint) {
+    if (ending.timed_out && ending.has_checkpoint)
         return Outcome::timed_out;
-    }
     return ending.has_target && !ending.target_reached ? Outcome::target_missed : Outcome::written;
 }
 

@@ -52,9 +52,8 @@ struct Part {
 // Nothing at the end of standard input.
 std::optional<Part> read_part(std::size_t all_tiles) {
     std::array<std::uint32_t, 3> header{};
-    if (!read_words(header)) {
+    if (!read_words(header))
         return std::nullopt;
-    }
     const auto [first, end, count] = header;
     std::vector<std::uint32_t> tiles(std::min<std::size_t>(count, all_tiles));
     const bool is_whole = read_words(tiles);
@@ -66,18 +65,16 @@ std::optional<Part> read_part(std::size_t all_tiles) {
                                            " of " + std::to_string(count) + " tiles");
     }
     Part part{first, std::vector<std::uint32_t>(all_tiles)};
-    for (const std::uint32_t tile : tiles) {
+    for (const std::uint32_t tile : tiles)
         part.tile_samples[tile] = end - first;
-    }
     return part;
 }
 
 void write_answer(std::uint32_t device_kind, std::span<const std::byte> film) {
     std::cout << device_kind << ' ' << film.size() << '\n';
     std::cout.write(reinterpret_cast<const char *>(film.data()), static_cast<std::streamsize>(film.size()));
-    if (!std::cout.flush()) {
+    if (!std::cout.flush())
         throw Failure(ExitCode::file, "--parts: the film of a part could not be written to standard output");
-    }
 }
 
 class PartsRender {

@@ -42,9 +42,8 @@ std::vector<std::uint32_t> parse_layers(const std::string &text) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::uint32_t quantity =
             read_name("--layers", text.substr(begin, end - begin), find, "layer", layer_names.names());
-        if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end()) {
+        if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
             refuse_option("--layers", "must name a layer once", text);
-        }
         quantities.push_back(quantity);
         begin = end + 1;
     }
@@ -54,11 +53,10 @@ std::vector<std::uint32_t> parse_layers(const std::string &text) {
 
 PictureLayer::PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count) : quantity(of_quantity) {
     const FileLayer &layer = file_layer(quantity);
-    if (layer.kind == PT_LAYER_NUMBERS) {
+    if (layer.kind == PT_LAYER_NUMBERS)
         numbers.resize(pixel_count);
-    } else {
+    else
         values.resize(pixel_count * layer.channel_count);
-    }
 }
 
 void PictureLayer::read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows) {
@@ -70,9 +68,8 @@ void PictureLayer::read(const Context &context, const Rectangle &part, std::uint
     } else {
         std::vector<float> alike(std::size_t{3} * part.width * rows);
         context.read_columns(part.x, part.width, rows, quantity, alike.data());
-        for (std::size_t pixel = 0; pixel < alike.size() / 3; ++pixel) {
+        for (std::size_t pixel = 0; pixel < alike.size() / 3; ++pixel)
             values[first + pixel] = alike[3 * pixel];
-        }
     }
 }
 

@@ -23,25 +23,20 @@ PictureObservers::PictureObservers(const Context &context, const RenderOptions &
 
 std::vector<PieceObserver *> PictureObservers::list() {
     std::vector<PieceObserver *> all;
-    if (preview_) {
+    if (preview_)
         all.push_back(&*preview_);
-    }
-    if (checkpoint_) {
+    if (checkpoint_)
         all.push_back(&*checkpoint_);
-    }
-    if (time_limit_) {
+    if (time_limit_)
         all.push_back(&*time_limit_);
-    }
     return all;
 }
 
 void PictureObservers::finish(std::uint32_t sample_count) {
-    if (preview_) {
+    if (preview_)
         preview_->finish();
-    }
-    if (checkpoint_) {
+    if (checkpoint_)
         checkpoint_->finish(sample_count);
-    }
 }
 
 } // namespace cli

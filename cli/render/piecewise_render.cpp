@@ -59,21 +59,18 @@ void render_piece(const Context &context, const SceneFile &file, const RenderSet
 // Adds the samples that the context has of a piece; false if there are none.
 bool add_piece(const Context &context, std::uint32_t rows, PiecewiseImage &image) {
     const pt_stats stats = context.read_stats();
-    if (stats.sample_count == 0) {
+    if (stats.sample_count == 0)
         return false;
-    }
     join(image.stats, stats, image.rows_done, rows);
     const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
         const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
         context.read_columns(image.part.x, image.part.width, rows, quantity, &values[first]);
     };
     read(PT_QUANTITY_RADIANCE, image.radiance);
-    if (!image.standard_error.empty()) {
+    if (!image.standard_error.empty())
         read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
-    }
-    for (PictureLayer &layer : image.layers) {
+    for (PictureLayer &layer : image.layers)
         layer.read(context, image.part, image.rows_done, rows);
-    }
     image.rows_done += rows;
     return true;
 }
@@ -88,9 +85,8 @@ std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const Re
         const pt_render piece = piece_of(settings, 0, rows);
         const pt_result result = pt_set_render(context.get(), &piece);
         const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
-        if (too_large && rows > 1) {
+        if (too_large && rows > 1)
             continue;
-        }
         require_render(context, file, settings, result);
         return rows;
     }
@@ -110,28 +106,23 @@ PiecewiseImage render_pieces(const Context &context, const SceneFile &file, cons
     image.part = part;
     image.radiance.resize(3 * part.pixel_count());
     image.standard_error.resize(wanted.standard_error ? image.radiance.size() : 0);
-    for (const std::uint32_t layer : wanted.layers) {
+    for (const std::uint32_t layer : wanted.layers)
         image.layers.emplace_back(layer, part.pixel_count());
-    }
     while (image.rows_done < part.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
         const pt_render piece = piece_of(settings, first_row, rows);
-        if (first_row > 0) {
+        if (first_row > 0)
             context.require(pt_set_render(context.get(), &piece));
-        }
         const double height = part.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        for (PieceObserver *other : others) {
+        for (PieceObserver *other : others)
             other->enter(image, piece.row_count);
-        }
         render_piece(context, file, settings, stop, progress, others);
-        if (!add_piece(context, piece.row_count, image)) {
+        if (!add_piece(context, piece.row_count, image))
             break;
-        }
     }
-    if (image.rows_done == 0) {
+    if (image.rows_done == 0)
         image.stats = context.read_stats();
-    }
     return image;
 }
 

@@ -21,9 +21,8 @@ bool PreviewObserver::is_wanted() const {
 }
 
 void PreviewObserver::stepped(const RenderState &state) {
-    if (!pauses() || state.sample_count == 0) {
+    if (!pauses() || state.sample_count == 0)
         return;
-    }
     forget_picture_request();
     last_ = state.time;
     task_.finish();

@@ -18,9 +18,8 @@ public:
         progress_(progress),
         target_error_(target_error),
         most_(most) {
-        if (has_target()) { // the next check
+        if (has_target()) // the next check
             progress_.expect(forecast_sample_count(sample_count, target_error_, target_error_, most_));
-        }
     }
 
     std::uint32_t next_end(std::uint32_t sample_count) const override {

@@ -22,15 +22,13 @@ namespace {
 int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times{};
     times.start = std::chrono::steady_clock::now();
-    if (!options.parts) {
+    if (!options.parts)
         check_names(options);
-    }
     SceneFile file = read_scene(options);
     complete_scene(options, file);
     const RenderSettings settings = merge_settings(options, file);
-    if (options.parts) {
+    if (options.parts)
         return render_parts(options, file, settings, log);
-    }
     check_outputs(options, settings);
     catch_interrupts();
     catch_picture_requests();

@@ -40,9 +40,8 @@ struct Step {
     static std::int32_t receive(void *user, double fraction) {
         const auto *step = static_cast<const Step *>(user);
         const double taken = fraction * std::max(step->length, 1U);
-        for (RenderObserver *observer : step->observers) {
+        for (RenderObserver *observer : step->observers)
             observer->submitted(step->before + taken, Clock::now());
-        }
         const bool has_sample = taken >= 1.0; // else there is nothing new to be seen
         return any_stops(step->observers) || (has_sample && any_pauses(step->observers)) ? 1 : 0;
     }
@@ -74,9 +73,8 @@ Done done_of(const pt_stats &stats) {
 
 // Where pixels may have different numbers of samples, those that have fewest may still lack some.
 Done done_of(const Context &context, const RenderSettings &settings) {
-    if (settings.target_error > 0.0) {
+    if (settings.target_error > 0.0)
         return done_of(context.read_stats());
-    }
     const std::uint32_t count = context.sample_count();
     return {static_cast<double>(count), count, count};
 }
@@ -89,9 +87,8 @@ bool has_ended(pt_result result, const Done &done, const RenderSettings &setting
 Done tell(const Context &context, const RenderSettings &settings, Observers observers, pt_result result) {
     std::optional<pt_stats> stats;
     const Clock::time_point start = Clock::now();
-    if (any_needs_error(observers)) {
+    if (any_needs_error(observers))
         stats = context.read_stats();
-    }
     const Clock::time_point now = Clock::now();
     const Done done = stats ? done_of(*stats) : done_of(context, settings);
     for (RenderObserver *observer : observers) {
@@ -111,18 +108,16 @@ void run_render_loop(const Context &context, const SceneFile &file, const Render
     bool ended = done.least >= settings.sample_count;
     while (!ended && !any_stops(observers)) {
         step.length = std::min(wanted, settings.sample_count - done.most);
-        for (const RenderObserver *observer : observers) {
+        for (const RenderObserver *observer : observers)
             step.length = std::min(step.length, observer->next_end(done.most) - done.most);
-        }
         const Clock::time_point start = Clock::now();
         const pt_result result = take(context, file, settings, step);
         const double seconds = seconds_between(start, Clock::now());
         const std::uint32_t before = done.most;
         done = tell(context, settings, observers, result);
         step.before = done.mean;
-        if (done.most > before) { // else it was ended within a sample, and says nothing
+        if (done.most > before) // else it was ended within a sample, and says nothing
             wanted = next_step_length(done.most - before, seconds);
-        }
         ended = has_ended(result, done, settings);
     }
 }

@@ -59,9 +59,8 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
     add_size(command, options.size)->group("Picture");
     const auto read_crop = [&options](const std::string &text) {
         options.crop = parse_rectangle(text);
-        if (!options.crop) {
+        if (!options.crop)
             refuse_option("--crop", "must be four whole numbers like 10,20,640,480: x, y, width and height", text);
-        }
     };
     command
         .add_option_function<std::string>("--crop", read_crop,
@@ -175,9 +174,8 @@ void add_animation_options(CLI::App &command, RenderOptions &options) {
     const std::string group = "Animation";
     const auto read_frames = [&options](const std::string &text) {
         options.frames = parse_frames(text);
-        if (!options.frames) {
+        if (!options.frames)
             refuse_option("--frames", "must be two whole numbers like 0-23, or one", text);
-        }
     };
     CLI::Option *frames =
         command

@@ -48,9 +48,8 @@ std::optional<std::string> image_of(const RenderOptions &options, ImageFormat fo
 }
 
 void refuse_if(bool is_refused, const std::string &message) {
-    if (is_refused) {
+    if (is_refused)
         throw Failure(ExitCode::usage, message);
-    }
 }
 
 void check_channels(const RenderOptions &options) {
@@ -95,9 +94,8 @@ void check_file_names(const RenderOptions &options) {
 // A checkpoint of hours is not replaced by one of seconds unless that goes on from it. One that cannot be written costs
 // itself and not the rendering, which says so when it tries.
 void check_checkpoint(const RenderOptions &options) {
-    if (options.checkpoint.empty()) {
+    if (options.checkpoint.empty())
         return;
-    }
     std::error_code ignored;
     const bool is_there = std::filesystem::exists(options.checkpoint, ignored);
     if (is_there && !options.resume) {
@@ -109,9 +107,8 @@ void check_checkpoint(const RenderOptions &options) {
 
 std::vector<NamedFile> outputs_of(const RenderOptions &options) {
     std::vector<NamedFile> outputs;
-    for (const std::string &path : options.outputs) {
+    for (const std::string &path : options.outputs)
         outputs.push_back({"-o", path});
-    }
     outputs.push_back({"--standard-error", options.standard_error});
     outputs.push_back({"--film", options.film});
     outputs.push_back({"--checkpoint", options.checkpoint});
@@ -121,14 +118,12 @@ std::vector<NamedFile> outputs_of(const RenderOptions &options) {
 
 void check_sources_are_kept(const RenderOptions &options) {
     std::vector<NamedFile> sources{{"the scene", options.scene}};
-    for (const auto &[path, contents] : read_shader_files(options.shader_dir)) {
+    for (const auto &[path, contents] : read_shader_files(options.shader_dir))
         sources.push_back({"the shader", path});
-    }
     const std::vector<NamedFile> outputs = outputs_of(options);
     require_distinct_files(sources, outputs);
-    if (!options.shader_dir.empty()) {
+    if (!options.shader_dir.empty())
         require_outside({"--shader-dir", options.shader_dir}, outputs);
-    }
 }
 
 } // namespace
@@ -160,14 +155,11 @@ void check_merged_names(const RenderOptions &options, const std::vector<NamedFil
 }
 
 void check_files(const RenderOptions &options, const ImageWindow &window) {
-    for (const std::string &path : options.outputs) {
+    for (const std::string &path : options.outputs)
         check_image_target(image_target(path, options.format), window);
-    }
-    for (const std::string *path : {&options.standard_error, &options.film}) {
-        if (!path->empty()) {
+    for (const std::string *path : {&options.standard_error, &options.film})
+        if (!path->empty())
             AtomicFile::check_writable(*path);
-        }
-    }
     check_report_file(options.stats);
 }
 
@@ -183,9 +175,8 @@ std::uint32_t image_count(const RenderOptions &options) {
 
 std::vector<std::uint32_t> wanted_layers(const RenderOptions &options) {
     std::vector<std::uint32_t> layers = options.layers;
-    if (options.alpha) {
+    if (options.alpha)
         layers.push_back(PT_QUANTITY_COVERAGE);
-    }
     return layers;
 }
 
@@ -199,9 +190,8 @@ bool write_film(const std::function<std::vector<std::byte>()> &film, const std::
         write_film_file(path, film());
         return true;
     } catch (const Failure &failure) {
-        if (failure.code() != ExitCode::file) {
+        if (failure.code() != ExitCode::file)
             throw;
-        }
         print_message(failure.what());
         return false;
     }
@@ -219,12 +209,10 @@ std::vector<std::string> write_images(ImageWriter &writer, const RenderOptions &
             print_message(failure.what());
         }
     };
-    for (const std::string &path : options.outputs) {
+    for (const std::string &path : options.outputs)
         write(path, images.radiance, PT_QUANTITY_RADIANCE, images.layers);
-    }
-    if (!options.standard_error.empty()) {
+    if (!options.standard_error.empty())
         write(options.standard_error, images.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
-    }
     return written;
 }
 

@@ -84,9 +84,8 @@ void require_one_piece(const RenderOptions &options, const RenderSettings &setti
 
 // Takes over what the checkpoint has.
 void resume_if_asked(const Context &context, const RenderOptions &options, const RenderSettings &settings) {
-    if (!options.resume) {
+    if (!options.resume)
         return;
-    }
     const std::uint32_t sample_count = resume(context, options.checkpoint, settings);
     if (!options.quiet) {
         print_message(sample_count == 0 ? options.checkpoint + ": there is no checkpoint yet, so all samples are taken"
@@ -97,12 +96,10 @@ void resume_if_asked(const Context &context, const RenderOptions &options, const
 
 // An image that time has ended may have the target error as it is, and more samples to come for others to have it too.
 const char *ending_of(const RenderReport &report, bool interrupted, bool timed_out) {
-    if (interrupted) {
+    if (interrupted)
         return "signal";
-    }
-    if (timed_out) {
+    if (timed_out)
         return "time";
-    }
     return report.target_reached() ? "error" : "samples";
 }
 
@@ -116,9 +113,8 @@ void print_pieces(const Context &context, const RenderOptions &options, const Im
 
 void print_summary(const RenderOptions &options, const RenderReport &report, const std::vector<std::string> &written) {
     std::string names;
-    for (const std::string &path : written) {
+    for (const std::string &path : written)
         names += path + (&path == &written.back() ? ": " : ", ");
-    }
     const std::string exposure = report.automatic_exposure ? exposure_text(report) + "\n" : "";
     print_for_people("wrote " + names + summary_text(report) + "\n" + exposure + error_text(report) + "\n",
                      takes_standard_output(options));
@@ -133,27 +129,23 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderOpti
                    const PiecewiseImage &image, Clock::time_point start) {
     const std::vector<std::string> warnings = image_warnings(report, image.radiance);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
-    if (!options.quiet) {
+    if (!options.quiet)
         print_warnings(warnings);
-    }
     std::vector<std::string> written = write_images(writer, options, report, images_of(image));
-    if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film)) {
+    if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film))
         written.push_back(options.film);
-    }
     report.total_seconds = seconds_since(start);
     write_report_file(options.stats, json_text(stats_json(report)));
-    if (!options.quiet && !written.empty()) {
+    if (!options.quiet && !written.empty())
         print_summary(options, report, written);
-    }
     return written.size() == output_count(options) + (options.film.empty() ? 0 : 1);
 }
 
 // Nothing if no output is tone-mapped.
 std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSettings &settings,
                                    std::span<const float> radiance) {
-    if (!needs_tone_map(options)) {
+    if (!needs_tone_map(options))
         return std::nullopt;
-    }
     const std::optional<double> stops = settings.exposure.stops;
     return ToneMap{stops ? *stops : automatic_exposure(radiance), settings.tone_curve, settings.gamma};
 }
@@ -185,28 +177,24 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
 
     context.require(pt_get_context_device(context.get(), &report.device));
     if (!take_scene(context, options, file, superseded)) {
-        if (superseded()) {
+        if (superseded())
             return Outcome::superseded;
-        }
         print_interruption(settings, 0, 0, "");
         return Outcome::interrupted;
     }
     report.warnings = input_warnings(file, settings);
-    if (!options.quiet) {
+    if (!options.quiet)
         print_warnings(report.warnings);
-    }
     const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
     require_one_piece(options, settings, rows);
-    if (rows < settings.window.part.height && !options.quiet) {
+    if (rows < settings.window.part.height && !options.quiet)
         print_pieces(context, options, settings.window, rows);
-    }
     report.create_seconds = seconds_since(times.create_start);
 
     // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
     ImageWriter writer;
-    if (needs_module(options)) {
+    if (needs_module(options))
         writer.load_module();
-    }
     resume_if_asked(context, options, settings);
     const auto write_preview = [&](const PiecewiseImage &image) {
         RenderReport so_far = report;
@@ -229,9 +217,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
         print_interruption(settings, report.stats.sample_count, image.rows_done, report.checkpoint);
-        if (report.stats.sample_count == 0) {
+        if (report.stats.sample_count == 0)
             return Outcome::interrupted;
-        }
     } else if (superseded()) {
         return Outcome::superseded;
     }
@@ -239,9 +226,8 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.automatic_exposure = report.tone_map && !settings.exposure.stops;
     writer.wait();
     const bool all_written = write_outputs(writer, context, options, report, image, times.start);
-    if (interrupted && all_written) {
+    if (interrupted && all_written)
         return Outcome::interrupted;
-    }
     return outcome_of(
         {report.target_error > 0.0, report.target_reached(), rendered.timed_out, rendered.has_checkpoint, all_written});
 }

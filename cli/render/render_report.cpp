@@ -34,11 +34,9 @@ constexpr std::array uncertainty_names{BitName{PT_UNCERTAIN_RMSE, "rmse"},
 template <std::size_t Count>
 std::vector<std::string> names_of(std::uint32_t bits, const std::array<BitName, Count> &all) {
     std::vector<std::string> names;
-    for (const auto &[bit, name] : all) {
-        if ((bits & bit) != 0) {
+    for (const auto &[bit, name] : all)
+        if ((bits & bit) != 0)
             names.emplace_back(name);
-        }
-    }
     return names;
 }
 
@@ -68,12 +66,10 @@ std::string percent_text(double share) {
 
 // Why the relative error may be far off; empty if there is no reason.
 std::string uncertainty_text(std::uint32_t uncertain) {
-    if ((uncertain & PT_UNCERTAIN_UNMET) != 0) {
+    if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
         return ", uncertain: few samples meet small lamps, more samples tell";
-    }
-    if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0) {
+    if ((uncertain & PT_UNCERTAIN_RELATIVE_RMSE) != 0)
         return ", uncertain: a few bright pixels make most of it, more samples tell";
-    }
     return (uncertain & PT_UNCERTAIN_UNSEEN) != 0 ? ", uncertain: dark pixels may have light of brighter ones beside "
                                                     "them that no sample has met, more samples tell"
                                                   : "";
@@ -91,9 +87,8 @@ std::string estimate_text(const pt_stats &stats) {
 
 // "64", or of pixels that have different numbers "37.3 (16 to 256)".
 std::string samples_text(const pt_stats &stats) {
-    if (stats.sample_count == stats.max_sample_count) {
+    if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
-    }
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.1f (%u to %u)", stats.mean_sample_count, stats.sample_count,
                   stats.max_sample_count);
@@ -102,9 +97,8 @@ std::string samples_text(const pt_stats &stats) {
 
 std::string target_text(const RenderReport &report) {
     const std::string samples = samples_text(report.stats) + " samples";
-    if (report.target_reached()) {
+    if (report.target_reached())
         return "target reached after " + samples;
-    }
     const std::string high = std::isfinite(report.stats.relative_rmse_high)
                                  ? percent_text(report.stats.relative_rmse_high) + " is above "
                                  : "unknown error for ";
@@ -122,9 +116,8 @@ std::string version_text() {
 }
 
 nlohmann::ordered_json tone_map_json(const RenderReport &report) {
-    if (!report.tone_map) {
+    if (!report.tone_map)
         return nullptr;
-    }
     const ToneMap &map = *report.tone_map;
     return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
             {"exposure", map.exposure},
@@ -204,34 +197,28 @@ std::string error_text(const RenderReport &report) {
 // pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
 ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map) {
     add("software", "pt " + version_text());
-    if (!report.date.empty()) {
+    if (!report.date.empty())
         add("DateTime", report.date); // becomes capDate in OpenEXR
-    }
     add_whole("samplesPerPixel", report.stats.sample_count);
     add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
                            (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
-    if (tone_map != nullptr) {
+    if (tone_map != nullptr)
         add_tone_map(*this, *tone_map);
-    }
-    if (!report.window.is_whole()) {
+    if (!report.window.is_whole())
         add("pt.crop", window_text(report.window));
-    }
-    if (!report.scene.empty()) {
+    if (!report.scene.empty())
         add("pt.scene", std::filesystem::path(report.scene).filename());
-    }
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
     add_whole("pt.maxPathLength", report.render.max_path_length);
     add("pt.sampler", std::string(samplers.name(report.render.sampler)));
     add("pt.estimator", std::string(estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
-    if (std::isfinite(report.stats.relative_rmse)) {
+    if (std::isfinite(report.stats.relative_rmse))
         add_real("pt.relativeError", report.stats.relative_rmse);
-    }
     add("pt.device", report.device.name);
-    if (report.device.driver[0] != '\0') {
+    if (report.device.driver[0] != '\0')
         add("pt.driver", report.device.driver);
-    }
 }
 
 } // namespace cli

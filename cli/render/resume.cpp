@@ -29,9 +29,8 @@ void require_first_samples(const std::string &path, const std::vector<pt_sample_
 
 std::uint32_t resume(const Context &context, const std::string &path, const RenderSettings &settings) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error) && !error) {
+    if (!std::filesystem::exists(path, error) && !error)
         return 0;
-    }
     const std::vector<std::byte> bytes = read_film_file(path);
     const std::vector<pt_sample_range> ranges = FilmHandle(path, bytes).ranges(0);
     add_film(context, path, bytes);

@@ -20,9 +20,8 @@ std::set<std::filesystem::path> directories_of(const SourceFiles &files) {
         std::error_code error;
         const std::filesystem::path target = std::filesystem::canonical(path, error);
         directories.insert(directory_of(path));
-        if (!error) {
+        if (!error)
             directories.insert(directory_of(target));
-        }
     }
     return directories;
 }
@@ -40,9 +39,8 @@ SourceWatch::SourceWatch(std::filesystem::path scene, std::filesystem::path shad
 // Watches first and reads then, so that no change is missed; again if what was read may name other directories.
 void SourceWatch::look() {
     for (bool is_new = true; is_new;) {
-        for (const std::filesystem::path &directory : directories_of(seen_)) {
+        for (const std::filesystem::path &directory : directories_of(seen_))
             events_.watch(directory);
-        }
         SourceFiles found = read_source_files(scene_, shader_dir_, data_);
         is_new = found != seen_;
         if (is_new) {
@@ -65,28 +63,24 @@ void SourceWatch::follow(const std::set<std::filesystem::path> &data) {
         }
     }
     data_ = data;
-    for (const std::filesystem::path &path : data_) {
+    for (const std::filesystem::path &path : data_)
         seen_.try_emplace(path); // its directory is watched before it is looked at
-    }
     look();
-    for (const std::filesystem::path &path : data_) {
+    for (const std::filesystem::path &path : data_)
         begun_.try_emplace(path, seen_.at(path));
-    }
 }
 
 SourceFiles SourceWatch::scene() const {
     SourceFiles files{{scene_, begun_.at(scene_)}};
-    for (const std::filesystem::path &path : data_) {
+    for (const std::filesystem::path &path : data_)
         files.emplace(path, begun_.at(path));
-    }
     return files;
 }
 
 bool SourceWatch::changed(std::chrono::milliseconds timeout) {
     const bool unsettled = seen_ != begun_;
-    if (events_.wait(unsettled ? std::min(timeout, settling) : timeout)) {
+    if (events_.wait(unsettled ? std::min(timeout, settling) : timeout))
         look();
-    }
     return seen_ != begun_ && Clock::now() - seen_since_ >= settling;
 }
 
@@ -98,11 +92,9 @@ std::vector<std::string> SourceWatch::changed_names() const {
     };
     SourceFiles all = begun_;
     all.insert(seen_.begin(), seen_.end());
-    for (const auto &[path, contents] : all) {
-        if (text_in(begun_, path) != text_in(seen_, path)) {
+    for (const auto &[path, contents] : all)
+        if (text_in(begun_, path) != text_in(seen_, path))
             names.push_back(path.string());
-        }
-    }
     return names;
 }
 

@@ -32,19 +32,15 @@ constexpr std::chrono::milliseconds patience{200};
 
 // A pipe can be read once, and its reader waits for its writer.
 void require_files(const RenderOptions &options) {
-    if (options.frames) {
+    if (options.frames)
         throw Failure(ExitCode::usage, "--watch: shows one picture, not --frames");
-    }
-    if (std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end()) {
+    if (std::find(options.outputs.begin(), options.outputs.end(), standard_stream) != options.outputs.end())
         throw Failure(ExitCode::usage, "-o -: --watch needs a file, not standard output");
-    }
-    if (options.scene == standard_stream) {
+    if (options.scene == standard_stream)
         throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
-    }
     std::error_code ignored;
-    if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored)) {
+    if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored))
         throw Failure(ExitCode::usage, options.scene + ": not a regular file, which --watch needs");
-    }
 }
 
 class WatchedRender {
@@ -61,9 +57,8 @@ public:
             render_or_tell();
             tell_once_what_is_watched();
             do {
-                if (interrupt_signal() != 0) {
+                if (interrupt_signal() != 0)
                     return exit_code();
-                }
             } while (!sources_.changed(patience));
             tell_changes();
         }
@@ -85,9 +80,8 @@ private:
         } catch (const Failure &failure) {
             const bool loses_work = failure.code() == ExitCode::device_lost || failure.code() == ExitCode::internal;
             const bool is_source = failure.code() == ExitCode::scene || (loses_work && !options_.shader_dir.empty());
-            if (!is_source && (loses_work || is_first_)) {
+            if (!is_source && (loses_work || is_first_))
                 throw;
-            }
             print_message(failure.what());
             if (loses_work) {
                 tell_suspects();
@@ -140,9 +134,8 @@ private:
     }
 
     void print_unless_quiet(const std::string &message) const {
-        if (!options_.quiet) {
+        if (!options_.quiet)
             print_message(message);
-        }
     }
 
     void tell_once_what_is_watched() {
@@ -162,17 +155,15 @@ private:
 
     // What was edited since a picture was right.
     void tell_suspects() const {
-        if (!edited_.empty()) {
+        if (!edited_.empty())
             print_message("the likely cause: " + joined(edited_) + ", edited since the last picture");
-        }
     }
 
     template <typename Names>
     static std::string joined(const Names &names) {
         std::string text;
-        for (const std::string &name : names) {
+        for (const std::string &name : names)
             text += (text.empty() ? "" : ", ") + name;
-        }
         return text;
     }
 

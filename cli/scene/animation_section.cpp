@@ -21,9 +21,8 @@ bool can_move(const JsonPath &path) {
 }
 
 KeyFrame read_key_frame(const json &value, const JsonPlace &place, AnimatedValue &animated) {
-    if (!value.is_array() || value.size() != 2) {
+    if (!value.is_array() || value.size() != 2)
         refuse(place, "must be [frame, value]");
-    }
     constexpr std::uint64_t last_frame = std::numeric_limits<std::uint32_t>::max();
     KeyFrame key{static_cast<std::uint32_t>(read_whole_number(value[0], place.element(0), 0, last_frame)), {}};
     const JsonPlace second = place.element(1);
@@ -32,9 +31,8 @@ KeyFrame read_key_frame(const json &value, const JsonPlace &place, AnimatedValue
         key.numbers.push_back(read_number(value[1], second));
         return key;
     }
-    for (std::size_t i = 0; i < value[1].size(); ++i) {
+    for (std::size_t i = 0; i < value[1].size(); ++i)
         key.numbers.push_back(read_number(value[1][i], second.element(i)));
-    }
     return key;
 }
 
@@ -69,24 +67,20 @@ void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &v
         refuse(place, "the name must be that of a key of the camera, of a material, of a sphere or of a plane, like "
                       "camera.position or spheres[0].center; the shutter has no frames");
     }
-    if (!value.is_array() || value.empty()) {
+    if (!value.is_array() || value.empty())
         refuse(place, "must be an array of key frames, [frame, value] each");
-    }
     AnimatedValue animated{name, parsed->path, false, {}};
     for (std::size_t i = 0; i < value.size(); ++i) {
         const JsonPlace element = place.element(i);
         const bool was_array = animated.is_array;
         animated.keys.push_back(read_key_frame(value[i], element, animated));
-        if (i == 0) {
+        if (i == 0)
             continue;
-        }
         const KeyFrame &before = animated.keys[i - 1];
-        if (animated.is_array != was_array || animated.keys[i].numbers.size() != before.numbers.size()) {
+        if (animated.is_array != was_array || animated.keys[i].numbers.size() != before.numbers.size())
             refuse(element.element(1), "must have as many numbers as the one before");
-        }
-        if (animated.keys[i].frame <= before.frame) {
+        if (animated.keys[i].frame <= before.frame)
             refuse(element.element(0), "must be a later frame than the one before");
-        }
     }
     scene.animation.push_back(std::move(animated));
 }

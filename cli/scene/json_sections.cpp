@@ -71,9 +71,8 @@ template <typename Use>
 void SectionParser::with_place(Use use) const {
     std::vector<JsonPlace> places(1);   // the root
     places.reserve(levels_.size() + 1); // elements point to each other and must not move
-    for (const Level &level : levels_) {
+    for (const Level &level : levels_)
         places.push_back(level.is_array ? places.back().element(level.index) : places.back().member(level.key));
-    }
     use(places.back());
 }
 
@@ -81,26 +80,23 @@ bool SectionParser::key(string_t &name) {
     levels_.back().key = name;
     const std::size_t depth = levels_.size() - 1;
     const bool fresh = depth < names_.size() ? names_[depth].insert(name).second : !open_.back()->contains(name);
-    if (!fresh) {
+    if (!fresh)
         with_place([](const JsonPlace &place) { throw JsonRefusal(place.path(), "is given twice", 2); });
-    }
     return true;
 }
 
 // Array elements have no key event: a value that begins is the next element.
 void SectionParser::count_element() {
-    if (!levels_.empty() && levels_.back().is_array) {
+    if (!levels_.empty() && levels_.back().is_array)
         ++levels_.back().index;
-    }
 }
 
 // Puts a value into the section or item that is open. Returns where it is kept: nullptr for the root and for sections.
 json *SectionParser::add(json value) {
     count_element();
     if (levels_.empty()) {
-        if (!value.is_object()) {
+        if (!value.is_object())
             refuse({}, "must contain an object, is " + json_kind(value.type()));
-        }
         return nullptr;
     }
     if (levels_.size() == section_depth) {
@@ -121,17 +117,15 @@ json *SectionParser::add(json value) {
 }
 
 bool SectionParser::scalar(json value) {
-    if (add(std::move(value)) == &item_) {
+    if (add(std::move(value)) == &item_)
         with_place([&](const JsonPlace &place) { handler_.item(place, item_); });
-    }
     return true;
 }
 
 bool SectionParser::begin(json value) {
     const bool is_array = value.is_array();
-    if (json *added = add(std::move(value))) {
+    if (json *added = add(std::move(value)))
         open_.push_back(added);
-    }
     // The first element increments the index to 0.
     levels_.push_back({is_array, static_cast<std::size_t>(-1), {}});
     return true;
@@ -141,9 +135,8 @@ bool SectionParser::end() {
     levels_.pop_back();
     if (!open_.empty()) {
         open_.pop_back();
-        if (open_.empty()) {
+        if (open_.empty())
             with_place([&](const JsonPlace &place) { handler_.item(place, item_); });
-        }
     }
     return true;
 }

@@ -9,17 +9,15 @@ namespace cli {
 std::uint32_t MaterialReferences::number(const JsonPlace &place, const nlohmann::json &name) {
     const auto [entry, fresh] =
         numbers_.try_emplace(std::string(read_text(name, place)), static_cast<std::uint32_t>(used_.size()));
-    if (fresh) {
+    if (fresh)
         used_.push_back({entry->first, place.path()});
-    }
     return entry->second;
 }
 
 std::vector<std::uint32_t> MaterialReferences::indices(const std::vector<std::string> &materials) const {
     std::unordered_map<std::string_view, std::uint32_t> defined;
-    for (const std::string &name : materials) {
+    for (const std::string &name : materials)
         defined.emplace(name, static_cast<std::uint32_t>(defined.size()));
-    }
     std::vector<std::uint32_t> indices;
     for (const UsedName &used : used_) {
         const auto found = defined.find(used.name);

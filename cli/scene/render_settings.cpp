@@ -17,9 +17,8 @@ Value first_given(const std::optional<Value> &option, const std::optional<Value>
 // Indices of samples end at 2^32 - 1.
 void limit_samples(RenderSettings &settings, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - settings.render.first_sample;
-    if (settings.sample_count <= left) {
+    if (settings.sample_count <= left)
         return;
-    }
     if (!is_upper_limit) {
         throw Failure(ExitCode::usage, "--first-sample " + std::to_string(settings.render.first_sample) + ": " +
                                            std::to_string(settings.sample_count) +
@@ -31,9 +30,8 @@ void limit_samples(RenderSettings &settings, bool is_upper_limit) {
 // The library refuses a picture that is empty itself, which has no part.
 ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render &render) {
     ImageWindow window = whole_window(render.width, render.height);
-    if (!crop || render.width == 0 || render.height == 0) {
+    if (!crop || render.width == 0 || render.height == 0)
         return window;
-    }
     const bool is_inside = crop->x < render.width && crop->width <= render.width - crop->x && crop->y < render.height &&
                            crop->height <= render.height - crop->y;
     if (!is_inside || crop->pixel_count() == 0) {
@@ -93,15 +91,12 @@ RenderSettings merge_settings(const RenderOptions &options, const SceneFile &sce
     settings.exposure = first_given(options.display.exposure, scene.exposure, Exposure{});
     settings.tone_curve = first_given(options.display.tone_curve, scene.tone_curve, ToneCurve::none);
     settings.gamma = options.display.gamma ? options.display.gamma : scene.gamma;
-    if (!options.size && (scene.width || scene.height)) {
+    if (!options.size && (scene.width || scene.height))
         settings.scene_members.insert(settings.scene_members.end(), {"width", "height"});
-    }
-    if (!options.max_path_length && scene.max_path_length) {
+    if (!options.max_path_length && scene.max_path_length)
         settings.scene_members.emplace_back("max_path_length");
-    }
-    if (!options.sample_count && scene.sample_count) {
+    if (!options.sample_count && scene.sample_count)
         settings.scene_members.emplace_back("sample_count");
-    }
     return settings;
 }
 

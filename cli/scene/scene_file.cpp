@@ -28,9 +28,8 @@ std::size_t hash_of(std::string_view text) {
 // The text that was read, if the file still holds it: one that was edited does not, and a pipe is read once.
 std::optional<std::string> read_again(const SceneFile &scene) {
     std::error_code ignored;
-    if (!std::filesystem::is_regular_file(scene.path, ignored)) {
+    if (!std::filesystem::is_regular_file(scene.path, ignored))
         return std::nullopt;
-    }
     try {
         std::string text = read_file(scene.path);
         return hash_of(text) == scene.text_hash ? std::optional(std::move(text)) : std::nullopt;
@@ -62,9 +61,8 @@ const OverriddenValue *find_override(const SceneFile &scene, const JsonPath &pat
 // text: of the file, if it is known.
 std::string explain_rule(const SceneFile &scene, const std::optional<std::string> &text, const BrokenRule &rule) {
     const JsonPath path = path_of(scene, rule);
-    if (const OverriddenValue *value = find_override(scene, path)) {
+    if (const OverriddenValue *value = find_override(scene, path))
         return value->source + ": " + rule_text(path_text(path), rule);
-    }
     const auto number = text && !path.empty() ? find_line(*text, path) : std::nullopt;
     return rule_text(place_text(scene.path, number, path.empty() ? field_text(rule) : path_text(path)), rule);
 }
@@ -73,13 +71,11 @@ std::string explain_rule(const SceneFile &scene, const std::optional<std::string
 
 void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour) {
     constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
-    if (colour && sphere_colours.empty()) {
+    if (colour && sphere_colours.empty())
         sphere_colours.assign(spheres.size(), white);
-    }
     spheres.push_back(sphere);
-    if (!sphere_colours.empty() || colour) {
+    if (!sphere_colours.empty() || colour)
         sphere_colours.push_back(colour.value_or(white));
-    }
 }
 
 pt_scene SceneFile::scene() const {
@@ -96,9 +92,8 @@ pt_scene SceneFile::scene() const {
 
 std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
-    if (!sphere_colours.empty()) {
+    if (!sphere_colours.empty())
         arrays.push_back(coloured(spheres, sphere_colours));
-    }
     std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),
                    [](const SphereColumns &each) { return each.spheres(); });
     return arrays;
@@ -106,9 +101,8 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
 
 std::vector<std::uint32_t> SceneFile::material_flags() const {
     std::vector<std::uint32_t> flags(hidden_materials.empty() ? 0 : materials.size());
-    for (const std::uint32_t material : hidden_materials) {
+    for (const std::uint32_t material : hidden_materials)
         flags[material] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
-    }
     return flags;
 }
 
@@ -127,9 +121,8 @@ std::string SceneFile::explain(const BrokenRule &rule) const {
 }
 
 std::string SceneFile::explain(const LibraryError &error) const {
-    if (error.rules.empty()) {
+    if (error.rules.empty())
         return path + ": " + error.message;
-    }
     const std::optional<std::string> text = read_again(*this);
     return error.in_words([&](const BrokenRule &rule) { return explain_rule(*this, text, rule); });
 }
@@ -148,9 +141,8 @@ SceneFile parse_scene(std::string_view text, const std::string &path, const std:
     scene.path = path;
     scene.text_hash = hash_of(text);
     SceneReader reader(scene);
-    for (const SceneOverride &each : overrides) {
+    for (const SceneOverride &each : overrides)
         scene.overridden.push_back({each.path, each.source, each.blame});
-    }
     OverridingHandler handler(reader, overrides);
     const std::string_view checked = require_text(text, path);
     try {

@@ -17,25 +17,21 @@ Failure failure(const SceneOverride &cause, const std::string &reason) {
 // The value at that step of a parent, made if it may be.
 json &enter(json &parent, const JsonStep &step, const SceneOverride &cause) {
     if (step.in_array) {
-        if (!parent.is_array() || step.index >= parent.size()) {
+        if (!parent.is_array() || step.index >= parent.size())
             throw failure(cause, "the scene has no " + path_text(cause.path));
-        }
         return parent[step.index];
     }
-    if (parent.is_null()) {
+    if (parent.is_null())
         parent = json::object(); // just made
-    }
-    if (!parent.is_object()) {
+    if (!parent.is_object())
         throw failure(cause, "the scene has no " + path_text(cause.path));
-    }
     return parent[step.key];
 }
 
 void apply(json &item, const SceneOverride &change) {
     json *value = &item;
-    for (auto step = change.path.begin() + item_depth; step != change.path.end(); ++step) {
+    for (auto step = change.path.begin() + item_depth; step != change.path.end(); ++step)
         value = &enter(*value, *step, change);
-    }
     *value = change.value;
 }
 
@@ -56,11 +52,9 @@ SceneOverride parse_override(const std::string &text) {
 
 std::vector<std::size_t> OverridingHandler::overrides_of(const JsonPath &item) const {
     std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < overrides_.size(); ++i) {
-        if (is_within(overrides_[i].path, item)) {
+    for (std::size_t i = 0; i < overrides_.size(); ++i)
+        if (is_within(overrides_[i].path, item))
             chosen.push_back(i);
-        }
-    }
     return chosen;
 }
 
@@ -74,9 +68,8 @@ void OverridingHandler::hand_on(const JsonPlace &place, json value, std::span<co
     } catch (const JsonRefusal &refusal) {
         for (const std::size_t index : chosen) {
             const SceneOverride &cause = overrides_[index];
-            if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path)) {
+            if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path))
                 throw failure(cause, path_text(refusal.path) + ": " + refusal.what());
-            }
         }
         throw;
     }
@@ -86,23 +79,20 @@ void OverridingHandler::hand_on(const JsonPlace &place, json value, std::span<co
 void OverridingHandler::item(const JsonPlace &place, const json &value) {
     const std::vector<std::size_t> chosen =
         overrides_.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
-    if (chosen.empty()) {
+    if (chosen.empty())
         reader_.item(place, value);
-    } else {
+    else
         hand_on(place, value, chosen);
-    }
 }
 
 void OverridingHandler::finish() {
     for (std::size_t i = 0; i < overrides_.size(); ++i) {
-        if (used_.contains(i)) {
+        if (used_.contains(i))
             continue;
-        }
         const SceneOverride &first = overrides_[i];
         const JsonPath item(first.path.begin(), first.path.begin() + item_depth);
-        if (item[0].in_array || item[1].in_array) {
+        if (item[0].in_array || item[1].in_array)
             throw failure(first, "the scene has no " + path_text(item));
-        }
         const JsonPlace root;
         const JsonPlace section = root.member(item[0].key);
         try {

@@ -11,13 +11,11 @@ namespace {
 
 // Of what the file calls otherwise; empty if the file does not have it.
 JsonPath renamed_path(const FieldName &name) {
-    if (name.section.empty()) {
+    if (name.section.empty())
         return {};
-    }
     JsonPath path{{std::string(name.section), 0, false}, {std::string(name.key), 0, false}};
-    if (name.element) {
+    if (name.element)
         path.push_back({{}, *name.element, true});
-    }
     return path;
 }
 
@@ -28,21 +26,18 @@ JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
     const std::size_t item =
         is_single ? scene.item_of(rule.component.value_or(0)) : scene.sphere_columns[*rule.index - of_spheres].item;
     JsonPath path{{"spheres", 0, false}, {{}, item, true}, {rule.member, 0, false}};
-    if (rule.component && !is_single) {
+    if (rule.component && !is_single)
         path.push_back({{}, *rule.component, true});
-    }
     return path;
 }
 
 // Of what the file calls as pt.h does, but for materials, which have names there; empty if it is none of the file's.
 JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
-    if (rule.subject == "sphere_arrays" && rule.index) {
+    if (rule.subject == "sphere_arrays" && rule.index)
         return path_in_arrays(scene, rule);
-    }
     static constexpr std::array<std::string_view, 5> sections{"camera", "render", "materials", "spheres", "planes"};
-    if (std::find(sections.begin(), sections.end(), rule.subject) == sections.end()) {
+    if (std::find(sections.begin(), sections.end(), rule.subject) == sections.end())
         return {};
-    }
     JsonPath path{{rule.subject, 0, false}};
     if (rule.index) {
         const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
@@ -57,21 +52,18 @@ JsonPath path_of_member(const SceneFile &scene, const BrokenRule &rule) {
 
 std::string place_text(const std::string &file, std::optional<std::size_t> line, const std::string &path) {
     std::string text = file;
-    if (line) {
+    if (line)
         text.append(":").append(std::to_string(*line));
-    }
-    if (!path.empty()) {
+    if (!path.empty())
         text.append(": ").append(path);
-    }
     return text;
 }
 
 JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
     const FieldName *name = find_field_name(rule);
     JsonPath path = name != nullptr ? renamed_path(*name) : path_of_member(scene, rule);
-    if (!path.empty() && rule.component && rule.subject != "sphere_arrays") {
+    if (!path.empty() && rule.component && rule.subject != "sphere_arrays")
         path.push_back({{}, *rule.component, true});
-    }
     return path;
 }
 

@@ -35,13 +35,11 @@ void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
         std::transform(sections.begin(), sections.end(), known.begin(), [](const Section &each) { return each.name; });
         refuse_unknown_key(*place.parent, place.key, known);
     }
-    if (kind != section->kind) {
+    if (kind != section->kind)
         refuse(place, "must be " + json_kind(section->kind) + ", is " + json_kind(kind));
-    }
     read_item_ = section->read_item;
-    if (place.key == "camera") {
+    if (place.key == "camera")
         camera_.begin();
-    }
 }
 
 void SceneReader::finish() {

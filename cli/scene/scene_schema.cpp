@@ -50,9 +50,8 @@ Schema not_zero(Schema vector) {
 
 Schema object(Schema properties, Schema required = Schema::array()) {
     Schema schema{{"type", "object"}, {"additionalProperties", false}, {"properties", std::move(properties)}};
-    if (!required.empty()) {
+    if (!required.empty())
         schema["required"] = std::move(required);
-    }
     return schema;
 }
 

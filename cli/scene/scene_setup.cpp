@@ -25,9 +25,8 @@ std::int32_t receive_share(void *user, double share) {
 
 void require_render(const Context &context, const SceneFile &file, const RenderSettings &settings, pt_result result) {
     const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
-    if (!error.rules.empty()) {
+    if (!error.rules.empty())
         throw settings.explain(error, file);
-    }
     context.require(result);
 }
 
@@ -43,9 +42,8 @@ bool describe_scene(const Context &context, const SceneFile &file, const std::fu
     scene.progress_user = &listener;
     const pt_result result = pt_set_scene(context.get(), &scene);
     require_scene(context, file, result);
-    if (result == PT_CANCELLED) {
+    if (result == PT_CANCELLED)
         return false;
-    }
     require_scene(context, file, pt_set_camera(context.get(), &file.camera));
     return true;
 }

@@ -24,9 +24,8 @@ std::optional<std::string> contents_of(const std::filesystem::path &path) {
 std::optional<std::string> state_of(const std::filesystem::path &path) {
     std::error_code error;
     const auto size = std::filesystem::file_size(path, error);
-    if (error) {
+    if (error)
         return std::nullopt;
-    }
     const auto time = std::filesystem::last_write_time(path, error);
     return std::to_string(size) + " bytes at " + std::to_string(time.time_since_epoch().count());
 }
@@ -40,9 +39,8 @@ std::string_view included_name(std::string_view line) {
         line.remove_prefix(found ? word.size() : 0);
         return found;
     };
-    if (!skip("#") || !skip("include") || !skip("\"")) {
+    if (!skip("#") || !skip("include") || !skip("\""))
         return {};
-    }
     const std::size_t end = line.find('"');
     return end == std::string_view::npos ? std::string_view() : line.substr(0, end);
 }
@@ -62,9 +60,8 @@ SourceFiles read_shader_files(const std::filesystem::path &shader_dir) {
         const std::filesystem::path path = to_read.back().lexically_normal();
         to_read.pop_back();
         const auto [file, is_new] = files.try_emplace(path);
-        if (!is_new) {
+        if (!is_new)
             continue;
-        }
         file->second = contents_of(path);
         std::istringstream lines(file->second.value_or(""));
         for (std::string line; std::getline(lines, line);) {
@@ -81,9 +78,8 @@ SourceFiles read_source_files(const std::filesystem::path &scene, const std::fil
                               const std::set<std::filesystem::path> &data) {
     SourceFiles files = read_shader_files(shader_dir);
     files.try_emplace(scene, contents_of(scene));
-    for (const std::filesystem::path &path : data) {
+    for (const std::filesystem::path &path : data)
         files.try_emplace(path, state_of(path));
-    }
     return files;
 }
 

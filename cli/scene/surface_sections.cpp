@@ -14,23 +14,18 @@ using nlohmann::json;
 void SurfaceSections::material(const JsonPlace &place, const json &value) {
     const JsonObject object(value, place, {"diffuse", "specular", "glossiness", "emission", "hidden_from_camera"});
     pt_material material{};
-    if (const json *diffuse = object.find("diffuse")) {
+    if (const json *diffuse = object.find("diffuse"))
         store(read_colour(*diffuse, place.member("diffuse")), material.diffuse);
-    }
-    if (const json *specular = object.find("specular")) {
+    if (const json *specular = object.find("specular"))
         store(read_colour(*specular, place.member("specular")), material.specular);
-    }
-    if (const json *glossiness = object.find("glossiness")) {
+    if (const json *glossiness = object.find("glossiness"))
         material.glossiness = read_float(*glossiness, place.member("glossiness"));
-    }
-    if (const json *emission = object.find("emission")) {
+    if (const json *emission = object.find("emission"))
         store(read_colour(*emission, place.member("emission")), material.emission);
-    }
     const json *hidden = object.find("hidden_from_camera");
     const bool is_hidden = hidden != nullptr && read_boolean(*hidden, place.member("hidden_from_camera"));
-    if (is_hidden) {
+    if (is_hidden)
         scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
-    }
     scene_.materials.push_back(material);
     scene_.material_names.emplace_back(place.key);
 }
@@ -47,9 +42,8 @@ void SurfaceSections::sphere(const JsonPlace &place, const json &value) {
     store(read_vector(object.require("center"), place.member("center")), sphere.center);
     sphere.radius = read_number(object.require("radius"), place.member("radius"));
     sphere.material = references_.number(place.member("material"), object.require("material"));
-    if (const json *motion = object.find("motion")) {
+    if (const json *motion = object.find("motion"))
         store(read_vector(*motion, place.member("motion")), sphere.motion);
-    }
     const json *colour = object.find("color");
     scene_.add_sphere(sphere,
                       colour == nullptr ? std::nullopt : std::optional(read_colour(*colour, place.member("color"))));
@@ -66,15 +60,12 @@ void SurfaceSections::plane(const JsonPlace &place, const json &value) {
 
 void SurfaceSections::resolve_materials() {
     const std::vector<std::uint32_t> indices = references_.indices(scene_.material_names);
-    for (pt_sphere &sphere : scene_.spheres) {
+    for (pt_sphere &sphere : scene_.spheres)
         sphere.material = indices[sphere.material];
-    }
-    for (SphereColumns &each : scene_.sphere_columns) {
+    for (SphereColumns &each : scene_.sphere_columns)
         each.material = indices[each.material];
-    }
-    for (pt_plane &plane : scene_.planes) {
+    for (pt_plane &plane : scene_.planes)
         plane.material = indices[plane.material];
-    }
 }
 
 } // namespace cli

@@ -35,33 +35,27 @@ bool emits(const pt_material &material) {
 // For each material, whether a surface is made of it.
 std::vector<bool> used_materials(const SceneFile &scene) {
     std::vector<bool> used(scene.materials.size());
-    for (const pt_sphere &sphere : scene.spheres) {
+    for (const pt_sphere &sphere : scene.spheres)
         used[sphere.material] = true;
-    }
-    for (const SphereColumns &each : scene.sphere_columns) {
+    for (const SphereColumns &each : scene.sphere_columns)
         used[each.material] = true;
-    }
-    for (const pt_plane &plane : scene.planes) {
+    for (const pt_plane &plane : scene.planes)
         used[plane.material] = true;
-    }
     return used;
 }
 
 bool is_lit(const SceneFile &scene) {
     const std::vector<bool> used = used_materials(scene);
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        if (used[i] && emits(scene.materials[i])) {
+    for (std::size_t i = 0; i < used.size(); ++i)
+        if (used[i] && emits(scene.materials[i]))
             return true;
-        }
-    }
     return false;
 }
 
 Vector center_at(const pt_sphere &sphere, double time) {
     Vector center{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         center[i] = sphere.center[i] + time * sphere.motion[i];
-    }
     return center;
 }
 
@@ -75,9 +69,8 @@ std::pair<double, double> distances(const pt_sphere &a, const pt_sphere &b, doub
     const auto at = [&](double time) { return distance(center_at(a, time), center_at(b, time)); };
     const auto [near, far] = std::minmax({at(open), at(close)});
     Vector way{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         way[i] = (close - open) * (a.motion[i] - b.motion[i]);
-    }
     return {near - 0.5 * std::hypot(way[0], way[1], way[2]), far};
 }
 
@@ -98,9 +91,8 @@ public:
         for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
             const pt_sphere &ball = scene_.spheres[i];
             const bool is_dark = !emits(material_of(ball)) && !scene_.is_hidden(ball.material);
-            if (is_dark && surrounds_camera(ball) && !holds_light(ball)) {
+            if (is_dark && surrounds_camera(ball) && !holds_light(ball))
                 return i;
-            }
         }
         return std::nullopt;
     }
@@ -148,9 +140,8 @@ private:
 // The largest of the channels' sums. Specular lobes reflect all of their weight where light falls in along the normal.
 float reflected_share(const pt_material &material) {
     float largest = 0.0F;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < 3; ++i)
         largest = std::max(largest, material.diffuse[i] + material.specular[i]);
-    }
     return largest;
 }
 
@@ -163,21 +154,18 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
     float largest = 0.0F;
     for (std::size_t i = 0; i < used.size(); ++i) {
         const float share = reflected_share(scene.materials[i]);
-        if (!used[i] || !(share > 1.0F + tolerance)) {
+        if (!used[i] || !(share > 1.0F + tolerance))
             continue;
-        }
         if (++count <= most_names) {
             names.append(count == 1 ? "" : ", ");
             names.append(path_text({{"materials", 0, false}, {scene.material_names[i], 0, false}}));
         }
         largest = std::max(largest, share);
     }
-    if (count == 0) {
+    if (count == 0)
         return std::nullopt;
-    }
-    if (count > most_names) {
+    if (count > most_names)
         names.append(" and ").append(std::to_string(count - most_names)).append(" more");
-    }
     return names + ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at the most") +
            ": more light is reflected than received";
 }
@@ -188,26 +176,22 @@ double burnt_out_share(std::span<const float> radiance, const ToneMap &tone_map)
     const std::size_t pixel_count = radiance.size() / 3;
     const std::size_t step = (pixel_count + most_pixels - 1) / most_pixels;
     std::vector<float> chosen;
-    for (std::size_t pixel = 0; pixel < pixel_count; pixel += step) {
+    for (std::size_t pixel = 0; pixel < pixel_count; pixel += step)
         chosen.insert(chosen.end(), {radiance[3 * pixel], radiance[3 * pixel + 1], radiance[3 * pixel + 2]});
-    }
     const std::vector<std::uint8_t> bytes = map_to_8_bits(chosen, tone_map);
     std::size_t count = 0;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    for (std::size_t i = 0; i < bytes.size(); i += 3)
         count += std::max({bytes[i], bytes[i + 1], bytes[i + 2]}) == 255 ? 1 : 0;
-    }
     return static_cast<double>(3 * count) / static_cast<double>(std::max<std::size_t>(bytes.size(), 1));
 }
 
 std::optional<std::string> burnt_out_picture(const RenderReport &report, std::span<const float> radiance) {
     constexpr double largest_share = 0.25;
-    if (!report.tone_map) {
+    if (!report.tone_map)
         return std::nullopt;
-    }
     const double share = burnt_out_share(radiance, *report.tone_map);
-    if (!(share > largest_share)) {
+    if (!(share > largest_share))
         return std::nullopt;
-    }
     const std::string hint = report.automatic_exposure
                                  ? "a lower --exposure than " + formatted("%.2f", report.tone_map->exposure)
                                  : "--exposure auto, here " + formatted("%.2f", automatic_exposure(radiance));
@@ -236,9 +220,8 @@ std::vector<std::string> input_warnings(const SceneFile &scene, const RenderSett
         warnings.push_back(scene.path + ": the camera is inside of spheres[" + std::to_string(scene.item_of(*ball)) +
                            "], which no light gets into: the picture is black");
     }
-    if (const auto materials = brightening_materials(scene)) {
+    if (const auto materials = brightening_materials(scene))
         warnings.push_back(scene.path + ": " + *materials);
-    }
     if (settings.target_error >= 1.0) {
         warnings.push_back("--error: the target is " + percent_text(settings.target_error) +
                            "; two percent are written 2% or 0.02");
@@ -257,19 +240,16 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
         warnings.push_back(std::to_string(stats.rejected_samples) + " samples (" + percent_text(share) +
                            ") were left out: not finite, negative or too bright");
     }
-    if (auto burnt_out = burnt_out_picture(report, radiance)) {
+    if (auto burnt_out = burnt_out_picture(report, radiance))
         warnings.push_back(std::move(*burnt_out));
-    }
-    if (is_black(radiance) && !is_known_to_be_black(report)) {
+    if (is_black(radiance) && !is_known_to_be_black(report))
         warnings.emplace_back("no sample met light: the picture is black, and the stated error of 0 says nothing");
-    }
     return warnings;
 }
 
 void print_warnings(std::span<const std::string> warnings) {
-    for (const std::string &warning : warnings) {
+    for (const std::string &warning : warnings)
         print_message("warning: " + warning);
-    }
 }
 
 } // namespace cli

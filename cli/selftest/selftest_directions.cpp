@@ -73,9 +73,8 @@ std::vector<SelftestCheck> DirectionScene::judge(std::span<const float> radiance
         square_sum += cosine * cosine;
         seen += cosine > 0.0 ? 1.0 : 0.0;
     }
-    if (has_wall) {
+    if (has_wall)
         return {check(scene.name, seen / pixel_count, 0.5, 0.25)};
-    }
     const double mean = mean_of_power(power, 1.0);
     const double square = mean_of_power(power, 2.0);
     return {

@@ -50,9 +50,8 @@ void accumulate(const Context &context, std::uint32_t sample_count) {
 std::vector<float> render(const Context &context, const SelftestScene &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
     describe(context, scene);
-    for (const std::uint32_t sample_count : sample_counts) {
+    for (const std::uint32_t sample_count : sample_counts)
         accumulate(context, sample_count);
-    }
     return context.read_image(scene.render);
 }
 

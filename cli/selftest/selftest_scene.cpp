@@ -28,9 +28,8 @@ double noise_bound(double relative_std, double sample_count) {
 // The mean of every third value.
 double channel_mean(std::span<const float> radiance, std::size_t channel) {
     double sum = 0.0;
-    for (std::size_t i = channel; i < radiance.size(); i += 3) {
+    for (std::size_t i = channel; i < radiance.size(); i += 3)
         sum += static_cast<double>(radiance[i]);
-    }
     return sum / (static_cast<double>(radiance.size()) / 3.0);
 }
 
@@ -70,15 +69,12 @@ SelftestCheck SelftestScene::judge(std::span<const float> radiance) const {
             worst = measured;
         }
     };
-    if (relative_std > 0.0) {
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+    if (relative_std > 0.0)
+        for (std::size_t channel = 0; channel < 3; ++channel)
             compare(channel_mean(radiance, channel));
-        }
-    } else {
-        for (const float value : radiance) {
+    else
+        for (const float value : radiance)
             compare(static_cast<double>(value));
-        }
-    }
     return {"scene", name, worst_error, bound(), "relative", comparison(worst, expected)};
 }
 

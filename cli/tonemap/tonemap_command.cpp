@@ -20,9 +20,8 @@ namespace {
 
 void check(const TonemapOptions &options) {
     check_image_names({&options.output, 1}, options.format);
-    if (image_target(options.output, options.format).format == ImageFormat::exr) {
+    if (image_target(options.output, options.format).format == ImageFormat::exr)
         throw Failure(ExitCode::usage, options.output + ": a tone-mapped image is a .png or .jpg");
-    }
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
@@ -32,9 +31,8 @@ ImageWindow window_of(const DecodedImage &image) {
     const auto inside = [](std::int32_t first, std::uint32_t count, std::uint32_t full) {
         return first >= 0 && static_cast<std::uint64_t>(first) + count <= full;
     };
-    if (!inside(image.x, image.width, image.full_width) || !inside(image.y, image.height, image.full_height)) {
+    if (!inside(image.x, image.width, image.full_width) || !inside(image.y, image.height, image.full_height))
         return whole_window(image.width, image.height);
-    }
     return {{static_cast<std::uint32_t>(image.x), static_cast<std::uint32_t>(image.y), image.width, image.height},
             image.full_width,
             image.full_height};
@@ -52,9 +50,8 @@ std::vector<float> radiance_of(const DecodedImage &image) {
     }
     std::vector<float> radiance = image.layer("");
     const auto bad = std::find_if(radiance.begin(), radiance.end(), [](float value) { return !std::isfinite(value); });
-    if (bad != radiance.end()) {
+    if (bad != radiance.end())
         refuse(image, static_cast<std::size_t>(bad - radiance.begin()) / 3, " is not finite");
-    }
     std::transform(radiance.begin(), radiance.end(), radiance.begin(),
                    [](float value) { return std::max(value, 0.0F); });
     return radiance;
@@ -63,17 +60,15 @@ std::vector<float> radiance_of(const DecodedImage &image) {
 // Of each pixel, where the file has a channel of that name and the format takes it; otherwise empty.
 std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
     const auto channel = std::find(image.channels.begin(), image.channels.end(), "A");
-    if (channel == image.channels.end() || format != ImageFormat::png) {
+    if (channel == image.channels.end() || format != ImageFormat::png)
         return {};
-    }
     std::vector<float> alpha;
     alpha.reserve(std::size_t{image.width} * image.height);
     for (auto i = static_cast<std::size_t>(channel - image.channels.begin()); i < image.values.size();
          i += image.channels.size()) {
         const float share = image.values[i];
-        if (!(share >= 0.0F && share <= 1.0F)) { // nor NaN
+        if (!(share >= 0.0F && share <= 1.0F)) // nor NaN
             refuse(image, alpha.size(), ": A is " + std::to_string(share) + ", not in [0, 1]");
-        }
         alpha.push_back(share);
     }
     return alpha;
@@ -84,11 +79,10 @@ void describe(ImageAttributes &attributes, const DecodedImage &image, const Tone
     attributes.add("software", "pt " + version_text());
     for (const pt_image_attribute &each : image.attributes->attributes()) {
         const std::string_view name = each.name;
-        if (name == "pt.quantity") {
+        if (name == "pt.quantity")
             attributes.add("pt.quantity", std::string("tone-mapped ") + image_attribute_text(each));
-        } else if (name.starts_with("pt.") || name == "samplesPerPixel" || name == "DateTime") {
+        else if (name.starts_with("pt.") || name == "samplesPerPixel" || name == "DateTime")
             attributes.add_copy(each);
-        }
     }
     add_tone_map(attributes, tone_map);
 }

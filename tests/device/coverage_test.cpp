@@ -144,7 +144,7 @@ TEST_F(Coverage, KnowsWhichSamplesEachTileHas) {
                        [](const auto *info, auto **made) { return create_shared(1, *info, made, false, 16); });
     ASSERT_TRUE(adaptive);
     set(adaptive.get(), some(5, 0.0), picture());
-    take(adaptive.get(), 4096, 0.03);
+    take(adaptive.get(), 4096, 0.01);
     const std::vector<float> counts = read(adaptive.get(), PT_QUANTITY_SAMPLE_COUNT);
     ASSERT_LT(*std::ranges::min_element(counts), *std::ranges::max_element(counts));
     expect_that_of_radiance(adaptive.get());
