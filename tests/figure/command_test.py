@@ -75,7 +75,7 @@ class Command(unittest.TestCase):
             self.assertEqual(columns["center"].shape[1:], (3,))
             if PROGRAM:
                 subprocess.run([PROGRAM, "render", self.folder / "s.json", "-o", self.folder / "b.exr", "-q"], check=True)
-                subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--mse", "0"], check=True,
+                subprocess.run([PROGRAM, "compare", self.folder / "a.exr", self.folder / "b.exr", "--max-mse", "0"], check=True,
                                stdout=subprocess.DEVNULL)
         self.run_figure("water.xyz", "--write-scene", "only.json", "--legend", "l.svg", code=0)
         self.assertEqual(self.names("*.svg") + self.names("only*"), ["l.svg", "only-center.npy", "only-color.npy",

@@ -10,7 +10,7 @@ from unittest import mock
 import numpy as np
 import pt
 from pictures import HEIGHT, SCENE, WHITE, WIDTH, ready
-from pt import _film
+from pt import _zstd
 
 SAMPLES = 24  # of which the error can be told
 
@@ -83,7 +83,7 @@ class Films(unittest.TestCase):
 
     def test_packed_files(self):
         """As the program writes them; the module that unpacks them may be missing."""
-        packed = _film.ZSTD_MAGIC + b"frame"
+        packed = _zstd.MAGIC + b"frame"
         module = mock.Mock(decompress=lambda data: self.whole.to_bytes() if data == packed else b"")
         with mock.patch.dict(sys.modules, {"compression.zstd": None, "zstandard": module}):
             self.assertEqual(pt.Film(packed), self.whole)
