@@ -46,7 +46,7 @@ public:
         app_.require_subcommand(0, 1);
         app_.formatter(std::make_shared<cli::HelpFormatter>());
         app_.footer(
-            "pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, view and farm come\n"
+            "pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon come\n"
             "with the Python package.\n\n" +
             std::string(cli::exit_code_help));
         app_.set_version_flag("--version", "pt " + cli::version_text(), "Print the version and exit");

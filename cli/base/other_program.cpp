@@ -50,8 +50,10 @@ void run_other_program(std::string_view name, char *const *arguments) {
 }
 
 std::string_view installation_of(std::string_view name) {
-    if (name == "figure" || name == "view")
+    if (name == "figure")
         return "comes with the Python package: pip install './lib/python[figure]'";
+    if (name == "tachyon")
+        return "comes with the Python package: pip install ./lib/python";
     if (name == "farm")
         return "comes with the Python package: pip install './lib/python[farm]'";
     return {};

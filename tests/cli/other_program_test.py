@@ -68,11 +68,12 @@ class OtherProgram(CommandLineTest):
                 self.assertEqual((run.returncode, run.stdout), (2, ""), run.stderr)
 
     def test_what_is_missing_says_how_to_install_it(self):
-        for name, extra in ("figure", "figure"), ("view", "figure"), ("farm", "farm"):
+        for name, package in (("figure", "'./lib/python[figure]'"), ("farm", "'./lib/python[farm]'"),
+                              ("tachyon", "./lib/python")):
             run = self.run_with(self.path("empty"), name, "data.xyz")
             self.assertEqual(run.returncode, 2)
             self.assertEqual(run.stderr, f"pt: there is no pt-{name} in the PATH, which comes with the Python package: "
-                                         f"pip install './lib/python[{extra}]'\n")
+                                         f"pip install {package}\n")
         self.assertIn('"rendr", did you mean "render"?', self.run_with(self.path("empty"), "rendr").stderr)
 
     def test_one_that_does_not_start_is_a_file_that_cannot_be_read(self):
