@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import pt
@@ -75,6 +74,7 @@ class Command(unittest.TestCase):
                 ([], 2, "-o or --film is missing"),
                 (["-o", "a.png", "-o", "./a.png"], 2, "named twice"),
                 (["-o", "a.png", "--crop", "0,0,8,8"], 2, "--crop excludes --parts"),
+                (["-o", "a.png", "--set", "spheres[0].center=none.npy"], 6, "cannot read none.npy"),
                 (["-o", "a.png", "--frames", "2-1"], 2, "--frames 2-1: must be two whole numbers"),
                 (["-o", "a.png", "--checkpoint-every", "0"], 2, "number of 0.01 or more, is '0'"),
                 (["-o", "a.png", "--local-workers", "0"], 2, "whole number of 1 or more, is '0'"),
@@ -111,10 +111,11 @@ class Command(unittest.TestCase):
         self.assertEqual(facts["samples"], 20)
         with distributed.SpecCluster(nannies, scheduler, silence_logs=50) as cluster, \
                 distributed.Client(cluster) as client:
-            found = farm.render(client, job, 2**20, progress=lambda seen, film: bool(film and seen.messages))
+            client.wait_for_workers(2)
+            found = farm.render(client, job, 4096)
         told, = found.progress.messages
         self.assertRegex(told, "worker tcp.* is refused: .*: NoDeviceError: the program pt is not found .*'/none/pt'")
-        self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) > 0).any())
+        self.assertTrue((found.film.readback(pt.Quantity.SAMPLE_COUNT) == 4096).all())
 
     def test_files_of_a_scene_go_with_it(self):
         """Those in its folder under their names, others under new ones."""
@@ -181,21 +182,25 @@ class Command(unittest.TestCase):
         self.same("b.exr", "c.exr")
 
 
-    def test_killed_and_going_on(self):
-        """At once, after the first checkpoint, for which --checkpoint-every asks."""
-        words = ["--checkpoint", "k.ptfilm", "--local-workers", "2", "--part-seconds", "0.1", "--checkpoint-every",
-                 "0.01"]
-        program = subprocess.Popen([sys.executable, "-m", "pt.farm._command", "render", "scene.json", "-o", "a.exr",
-                                    "--spp", str(ENDLESS), *words, "-q"], start_new_session=True)
-        while not os.path.exists("k.ptfilm"):
-            self.assertIsNone(program.poll())
-            time.sleep(0.05)
-        os.killpg(program.pid, signal.SIGKILL)
-        program.wait()
-        samples = max(tile.samples[-1].stop for tile in pt.Film.load("k.ptfilm").tiles) + 3
-        self.farm("-o", "b.exr", "--spp", str(samples), "--resume", *words)
-        self.pt("render", "scene.json", "-o", "c.exr", "--spp", str(samples))
-        self.same("b.exr", "c.exr")
+    def test_options_reach_the_farm(self):
+        """As farm.Options, whose checkpoint_every films_test sees at work."""
+        class Reached(Exception):
+            pass
+
+        def render(client, job, samples, *, target_error, sampling, options, progress):
+            seen.append((options, samples, target_error))
+            raise Reached
+
+        seen, _command.render = [], render
+        _command.cluster, cluster = lambda _: contextlib.nullcontext(), _command.cluster
+        try:
+            with self.assertRaises(Reached):
+                self.refused("-o", "a.exr", "--checkpoint", "k", "--checkpoint-every", "7", "--patience", "3", "--wait", "4",
+                             "--part-seconds", "2", "--mixed", "--spp", "9", "--error", "2%")
+        finally:
+            _command.render, _command.cluster = farm.render, cluster
+        self.assertEqual(seen, [(farm.Options(2.0, 3.0, checkpoint="k", checkpoint_every=7.0, wait_for_workers=4.0,
+                                              mixed=True), 9, 0.02)])
 
 
 if __name__ == "__main__":

@@ -333,8 +333,9 @@ class Farm(unittest.TestCase):
     def test_accounts_of_parts(self):
         """Those of an error are looked at in test_target_error. A coordinator that drops a part says so, though its
         film is whole in the end."""
-        options = dataclasses.replace(QUICK, patience=60.0)
-        found = self.farm(task=render_part, options=options)
+        options, wanted = dataclasses.replace(QUICK, patience=60.0), set()
+        found = self.farm(task=render_part, options=options, progress=lambda now, film: wanted.add(now.samples_wanted))
+        self.assertEqual(wanted, {SAMPLES})  # also in the rounds before the last
         self.assertGreater(found.progress.parts, 4)
         self.assert_accounts(found.progress)
         dropped = []

@@ -21,6 +21,7 @@ from pt.farm._part import Part, grid_shape
 
 RESULT_OF_CODE = {2: Result.ERROR_INVALID_ARGUMENT, 3: Result.ERROR_INVALID_SCENE, 4: Result.ERROR_NO_DEVICE,
                   5: Result.ERROR_DEVICE_LOST}  # exit codes of pt
+FILES = 6  # likewise: one could not be read
 
 
 class Renderer(Protocol):
@@ -120,6 +121,8 @@ class Program:
         code = self._process.wait()
         self._errors.seek(0)
         said = self._errors.read()[-4000:].decode(errors="replace").strip().removeprefix("pt: ")
+        if code == FILES:
+            raise OSError(said)
         error = ERROR_OF_RESULT[RESULT_OF_CODE[code]] if code in RESULT_OF_CODE else InternalError
         raise error(said or f"{program()} ended with code {code}")
 
