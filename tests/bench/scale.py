@@ -42,9 +42,9 @@ from table import print_table  # noqa: E402
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
-from scene_renderer import SceneRenderer, colour, structs, vector  # noqa: E402
+from scene_renderer import SceneRenderer, colour, structs, vector  # noqa: E402 (which finds pt)
+from pt import DeviceKind  # noqa: E402
 
-PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
 MOST_SAMPLES = 1 << 14
 MITSUBA_FACTOR = 4  # its numbers of samples for errors go so much further
@@ -87,7 +87,7 @@ class Library:
         scene = cloud.surroundings()
         self.renderer = SceneRenderer(scene)
         device = self.renderer.device()
-        self.device, self.on_cpu = device.name.decode(), device.kind == PT_DEVICE_CPU
+        self.device, self.on_cpu = device.name.decode(), device.kind == DeviceKind.CPU
         self.render(options.lengths[0], 1)
         before = self.renderer.stats().device_bytes
         self.scene_seconds = self.set_scene(scene, cloud)

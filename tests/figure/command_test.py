@@ -2,7 +2,6 @@
 
 import importlib.util
 import json
-import os
 import pathlib
 import subprocess
 import sys
@@ -11,7 +10,7 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figure._command import EPILOG, numbered, parser
+from pt.figures._command import EPILOG, numbered, parser
 
 if importlib.util.find_spec("matplotlib") is None:
     print("matplotlib is not installed")
@@ -36,7 +35,7 @@ class Command(unittest.TestCase):
         np.save(self.folder / "points.npy", np.random.default_rng(2).normal(size=(4, 30, 3)).astype(np.float32))
 
     def run_figure(self, *arguments, code=0, **options):
-        done = subprocess.run([sys.executable, "-B", "-m", "pt.figure._command", *arguments], cwd=self.folder,
+        done = subprocess.run([sys.executable, "-B", "-m", "pt.figures._command", *arguments], cwd=self.folder,
                               capture_output=True, **options)
         self.assertEqual(done.returncode, code, done.stderr.decode())
         return done

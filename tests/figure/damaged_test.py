@@ -7,8 +7,8 @@ import tempfile
 import unittest
 
 import numpy as np
-from pt.figure._accept import load
-from pt.figure._errors import DataError
+from pt.figures._accept import load
+from pt.figures._errors import DataError
 
 DATA = pathlib.Path(sys.argv.pop(1))
 COUNT = 200  # of each kind and file

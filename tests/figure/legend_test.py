@@ -7,8 +7,8 @@ import xml.etree.ElementTree
 
 import numpy as np
 import pt
-from pt.figure import _legend
-from pt.figure._colors import ColorBar, Swatches
+from pt.figures import _legend
+from pt.figures._colors import ColorBar, Swatches
 
 try:
     import matplotlib

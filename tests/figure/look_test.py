@@ -4,13 +4,13 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figure import _elements as elements
-from pt.figure._colors import Coloring, Swatches, colors_of, distinct_colors
-from pt.figure._compose import compose, lay_over
-from pt.figure._figure import Look, prepare
-from pt.figure._overlay import Shares
-from pt.figure._particles import Particles
-from pt.figure._radii import radii_of
+from pt.figures import _elements as elements
+from pt.figures._colors import Coloring, Swatches, colors_of, distinct_colors
+from pt.figures._compose import compose, lay_over
+from pt.figures._figure import Look, prepare
+from pt.figures._overlay import Shares
+from pt.figures._particles import Particles
+from pt.figures._radii import radii_of
 
 try:
     import matplotlib

@@ -14,9 +14,9 @@ import threading
 import unittest
 
 import numpy as np
-from pt.figure._accept import frame_count, frames, load
-from pt.figure._errors import DataError
-from pt.figure.readers import _rows
+from pt.figures._accept import frame_count, frames, load
+from pt.figures._errors import DataError
+from pt.figures.readers import _rows
 
 DATA = pathlib.Path(sys.argv.pop(1))
 HAS_PANDAS = importlib.util.find_spec("pandas") is not None

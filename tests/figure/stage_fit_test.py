@@ -5,12 +5,12 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figure._figure import Look, prepare, view_of
-from pt.figure._layout import MARGIN, VERTICAL_FOV, Layout
-from pt.figure._particles import Cell, Particles
-from pt.figure._radii import typical_radius
-from pt.figure._series import frames, turntable
-from pt.figure._view import VIEWS
+from pt.figures._figure import Look, prepare, view_of
+from pt.figures._layout import MARGIN, VERTICAL_FOV, Layout
+from pt.figures._particles import Cell, Particles
+from pt.figures._radii import typical_radius
+from pt.figures._series import frames, turntable
+from pt.figures._view import VIEWS
 
 RANDOM = np.random.default_rng(3)
 

@@ -5,10 +5,10 @@ import unittest.mock
 
 import numpy as np
 import pt
-from pt.figure import _overlay
-from pt.figure._figure import Effort, Look, Staged
-from pt.figure._overlay import PER_SIDE, Overlaid, cell_edges, line_width, read_shares
-from pt.figure._particles import Cell, Particles
+from pt.figures import _overlay
+from pt.figures._figure import Look, Staged
+from pt.figures._overlay import PER_SIDE, Overlaid, cell_edges, line_width, read_shares
+from pt.figures._particles import Cell, Particles
 
 SIZE = (60, 44)
 CELL = Cell(np.array([-2.0, -2, -2]), np.array([[4.0, 0, 0], [1, 4, 0], [0, 0.5, 4]]), np.ones(3, bool))
@@ -19,7 +19,7 @@ RADII = np.array([1.6, 0.5, 0.7])
 def shares_of(projection, outlines, context, size):
     staged = Staged.of(Particles(CENTERS, cell=CELL), Look(radius=RADII, size=size, projection=projection))
     camera = staged.layout.camera
-    context.set_scene(staged.scene())
+    context.set_scene(staged.scene)
     context.set_camera(camera)
     settings = pt.RenderSettings(*size)
     return camera, read_shares(context, camera, settings, Overlaid(2, staged.drawn.radii, cell_edges(

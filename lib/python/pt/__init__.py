@@ -11,6 +11,7 @@ radiance, unclamped. Row 0 of an image is the top row.
 The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed with the package, else the system's.
 """
 
+import importlib
 from typing import TYPE_CHECKING
 
 from pt._callbacks import Log, Progress
@@ -25,10 +26,12 @@ from pt._errors import (BrokenRule, DeviceLostError, Error, IncompatibleError, I
 from pt._film import Film, FilmInfo, FilmTile
 from pt._image import Image
 from pt._library import library, version_text
-from pt._render import render
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
 from pt._stats import DeviceInfo, Stats, devices
-from pt.figure import Figure, figure
+
+if TYPE_CHECKING:  # __getattr__ imports them when they are first asked for: figures take as long as all else
+    from pt._render import render
+    from pt.figures import Figure, figure
 
 __all__ = [
     "BrokenRule", "Camera", "Context", "DeviceInfo", "DeviceKind", "DeviceLostError", "Error", "Estimator", "Feature", "Figure",
@@ -49,7 +52,10 @@ def version() -> str:
 
 if not TYPE_CHECKING:  # where it would allow any name
     def __getattr__(name):
-        """The library is loaded when it is first needed, and not by an import."""
+        """What is loaded when it is first needed, and not by an import: the library, and figures."""
         if name == "__version__":
             return version()
-        raise AttributeError(f"module 'pt' has no attribute {name!r}")
+        modules = {"Figure": "pt.figures", "figure": "pt.figures", "render": "pt._render"}
+        if name not in modules:
+            raise AttributeError(f"module 'pt' has no attribute {name!r}")
+        return globals().setdefault(name, getattr(importlib.import_module(modules[name]), name))

@@ -9,8 +9,8 @@ from pt._camera import Camera
 from pt._columns import check_finite, real_column
 from pt._context import Context
 from pt._scene import Material
-from pt.figure import Figure, Particles, figure
-from pt.figure._view import Direction
+from pt.figures import Figure, Particles, figure
+from pt.figures._view import Direction
 
 
 def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike | None = None, *,

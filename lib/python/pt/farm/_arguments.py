@@ -1,4 +1,4 @@
-"""The command line of pt-farm, and exit codes."""
+"""The command line of pt-farm."""
 
 from __future__ import annotations
 
@@ -7,17 +7,9 @@ import os
 import pathlib
 import re
 import sys
-from collections.abc import Callable
-from typing import Any, NoReturn
+from typing import NoReturn
 
-from pt._enums import Result
-
-# Exit codes, those of pt.
-INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
-CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
-                  Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
-                  Result.ERROR_NO_DEVICE: NO_DEVICE, Result.ERROR_OUT_OF_DEVICE_MEMORY: NO_DEVICE,
-                  Result.ERROR_SHADER: NO_DEVICE, Result.ERROR_DEVICE_LOST: LOST}
+from pt._command_line import FILES, USAGE, at_least, numbered
 
 PICTURES = (".exr", ".png", ".jpg", ".jpeg")
 
@@ -25,20 +17,6 @@ PICTURES = (".exr", ".png", ".jpg", ".jpeg")
 def refuse(message: str, code: int = USAGE) -> NoReturn:
     print(f"pt-farm: {message}", file=sys.stderr)
     sys.exit(code)
-
-
-def at_least(least: float, kind: type) -> Callable[[str], Any]:
-    """A number of a command line."""
-    def read(text: str) -> Any:
-        try:
-            value = kind(text)
-        except ValueError:
-            value = None
-        if value is None or not least <= value < float("inf"):
-            whole = "whole " if kind is int else ""
-            raise argparse.ArgumentTypeError(f"must be a {whole}number of {least:g} or more, is {text!r}")
-        return value
-    return read
 
 
 def parser() -> argparse.ArgumentParser:
@@ -73,16 +51,6 @@ def parser() -> argparse.ArgumentParser:
     return root
 
 
-def numbered(pattern: str, frame: int | None) -> str:
-    """# signs become the frame's number, as with pt render --frames."""
-    if frame is None:
-        return pattern
-    place = re.search(r"#+(?=[^#]*$)", pattern)
-    if place is None:
-        refuse(f"{pattern}: with --frames the name must have # signs, for the number of the frame")
-    return pattern[:place.start()] + str(frame).zfill(len(place.group())) + pattern[place.end():]
-
-
 def frames_of(arguments: argparse.Namespace) -> list[int | None]:
     """Those that are to be rendered; of a picture one without a number."""
     if arguments.frames is None:
@@ -91,6 +59,9 @@ def frames_of(arguments: argparse.Namespace) -> list[int | None]:
     first, last = (int(found[1]), int(found[2] or found[1])) if found else (1, 0)
     if last < first:
         refuse(f"--frames {arguments.frames}: must be two whole numbers like 0-23, or one")
+    for name in written(arguments):
+        if "#" not in name:
+            refuse(f"{name}: with --frames the name must have # signs, for the number of the frame")
     return [frame for frame in range(first, last + 1) if not (arguments.skip_existing and is_done(arguments, frame))]
 
 
@@ -124,6 +95,10 @@ def check_files(arguments: argparse.Namespace) -> None:
         refuse("an output is named twice, or is the scene")
 
 
+def written(arguments: argparse.Namespace) -> list[str]:
+    """Names of what is written of a picture, or of each frame."""
+    return [*arguments.output, *filter(None, (arguments.film, arguments.standard_error))]
+
+
 def is_done(arguments: argparse.Namespace, frame: int | None) -> bool:
-    names = [*arguments.output, *filter(None, (arguments.film, arguments.standard_error))]
-    return all(pathlib.Path(numbered(name, frame)).exists() for name in names)
+    return all(pathlib.Path(numbered(name, frame)).exists() for name in written(arguments))

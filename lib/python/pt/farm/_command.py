@@ -17,11 +17,11 @@ from dataclasses import replace
 from typing import Any
 
 from pt._camera import RenderSettings
+from pt._command_line import CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, numbered
 from pt._enums import Sampling
 from pt._errors import Error
 from pt._film import Film
-from pt.farm._arguments import (CODE_OF_RESULT, FILES, INTERNAL, NO_DEVICE, SIGNAL, TARGET_MISSED, check, frames_of,
-                                numbered, parser, refuse)
+from pt.farm._arguments import check, frames_of, parser, refuse
 from pt.farm._job import FileJob, read_job
 from pt.farm._options import FarmError, Options
 from pt.farm._render import render

@@ -13,15 +13,15 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from pt._command_line import FILES, LOST, NO_DEVICE, SCENE, USAGE
 from pt._context import Context
 from pt._enums import DeviceKind, Result
 from pt._errors import ERROR_OF_RESULT, InternalError, NoDeviceError
 from pt.farm._job import AnyJob, FileJob, Job
 from pt.farm._part import Part, grid_shape
 
-RESULT_OF_CODE = {2: Result.ERROR_INVALID_ARGUMENT, 3: Result.ERROR_INVALID_SCENE, 4: Result.ERROR_NO_DEVICE,
-                  5: Result.ERROR_DEVICE_LOST}  # exit codes of pt
-FILES = 6  # likewise: one could not be read
+RESULT_OF_CODE = {USAGE: Result.ERROR_INVALID_ARGUMENT, SCENE: Result.ERROR_INVALID_SCENE,
+                  NO_DEVICE: Result.ERROR_NO_DEVICE, LOST: Result.ERROR_DEVICE_LOST}
 
 
 class Renderer(Protocol):

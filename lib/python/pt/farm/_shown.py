@@ -6,7 +6,7 @@ import signal
 import sys
 
 from pt._film import Film
-from pt.farm._arguments import SIGNAL
+from pt._command_line import SIGNAL
 from pt.farm._options import Progress
 from pt.farm._workers import now
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import argparse
 import json
-import math
 import sys
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
+from pt._command_line import FILES, SCENE
 from pt._scene import Material, SphereArray
+from pt._scene_file import camera_section
 from pt.tachyon._reader import TachyonScene, read
 
 
@@ -33,7 +34,7 @@ def main(arguments: list[str] | None = None) -> int:
                 file.write(text + "\n")
     except (OSError, ValueError) as error:
         print(f"pt-tachyon: {error}", file=sys.stderr)
-        return 3 if isinstance(error, ValueError) else 6  # those of pt render
+        return SCENE if isinstance(error, ValueError) else FILES
     for note in found.notes:
         print(f"pt-tachyon: warning: {note}", file=sys.stderr)
     return 0
@@ -49,11 +50,7 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
         name = names.setdefault(sphere.material, f"light {len(names) + 1 - len(found.scene.materials)}")
         materials[name] = sphere.material
         spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
-    camera = found.camera
-    seen: dict[str, Any] = {"projection": "orthographic", "vertical_extent": camera.vertical_extent}
-    if camera.vertical_fov is not None:
-        seen = {"vertical_fov": math.degrees(camera.vertical_fov)}
-    return {"camera": {"position": camera.position, "look_at": camera.target, "up": camera.up, **seen},
+    return {"camera": camera_section(found.camera),
             "film": {"width": found.settings.width, "height": found.settings.height},
             "materials": {name: _material(each) for name, each in materials.items()},
             "spheres": spheres,

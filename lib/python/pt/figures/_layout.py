@@ -11,8 +11,8 @@ import numpy as np
 from pt._camera import Camera
 from pt._fit import SIDES, Array, Doubles, Extents, Spin, apex, pyramid, reach
 from pt._scene import Plane
-from pt.figure._stage import FLOOR, FLOOR_GAP, Stage, make_stage
-from pt.figure._view import Compass, Direction, relative_height, toward_camera, up_vector, view_axes
+from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
+from pt.figures._view import Compass, Direction, relative_height, toward_camera, up_vector, view_axes
 
 PROJECTIONS: Final = ("perspective", "orthographic")
 VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow, as wide angles make balls at the sides look like eggs

@@ -9,30 +9,30 @@ from dataclasses import replace
 import numpy as np
 
 from pt._fit import Doubles
-from pt.figure._colors import ColorBar, Swatches
-from pt.figure._figure import Drawn, Look, Staged, prepare, view_of
-from pt.figure._layout import Layout, View
-from pt.figure._particles import Particles
-from pt.figure._radii import Radius
+from pt.figures._colors import ColorBar, Swatches
+from pt.figures._figure import Drawn, Look, Staged, prepare, view_of
+from pt.figures._layout import Layout, View
+from pt.figures._particles import Particles
+from pt.figures._radii import Radius
 
 
 def frames(read: Callable[[], Iterator[Particles]], look: Look) -> Iterator[Staged]:
     """Each frame. All are read twice: first for what has to fit all of them."""
-    look, names, view, reaches, scale = _common(read(), look)
+    look, view, reaches, scale = _common(read(), look)
     layout = Layout.of(view, reaches, look.style, look.floor)
     for particles in read():
-        yield Staged(prepare(particles, look, names, scale), layout, look)
+        yield Staged(prepare(particles, look, scale), layout, look)
 
 
-def _common(trajectory: Iterator[Particles], look: Look
-            ) -> tuple[Look, tuple[str, ...] | None, View, Doubles, float]:
+def _common(trajectory: Iterator[Particles], look: Look) -> tuple[Look, View, Doubles, float]:
+    """The look with what all frames share, their view, how far they reach in it, and their scale."""
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
     bars: list[ColorBar] = []
     names: dict[str, None] = {}
     for particles in trajectory:
-        drawn = prepare(particles, look, None, scale)
+        drawn = prepare(particles, look, scale)
         if view is None:
             look = replace(look, radius=_rule(particles, drawn, look))
             view, scale = view_of(drawn, look), drawn.scale
@@ -46,7 +46,7 @@ def _common(trajectory: Iterator[Particles], look: Look
         raise ValueError("frames: there are none")
     if bars:
         look = replace(look, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
-    return look, tuple(names) or None, view, reaches, scale
+    return replace(look, names=tuple(names) or None), view, reaches, scale
 
 
 def _rule(particles: Particles, drawn: Drawn, look: Look) -> Radius:

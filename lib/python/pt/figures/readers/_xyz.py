@@ -8,10 +8,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from pt.figure._particles import Cell, Particles, assembled, coordinate_names
-from pt.figure.readers._frames import TextFrames
-from pt.figure.readers._lines import Lines
-from pt.figure.readers._rows import Layout, Rows, is_number, shown
+from pt.figures._particles import Cell, Particles, assembled, coordinate_names
+from pt.figures.readers._frames import TextFrames
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._rows import Layout, Rows, is_number, shown
 
 _PAIR: Final = re.compile(r"""([^\s="]+)\s*=\s*(?:"([^"]*)"|'([^']*)'|\{([^}]*)\}|(\S*))""")
 _MOST_COLUMNS: Final = 65536

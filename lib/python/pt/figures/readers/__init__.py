@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
-from pt.figure._elements import listed
-from pt.figure._errors import DataError
-from pt.figure._particles import Particles
-from pt.figure.readers import _other
-from pt.figure.readers._frames import Frames, one_frame
-from pt.figure.readers._lammps import LammpsDump
-from pt.figure.readers._lines import Lines, ending
-from pt.figure.readers._numpy import read_npy, read_npz
-from pt.figure.readers._pcd import read_pcd
-from pt.figure.readers._ply import read_ply
-from pt.figure.readers._table import read_table
-from pt.figure.readers._xyz import Xyz
+from pt.figures._elements import listed
+from pt.figures._errors import DataError
+from pt.figures._particles import Particles
+from pt.figures.readers import _other
+from pt.figures.readers._frames import Frames, one_frame
+from pt.figures.readers._lammps import LammpsDump
+from pt.figures.readers._lines import Lines, ending
+from pt.figures.readers._numpy import read_npy, read_npz
+from pt.figures.readers._pcd import read_pcd
+from pt.figures.readers._ply import read_ply
+from pt.figures.readers._table import read_table
+from pt.figures.readers._xyz import Xyz
 
 Read = Callable[[Lines, Mapping[str, str], bool], Frames]
 

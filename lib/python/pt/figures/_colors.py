@@ -12,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import Array, chunks
-from pt.figure import _elements as elements
-from pt.figure._errors import module
-from pt.figure._particles import Particles
-from pt.figure._radii import categories, column
+from pt.figures import _elements as elements
+from pt.figures._errors import module
+from pt.figures._particles import Particles
+from pt.figures._radii import categories, column
 
 Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
 Bytes: TypeAlias = npt.NDArray[np.uint8]
@@ -61,7 +61,7 @@ Legend: TypeAlias = "ColorBar | Swatches | None"
 
 @dataclass(frozen=True)
 class Coloring:
-    """What colours say; the options of pt.figure of these names.
+    """What colours say: the options of pt.figure() of these names.
 
     names   the categories of all frames, of a series
     """

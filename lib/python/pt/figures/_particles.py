@@ -11,8 +11,9 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._elements import elements_of, listed
-from pt.figure._errors import DataError
+from pt._fit import chunks
+from pt.figures._elements import elements_of, listed
+from pt.figures._errors import DataError
 
 Array = npt.NDArray[Any]
 
@@ -106,9 +107,8 @@ class Particles:
             raise DataError(f"{self.name}: has no cell into which particles could be wrapped")
         positions = self.positions.copy()
         inverse = np.linalg.inv(self.cell.vectors)
-        block = 1 << 16  # rows, so that what is computed on the way stays small
-        for first in range(0, len(positions), block):
-            rows = positions[first:first + block]
+        for block in chunks(len(positions)):
+            rows = positions[block]
             turns = np.floor((rows - self.cell.origin) @ inverse) * self.cell.periodic
             rows -= (turns @ self.cell.vectors).astype(rows.dtype)
         return self._moved(positions, slice(None))

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import Array, Doubles, chunks
-from pt.figure import _elements as elements
-from pt.figure._particles import Particles
+from pt.figures import _elements as elements
+from pt.figures._particles import Particles
 
 Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
 

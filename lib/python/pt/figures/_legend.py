@@ -9,8 +9,8 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._colors import ColorBar, Legend, Swatches
-from pt.figure._errors import module
+from pt.figures._colors import ColorBar, Legend, Swatches
+from pt.figures._errors import module
 
 PIXELS_PER_INCH: Final = 100.0
 POINTS_PER_INCH: Final = 72.0

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._fit import Doubles
-from pt.figure._overlay import Shares
+from pt.figures._overlay import Shares
 
 LINE_LIGHT: Final = 0.09  # a dark grey of 33% in sRGB
 OUTLINE_LIGHT: Final = 0.01  # nearly black

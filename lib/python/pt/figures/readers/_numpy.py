@@ -13,10 +13,10 @@ from typing import Any, Final, cast
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._errors import DataError
-from pt.figure._particles import Cell, assembled
-from pt.figure.readers._frames import Frames, Listed
-from pt.figure.readers._lines import Lines
+from pt.figures._errors import DataError
+from pt.figures._particles import Cell, assembled
+from pt.figures.readers._frames import Frames, Listed
+from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 

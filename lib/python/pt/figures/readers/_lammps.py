@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._particles import Cell, Particles, assembled, coordinate_names
-from pt.figure.readers._frames import TextFrames
-from pt.figure.readers._lines import Lines
-from pt.figure.readers._rows import Layout, Rows, is_number, shown
+from pt.figures._particles import Cell, Particles, assembled, coordinate_names
+from pt.figures.readers._frames import TextFrames
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._rows import Layout, Rows, is_number, shown
 
 _HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from pt.figure._errors import DataError
-from pt.figure._particles import Particles
-from pt.figure.readers import open_frames
-from pt.figure.readers._frames import Frames, Listed, one_frame
-from pt.figure.readers._numpy import frames_of_array, frames_of_arrays
-from pt.figure.readers._objects import of_ase, of_mdanalysis, of_ovito
+from pt.figures._errors import DataError
+from pt.figures._particles import Particles
+from pt.figures.readers import open_frames
+from pt.figures.readers._frames import Frames, Listed, one_frame
+from pt.figures.readers._numpy import frames_of_array, frames_of_arrays
+from pt.figures.readers._objects import of_ase, of_mdanalysis, of_ovito
 
 ROLES = ("x", "y", "z", "radius", "diameter", "element", "type", "red", "green", "blue")
 

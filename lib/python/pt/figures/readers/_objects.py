@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from pt.figure._particles import Cell, Particles, assembled
-from pt.figure.readers._frames import Frames, Listed
+from pt.figures._particles import Cell, Particles, assembled
+from pt.figures.readers._frames import Frames, Listed
 
 Options = Mapping[str, Any]
 

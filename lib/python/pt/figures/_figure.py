@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import os
 import pathlib
@@ -20,38 +21,32 @@ from pt._files import Path, write_atomically
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Material, Scene, SphereArray
-from pt.figure._accept import Columns, load
-from pt.figure._colors import Color, Coloring, Legend, colors_of, srgb
-from pt.figure._compose import compose, lay_over
-from pt.figure._files import encode_exr, encode_jpeg, write_scene
-from pt.figure._layout import Balls, Layout, View
-from pt.figure._legend import raster, save
-from pt.figure._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
-from pt.figure._particles import Cell, Particles
-from pt.figure._radii import Radius, radii_of
-from pt.figure._stage import PATH_LENGTH, SURROUND_BRIGHTNESS
-from pt.figure._view import Direction
-from pt.figure._where import holds
+from pt.figures._accept import Columns, load
+from pt.figures._colors import Color, Coloring, Legend, colors_of, srgb
+from pt.figures._compose import compose, lay_over
+from pt.figures._files import encode_exr, encode_jpeg, write_scene
+from pt.figures._layout import Balls, Layout, View
+from pt.figures._legend import raster, save
+from pt.figures._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
+from pt.figures._particles import Cell, Particles
+from pt.figures._radii import Radius, radii_of
+from pt.figures._stage import PATH_LENGTH, SURROUND_BRIGHTNESS
+from pt.figures._view import Direction
+from pt.figures._where import holds
 
 SAMPLES: Final = 128
 MOST_SAMPLES: Final = 65536  # for a target error
 LEAST_LENGTH: Final = 1e-18  # which the library takes
+INK: Final = "#222222"  # of words on a bright background
 LEAST_WIDTH: Final = 16  # pixels beside a colour bar
 PICTURES: Final = (".png", ".jpg", ".jpeg", ".exr", ".npy")
 
 
 @dataclass(frozen=True, kw_only=True)
-class Look:
+class Look(Coloring):
     """How particles are shown: the options of figure() of these names."""
 
-    color: Color = None
     radius: Radius = None
-    colormap: Any = None
-    range: tuple[float, float] | None = None
-    scale: str = "linear"
-    categories: bool = False
-    nan_color: str = "#bfbfbf"
-    title: str | None = None
     where: str | Sequence[str] = ()
     wrap: bool = False
     view: Direction = "three-quarter"
@@ -90,7 +85,7 @@ class Drawn:
         return Balls(self.centers, self.radii, corners)
 
 
-def prepare(particles: Particles, look: Look, names: tuple[str, ...] | None = None, scale: float | None = None) -> Drawn:
+def prepare(particles: Particles, look: Look, scale: float | None = None) -> Drawn:
     """Radii, ranges of colours and categories are those of all particles, also of those that are not shown."""
     notes = list(particles.notes)
     if not len(particles.positions):
@@ -100,9 +95,7 @@ def prepare(particles: Particles, look: Look, names: tuple[str, ...] | None = No
             raise ValueError(f"wrap: {particles.name} has no cell")
         particles = particles.wrapped()
     radii = radii_of(particles, look.radius, notes)
-    coloring = Coloring(look.color, look.colormap, look.range, look.scale, look.categories, look.nan_color, look.title,
-                        names)
-    colors, legend = colors_of(particles, coloring, notes)
+    colors, legend = colors_of(particles, look, notes)
     conditions = [look.where] if isinstance(look.where, str) else look.where
     shown: Array | None = None
     for condition in conditions:
@@ -150,7 +143,7 @@ def view_of(drawn: Drawn, look: Look, turns: bool = False) -> View:
     """turns: as of View.of."""
     size = look.size
     if size is not None and look.colorbar and drawn.legend is not None:
-        size = size[0] - strip_width(drawn.legend, size[1]), size[1]
+        size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
         if size[0] < LEAST_WIDTH:
             raise ValueError(f"size = {look.size}: has no room for particles beside the colour bar")
     if look.camera is not None:
@@ -194,6 +187,7 @@ class Staged:
         view = view_of(drawn, look)
         return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), look.style, look.floor), look)
 
+    @functools.cached_property
     def scene(self) -> Scene:
         stage, drawn = self.layout.stage, self.drawn
         material = self.look.material or stage.material
@@ -205,7 +199,7 @@ class Staged:
                      [SphereArray(drawn.centers, drawn.radii, material, color=colors)])
 
     def save_scene(self, path: Path, effort: Effort) -> None:
-        write_scene(path, self.scene(), self.layout.camera, self.layout.size, effort.max_path_length, effort.most)
+        write_scene(path, self.scene, self.layout.camera, self.layout.size, effort.max_path_length, effort.most)
 
     def save_legend(self, path: Path) -> None:
         suffix = pathlib.Path(path).suffix.lower()
@@ -214,7 +208,7 @@ class Staged:
         write_atomically(path, lambda file: save(self.drawn.legend, file, suffix[1:]))
 
     def draw(self, effort: Effort, context: Context, progress: Progress | None = None) -> Figure:
-        camera, scene, lamps = self.layout.camera, self.scene(), self.layout.stage.lamps
+        camera, scene, lamps = self.layout.camera, self.scene, self.layout.stage.lamps
         settings = RenderSettings(*self.layout.size, max_path_length=effort.max_path_length, seed=effort.seed)
         image = context.render(scene, camera, settings, effort.most, target_error=effort.error or 0.0, progress=progress)
         cell, radii = self.drawn.cell, self.drawn.radii
@@ -240,7 +234,7 @@ class Figure(Image):
     def __init__(self, image: Image, staged: Staged, effort: Effort, stage: Any, shares: Shares) -> None:
         vars(self).update(vars(image))
         self.exposure = effort.exposure
-        self.scene, self.camera = staged.scene(), staged.layout.camera
+        self.scene, self.camera = staged.scene, staged.layout.camera
         self.legend, self.notes = staged.drawn.legend, staged.drawn.notes
         self._staged, self._effort, self._stage, self._shares = staged, effort, stage, shares
 
@@ -269,8 +263,9 @@ class Figure(Image):
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
         """The legend on the background, as it stands at the right of the picture."""
         size = self._staged.look.size
-        width = size[0] - self.shape[1] if size else strip_width(self.legend, height)
-        words = raster(self.legend, height, ink)[:height, :width]
+        words = raster(self.legend, height, ink)
+        width = size[0] - self.shape[1] if size else _strip_width(words, height)
+        words = words[:height, :width]
         strip = np.zeros((height, width, 4))
         top, left = (height - len(words)) // 2, (width - words.shape[1]) // 2
         strip[top:top + len(words), left:left + words.shape[1]] = words
@@ -320,15 +315,15 @@ class Figure(Image):
 def _background(background: Any) -> tuple[Doubles | None, str]:
     """Linear light, or None where it is transparent; and the colour of words on it."""
     if isinstance(background, str) and background == "transparent":
-        return None, "#222222"
+        return None, INK
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
     light = linear(np.array(color) / 255.0)
-    return light, "#222222" if light @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
+    return light, INK if light @ (0.2126, 0.7152, 0.0722) > 0.18 else "#dddddd"
 
 
-def strip_width(legend: Legend, height: int) -> int:
-    """Pixels that a colour bar takes at the right of the picture."""
-    return raster(legend, height, "#222222").shape[1] + 2 * max(8, round(0.025 * height))
+def _strip_width(words: Doubles, height: int) -> int:
+    """Pixels that the legend takes at the right of the picture."""
+    return words.shape[1] + 2 * max(8, round(0.025 * height))
 
 
 def figure(data: Any, *, color: Color = None, radius: Radius = None, colormap: Any = None,

@@ -13,16 +13,17 @@ import time
 from collections.abc import Callable
 from typing import Any, NoReturn
 
+from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least,
+                              numbered)
 from pt._context import Context
 from pt._errors import Error
-from pt.farm._arguments import CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least
-from pt.figure._accept import frames as read_frames, load
-from pt.figure._colors import SCALES
-from pt.figure._figure import Effort, Figure, Look, Staged
-from pt.figure._layout import PROJECTIONS
-from pt.figure._series import frames, turntable
-from pt.figure._stage import STYLES
-from pt.figure._view import VIEWS
+from pt.figures._accept import frames as read_frames, load
+from pt.figures._colors import SCALES
+from pt.figures._figure import Effort, Figure, Look, Staged
+from pt.figures._layout import PROJECTIONS
+from pt.figures._series import frames, turntable
+from pt.figures._stage import STYLES
+from pt.figures._view import VIEWS
 
 PICTURES = (".png", ".jpg", ".jpeg", ".exr")
 EPILOG = """\
@@ -175,13 +176,6 @@ def check(options: argparse.Namespace) -> None:
         names.append(os.path.realpath(path))
     if len(set(names)) < len(names) or os.path.realpath(options.data) in names:
         refuse("an output is named twice, or is the data")
-
-
-def numbered(pattern: str, number: int | None) -> str:
-    """The last # signs become the number."""
-    if number is None:
-        return pattern
-    return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)
 
 
 class Shown:

@@ -7,10 +7,10 @@ from typing import Any, Final
 
 import numpy as np
 
-from pt.figure._errors import DataError, module
-from pt.figure._particles import Particles, assembled
-from pt.figure.readers._frames import Frames, Listed, one_frame
-from pt.figure.readers._objects import of_ase, of_mdanalysis
+from pt.figures._errors import DataError, module
+from pt.figures._particles import Particles, assembled
+from pt.figures.readers._frames import Frames, Listed, one_frame
+from pt.figures.readers._objects import of_ase, of_mdanalysis
 
 Options = Mapping[str, Any]
 

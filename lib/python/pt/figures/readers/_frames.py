@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol
 
-from pt.figure._errors import DataError
-from pt.figure._particles import Particles
-from pt.figure.readers._lines import Lines
+from pt.figures._errors import DataError
+from pt.figures._particles import Particles
+from pt.figures.readers._lines import Lines
 
 
 class Frames(Protocol):

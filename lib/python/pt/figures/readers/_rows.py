@@ -11,9 +11,9 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._errors import DataError, module
-from pt.figure._particles import LABELS
-from pt.figure.readers._lines import Lines
+from pt.figures._errors import DataError, module
+from pt.figures._particles import LABELS
+from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 

@@ -8,10 +8,10 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._particles import Particles, assembled
-from pt.figure.readers._lines import Lines
-from pt.figure.readers._ply import records
-from pt.figure.readers._rows import Layout, Rows, shown
+from pt.figures._particles import Particles, assembled
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._ply import records
+from pt.figures.readers._rows import Layout, Rows, shown
 
 _PACKED_COLORS: Final = ("rgb", "rgba")
 

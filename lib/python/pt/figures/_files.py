@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import io
 import json
-import math
 import os
 import pathlib
 import struct
@@ -18,7 +17,8 @@ import numpy.typing as npt
 from pt._camera import Camera
 from pt._files import Path, write_atomically
 from pt._scene import Material, Scene
-from pt.figure._errors import module
+from pt._scene_file import camera_section
+from pt.figures._errors import module
 
 EXR_ROWS: Final = 16  # of a block packed by zip
 
@@ -71,7 +71,7 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
             item[name] = file.name
             write_atomically(file, functools.partial(np.save, arr=np.ascontiguousarray(column), allow_pickle=False))
     document: dict[str, Any] = {
-        "camera": _camera(camera),
+        "camera": camera_section(camera),
         "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
         "render": {"max_path_length": max_path_length, "spp": samples},
         "materials": {}, "spheres": [], "planes": []}
@@ -85,14 +85,6 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     document["spheres"].append({**item, "material": "particles"})
     text = json.dumps(document, indent=2) + "\n"
     write_atomically(place, lambda file: file.write(text.encode()))
-
-
-def _camera(camera: Camera) -> dict[str, Any]:
-    section: dict[str, Any] = {"position": list(camera.position), "look_at": list(camera.target), "up": list(camera.up)}
-    if camera.vertical_extent is not None:
-        return {**section, "projection": "orthographic", "vertical_extent": camera.vertical_extent}
-    assert camera.vertical_fov is not None
-    return {**section, "vertical_fov": camera.vertical_fov * (180.0 / math.pi)}
 
 
 def _material(material: Any) -> dict[str, Any]:

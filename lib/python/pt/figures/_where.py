@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from pt.figure._particles import Particles
-from pt.figure._radii import column
+from pt.figures._particles import Particles
+from pt.figures._radii import column
 
 COMPARISONS: Final = {"<=": operator.le, ">=": operator.ge, "==": operator.eq, "!=": operator.ne, "<": operator.lt,
                       ">": operator.gt}

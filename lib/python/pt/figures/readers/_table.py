@@ -9,9 +9,9 @@ from typing import Any, Final
 
 import numpy.typing as npt
 
-from pt.figure._particles import Particles, assembled, coordinate_names
-from pt.figure.readers._lines import Lines
-from pt.figure.readers._rows import Layout, Rows, fields_of, is_comment, is_number, shown
+from pt.figures._particles import Particles, assembled, coordinate_names
+from pt.figures.readers._lines import Lines
+from pt.figures.readers._rows import Layout, Rows, fields_of, is_comment, is_number, shown
 
 _SEPARATORS: Final = ("\t", ";", ",")
 _MOST_BYTE: Final = 255

@@ -1,0 +1,38 @@
+"""What the commands of the package share: exit codes, numbers of options, and names of series."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Callable
+from typing import Any
+
+from pt._enums import Result
+
+# Exit codes, those of pt.
+INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
+CODE_OF_RESULT = {Result.ERROR_INVALID_ARGUMENT: USAGE, Result.ERROR_INCOMPATIBLE: USAGE,
+                  Result.ERROR_INVALID_SCENE: SCENE, Result.ERROR_UNSUPPORTED: NO_DEVICE,
+                  Result.ERROR_NO_DEVICE: NO_DEVICE, Result.ERROR_OUT_OF_DEVICE_MEMORY: NO_DEVICE,
+                  Result.ERROR_SHADER: NO_DEVICE, Result.ERROR_DEVICE_LOST: LOST}
+
+
+def at_least(least: float, kind: type) -> Callable[[str], Any]:
+    """A number of a command line."""
+    def read(text: str) -> Any:
+        try:
+            value = kind(text)
+        except ValueError:
+            value = None
+        if value is None or not least <= value < float("inf"):
+            whole = "whole " if kind is int else ""
+            raise argparse.ArgumentTypeError(f"must be a {whole}number of {least:g} or more, is {text!r}")
+        return value
+    return read
+
+
+def numbered(pattern: str, number: int | None) -> str:
+    """With the number, if there is one, in place of the last # signs, as with pt render --frames."""
+    if number is None:
+        return pattern
+    return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)
