@@ -44,10 +44,10 @@ std::string path_of(const SceneFile &scene, const SphereColumn &column) {
     return (std::filesystem::path(scene.path).parent_path() / column.file).string();
 }
 
-template <typename Use>
-void for_each_file(SceneFile &scene, Use use) {
-    for (SphereColumns &each : scene.sphere_columns)
-        for (SphereColumn &column : each.columns)
+template <typename AnyScene, typename Use>
+void for_each_file(AnyScene &scene, Use use) {
+    for (auto &each : scene.sphere_columns)
+        for (auto &column : each.columns)
             if (!column.file.empty())
                 use(each, column);
 }
@@ -111,10 +111,8 @@ SphereColumns read_sphere_columns(const JsonPlace &place, const json &value) {
 
 std::vector<std::string> column_paths(const SceneFile &scene) {
     std::vector<std::string> paths;
-    for (const SphereColumns &each : scene.sphere_columns)
-        for (const SphereColumn &column : each.columns)
-            if (!column.file.empty())
-                paths.push_back(path_of(scene, column));
+    for_each_file(scene,
+                  [&](const SphereColumns &, const SphereColumn &column) { paths.push_back(path_of(scene, column)); });
     return paths;
 }
 

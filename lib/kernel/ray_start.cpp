@@ -49,6 +49,11 @@ double nearest_depth(const CurvedPlane &plane, const View &view) {
     return nearest;
 }
 
+double angle_from_middle(const glm::dvec3 &point, const View &view) {
+    const double along = glm::dot(point, view.forward);
+    return std::atan2(glm::length(point - along * view.forward), along);
+}
+
 // Of the directions of the cone, the one nearest to the ball's centre meets it first. With b = d cos(angle) the root is
 // b - sqrt(r^2 - d^2 sin^2(angle)), or (d^2 - r^2) / (b + the same): nothing cancels for small far balls.
 double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) {
@@ -56,8 +61,7 @@ double depth_of_ball(const glm::dvec3 &centre, double radius, const View &view) 
     const double power = (distance - radius) * (distance + radius); // of the camera with respect to the ball
     if (power <= 0.0)
         return 0.0;
-    const double along = glm::dot(centre, view.forward);
-    const double angle = std::atan2(glm::length(centre - along * view.forward), along);
+    const double angle = angle_from_middle(centre, view);
     const double nearest = std::max(angle - view.half_angle, 0.0);
     const double across = distance * std::sin(nearest);
     const double squared_half_chord = radius * radius - across * across;
@@ -74,8 +78,7 @@ bool starts_within(const glm::dvec3 &centre, double radius, const View &) {
 // From within, the direction farthest from the centre meets the sphere first.
 double depth_from_within(const glm::dvec3 &centre, double radius, const View &view) {
     const double distance = glm::length(centre);
-    const double along = glm::dot(centre, view.forward);
-    const double angle = std::atan2(glm::length(centre - along * view.forward), along);
+    const double angle = angle_from_middle(centre, view);
     const double farthest = std::min(angle + view.half_angle, std::numbers::pi);
     const double across = distance * std::sin(farthest);
     const double half_chord = std::sqrt(radius * radius - across * across);

@@ -2,11 +2,10 @@
 // may be, against long double. PT_TEST_MANY asks for 600 scenes. Run alone with --gtest_filter=RandomFirstHit*.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
+#include "tests/device/tree_fixture.h"
 #include "tests/device/tree_scenes.h"
-#include "tests/support/context_fixture.h"
 #include "tests/support/first_hit_reference.h"
 #include "tests/support/scene_of.h"
-#include "tests/support/shared_context.h"
 
 #include <array>
 #include <cmath>
@@ -47,24 +46,8 @@ struct Counts {
     std::uint32_t spheres = 0;
 };
 
-class RandomFirstHit : public ContextFixture {
+class RandomFirstHit : public TreeFixture {
 protected:
-    Context create_fixtures_context() override {
-        return create_context([](pt_create_info &) {}, &create_with_tree);
-    }
-
-    void SetUp() override {
-        ContextFixture::SetUp();
-        without_tree_ = create_context([](pt_create_info &) {}, &create_without_tree);
-    }
-
-    void TearDown() override {
-        without_tree_.reset();
-        ContextFixture::TearDown();
-    }
-
-    pt_context *without_tree() const { return without_tree_.get(); }
-
     static void read(pt_context *from, const Shot &given, std::uint32_t quantity, std::uint32_t format, void *data,
                      std::size_t bytes) {
         pt_image target{};
@@ -122,9 +105,6 @@ protected:
         }
         return counts;
     }
-
-private:
-    Context without_tree_;
 };
 
 class RandomScenes {

@@ -1,9 +1,8 @@
 // Pictures of spheres in a tree against those of the kernel without one, through pt.h: colours, lamps, motion, a camera
 // within a sphere and one far away, a sky.
-#include "tests/support/context_fixture.h"
+#include "tests/device/tree_fixture.h"
 #include "tests/support/render_image.h"
 #include "tests/support/scene_of.h"
-#include "tests/support/shared_context.h"
 #include "tests/support/statistics.h"
 
 #include <algorithm>
@@ -99,33 +98,14 @@ Difference difference(const std::vector<float> &a, const std::vector<float> &b) 
     return found;
 }
 
-class TreeRender : public ContextFixture {
+class TreeRender : public TreeFixture {
 protected:
-    Context create_fixtures_context() override {
-        return create_context([](pt_create_info &) {}, &create_with_tree);
-    }
-
-    void SetUp() override {
-        ContextFixture::SetUp();
-        without_tree_ = create_context([](pt_create_info &) {}, &create_without_tree);
-    }
-
-    void TearDown() override {
-        without_tree_.reset();
-        ContextFixture::TearDown();
-    }
-
-    pt_context *without_tree() const { return without_tree_.get(); }
-
     Difference difference_of(const pt_scene &scene, const pt_camera &camera, std::uint32_t length = 3) {
         const pt_render render = render_of(picture_width, picture_height, length);
         const std::vector<float> in_tree = render_image(context(), scene, camera, render, 8);
         EXPECT_TRUE(stats().features & PT_FEATURE_TREE);
         return difference(in_tree, render_image(without_tree(), scene, camera, render, 8));
     }
-
-private:
-    Context without_tree_;
 };
 
 // The root of a colour c is off by half of 1/1023 at most, and so c by (root + 1/4092)/1023, which is the largest share

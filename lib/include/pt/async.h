@@ -17,7 +17,7 @@
  *   at the most (pt_create_info.submit_milliseconds), and nothing happens on the host: they are given more by pt_poll
  *   alone. A program that lets pt_poll wait for the time that it has to spare keeps them busy; one that does not is
  *   better off with submissions that are longer than the time between two polls. Any thread may poll, one at a time,
- * and cancel, also while another one polls.
+ *   and cancel, also while another one polls.
  * - While samples are under way, from a pt_start that returns PT_PENDING to the first pt_poll that returns anything
  *   else, other calls on the context are refused (PT_ERROR_INVALID_STATE) and change nothing, but for pt_cancel,
  *   pt_get_context_device, pt_last_error and pt_get_broken_rule, and pt_destroy, which waits for the submissions under
