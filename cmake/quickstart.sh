@@ -9,11 +9,11 @@ set -eu
 cd "$(dirname "$0")/.."
 
 render_packages="g++ cmake ninja-build libvulkan-dev mesa-vulkan-drivers glslang-tools spirv-tools
-    libglm-dev libxxhash-dev libpng-dev nlohmann-json3-dev libcli11-dev libzstd-dev zlib1g-dev"
+    libglm-dev libxxhash-dev libpng-dev nlohmann-json3-dev libcli11-dev libzstd-dev"
 # EXR and JPEG, kernels compiled while a program runs, and Debian packages.
 build_packages="$render_packages pkg-config libopenimageio-dev glslang-dev dpkg-dev file"
 test_packages="$build_packages build-essential vulkan-validationlayers libgtest-dev python3 python3-jsonschema python3-numpy python3-pandas mypy
-    python3-distributed python3-matplotlib python3-openimageio python3-xxhash doxygen clang-format-14 clang-tidy-14 man-db mandoc zsh fish"
+    python3-distributed python3-matplotlib python3-openimageio python3-xxhash doxygen clang-format-14 clang-tidy-14"
 
 install_packages() { # package...
     command -v apt-get >/dev/null || return 0

@@ -4,7 +4,6 @@ judged. PT_LIBRARY names the library."""
 import contextlib
 import io
 import json
-import os
 import pathlib
 import random
 import subprocess

@@ -29,12 +29,12 @@ from table import print_table
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from scene_file import read_scene  # noqa: E402
-from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
+from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402 (which finds pt)
+from pt import DeviceKind  # noqa: E402
 
 MOST_SAMPLES = 65536  # with a target error, as in pt render
 REFERENCE_FACTOR = 64  # the reference's error is then an eighth of the smallest measured, if its square falls as 1 / N
 NOISE_MARGIN = 3
-PT_DEVICE_CPU = 4  # VkPhysicalDeviceType, as pt_device_info.kind has it
 
 
 def names(known):
@@ -207,7 +207,7 @@ def main():
         report = {"scene": options.scene, "width": bench.size[0], "height": bench.size[1], "max_path_length": bench.length,
                   "seed": options.seed, "reference": told, "cells": cells,
                   "device": {"name": device.name.decode(), "driver": device.driver.decode(),
-                             "is_cpu": device.kind == PT_DEVICE_CPU}}
+                             "is_cpu": device.kind == DeviceKind.CPU}}
         pathlib.Path(options.json).write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 

@@ -103,7 +103,15 @@ class Steps:
         require("\\-\\-standard\\-error" in (share / "man/man1/pt-render.1").read_text(), "pt-render.1 lacks options")
         pages = sorted(path.name for path in (share / "man/man1").iterdir())
         require(pages == sorted(["pt.1", *(f"pt-{command}.1" for command in commands)]), f"the pages are {pages}")
-        require((share / "bash-completion/completions/pt").exists(), "bash has no completion")
+        self.check_completion(share / "bash-completion/completions/pt")
+
+    def check_completion(self, script):
+        """As bash asks for it: a function that reads the words so far and fills a variable."""
+        for words, expected in ((["pt", "re"], "render"), (["pt", "render", "--standard"], "--standard-error"),
+                                (["pt", "render", "sc"], "")):
+            ask = f'source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD={len(words) - 1}; _pt; echo "${{COMPREPLY[*]}}"'
+            said = run("bash", "-c", ask, "bash", script, *words, PATH=f"{self.prefix / 'bin'}:{os.environ['PATH']}").strip()
+            require(said == expected, f"completion of {words} is {said}")
 
     def c99(self):
         """pkg-config, with the shared and with the static library; the example in C, and the README's program."""
