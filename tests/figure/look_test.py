@@ -5,9 +5,10 @@ import unittest
 import numpy as np
 import pt
 from pt.figures import _elements as elements
-from pt.figures._colors import Coloring, Swatches, colors_of, distinct_colors
+from pt.figures._colors import Swatches, colors_of, distinct_colors
 from pt.figures._compose import compose, lay_over
-from pt.figures._figure import Look, prepare
+from pt.figures._figure import prepare
+from pt.figures._options import Options
 from pt.figures._overlay import Shares
 from pt.figures._particles import Particles
 from pt.figures._radii import radii_of
@@ -25,7 +26,7 @@ VALUES = np.random.default_rng(6).uniform(-2, 5, COUNT)
 
 def colored(color, particles=None, **options):
     notes = []
-    rgb, legend = colors_of(particles or Particles(POSITIONS, {"v": VALUES}), Coloring(color, **options), notes)
+    rgb, legend = colors_of(particles or Particles(POSITIONS, {"v": VALUES}), Options(color=color, **options), notes)
     return rgb, legend, " ".join(notes)
 
 
@@ -84,9 +85,9 @@ class Numbers(unittest.TestCase):
                 np.testing.assert_allclose((legend.low, legend.high), (lengths.min(), lengths.max()))
 
     def test_ranges_are_those_of_all_particles_whichever_are_shown(self):
-        drawn = prepare(Particles(POSITIONS, {"v": VALUES}), Look(color="v", where="v > 1", radius=1))
+        drawn = prepare(Particles(POSITIONS, {"v": VALUES}), Options(color="v", where="v > 1", radius=1))
         self.assertEqual((len(drawn.centers), drawn.legend.low), (int((VALUES > 1).sum()), VALUES.min()))
-        whole = prepare(Particles(POSITIONS, {"v": VALUES}), Look(color="v", radius=1))
+        whole = prepare(Particles(POSITIONS, {"v": VALUES}), Options(color="v", radius=1))
         np.testing.assert_array_equal(drawn.colors, whole.colors[VALUES > 1])
 
 
@@ -129,7 +130,7 @@ class Categories(unittest.TestCase):
     def test_what_is_refused(self):
         particles = Particles(POSITIONS, {"v": VALUES, "w": np.array(["a"] * COUNT)}, name="data.csv")
         for words, color, options in (
-                ("there is no column 'u': the columns are v, w", "|u|", {}), ("must be linear, log", "v", {"scale": "ln"}),
+                ("there is no column 'u': the columns are v, w", "|u|", {}), ("scale = .ln.: must be linear, log", "v", {"scale": "ln"}),
                 ("'X' is none of the types, 1", {"X": "red"}, {}), ("must be .500,., numbers or words", np.zeros(7), {}),
                 ("must be two numbers, the second larger", "v", {"range": (3, 1)}),
                 ("above 0 on a log scale", "v", {"range": (0, 1), "scale": "log"}),
@@ -162,14 +163,14 @@ class Radii(unittest.TestCase):
                               ("the type B is none of those with a radius, A", "A=1"), ("like O=0.7,H=0.3", "A=x"),
                               ("radius = -1", -1)):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
-                prepare(particles, Look(radius=radius))
-        drawn = prepare(particles, Look(radius="r", where="r > 0"))
+                prepare(particles, Options(radius=radius))
+        drawn = prepare(particles, Options(radius="r", where="r > 0"))
         self.assertEqual(len(drawn.centers), 1)
         for words, where in (("no column 'q'", "q > 1"), ("must be a column, one of <=", "r ! 1"), ("'x' is none", "r < x"),
                              ("must be == or !=", "w < a"), ("holds", "r > 9")):
             with self.subTest(words=words), self.assertRaisesRegex(ValueError, words):
-                prepare(particles, Look(radius=1, where=where))
-        self.assertEqual(len(prepare(particles, Look(radius=1, where=["w != a", "type == A"])).centers), 1)
+                prepare(particles, Options(radius=1, where=where))
+        self.assertEqual(len(prepare(particles, Options(radius=1, where=["w != a", "type == A"])).centers), 1)
 
 
 class Background(unittest.TestCase):

@@ -5,12 +5,12 @@ import unittest
 
 import numpy as np
 import pt
-from pt.figures._figure import Look, prepare, view_of
+from pt.figures._figure import prepare, view_of
 from pt.figures._layout import MARGIN, VERTICAL_FOV, Layout
+from pt.figures._options import VIEWS, Options
 from pt.figures._particles import Cell, Particles
 from pt.figures._radii import typical_radius
 from pt.figures._series import frames, turntable
-from pt.figures._view import VIEWS
 
 RANDOM = np.random.default_rng(3)
 
@@ -23,7 +23,7 @@ def balls(kind, count=200):
 
 
 def layout_of(particles, **look):
-    look = Look(**look)
+    look = Options(**look)
     drawn = prepare(particles, look)
     view = view_of(drawn, look)
     return drawn, Layout.of(view, view.reaches(drawn.balls), look.style, look.floor)
@@ -129,7 +129,7 @@ class Series(unittest.TestCase):
         for k in range(3):
             centers, _ = balls("cloud")
             trajectory.append(Particles(centers * (1 + 2 * k), {"v": np.arange(200.0) * (k + 1) - k}))
-        look = Look(color="v", size=(90, 60))
+        look = Options(color="v", size=(90, 60))
         staged = list(frames(lambda: iter(trajectory), look))
         first = staged[0]
         for each, particles in zip(staged, trajectory, strict=True):
@@ -144,14 +144,14 @@ class Series(unittest.TestCase):
     def test_types_keep_their_colors_where_some_are_missing(self):
         trajectory = [Particles(np.eye(3)[:2], types=np.array(names)) for names in (["b", "d"], ["a", "d"])]
         colors = [dict(zip(each.drawn.legend.names, map(tuple, each.drawn.legend.colors)))
-                  for each in frames(lambda: iter(trajectory), Look())]
+                  for each in frames(lambda: iter(trajectory), Options())]
         self.assertEqual(colors[0]["d"], colors[1]["d"])
         self.assertEqual(len({*colors[0].values(), *colors[1].values()}), 3)
 
     def test_a_turntable_keeps_its_distance_and_has_all_in_view(self):
         centers, radii = balls("cloud", 30)
         for view, up in (("three-quarter", "z"), ("front", "y"), ((1, 2, 2), "-x")):
-            staged = list(turntable(Particles(centers), 40, Look(radius=radii, view=view, up=up)))
+            staged = list(turntable(Particles(centers), 40, Options(radius=radii, view=view, up=up)))
             spans = []
             for each in staged:
                 self.assertEqual(each.layout.size, staged[0].layout.size)

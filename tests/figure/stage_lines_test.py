@@ -6,7 +6,8 @@ import unittest.mock
 import numpy as np
 import pt
 from pt.figures import _overlay
-from pt.figures._figure import Look, Staged
+from pt.figures._figure import Staged
+from pt.figures._options import Options
 from pt.figures._overlay import PER_SIDE, Overlaid, cell_edges, line_width, read_shares
 from pt.figures._particles import Cell, Particles
 
@@ -17,7 +18,7 @@ RADII = np.array([1.6, 0.5, 0.7])
 
 
 def shares_of(projection, outlines, context, size):
-    staged = Staged.of(Particles(CENTERS, cell=CELL), Look(radius=RADII, size=size, projection=projection))
+    staged = Staged.of(Particles(CENTERS, cell=CELL), Options(radius=RADII, size=size, projection=projection))
     camera = staged.layout.camera
     context.set_scene(staged.scene)
     context.set_camera(camera)

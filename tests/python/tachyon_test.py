@@ -289,7 +289,7 @@ class Command(unittest.TestCase):
                 self.assertEqual(_command.main([str(given), "-o", str(written)]), 3)
             self.assertIn("a.dat:19", stderr.write.call_args_list[0].args[0])
         self.assertEqual(scene["spheres"][1], {"center": [0, 2, -7], "radius": 1, "material": "texture 1"})
-        self.assertEqual(scene["materials"]["texture 1"], {"diffuse": [0, 0.5, 1], "specular": [0.75] * 3, "glossiness": 1e6})
+        self.assertEqual(scene["materials"]["texture 1"], {"diffuse": [0, 0.5, 1], "specular": 0.75, "glossiness": 1e6})
         self.assertEqual([each["material"] for each in scene["spheres"]], [
             "texture 0", "texture 1", "light 1", "light 2", "light 3"])
         self.assertTrue(scene["materials"]["light 1"]["hidden_from_camera"])

@@ -21,6 +21,9 @@ pt.Sphere((0, 0, 0), 1)
 pt.Context().set_camera(pt.RenderSettings(4, 4))
 pt.Context().accumulate("16")
 pt.render(np.zeros((2, 3)), 1.0, sise=(4, 4))
+reveal_type(pt.figure("a.xyz", floor=True))
+pt.figure("a.xyz", flor=True)
+pt.figure("a.xyz", floor="yes")
 """
 
 
@@ -40,7 +43,9 @@ class Types(unittest.TestCase):
             said = self.check("uses.py").stdout.splitlines()
         for line, words in zip(said, ('"builtins.float"', '"pt._film.Film"', 'Missing positional argument "material"',
                                       'incompatible type "RenderSettings"; expected "Camera"',
-                                      'incompatible type "str"; expected "int"', 'argument "sise"'), strict=True):
+                                      'incompatible type "str"; expected "int"', 'argument "sise"',
+                                      '"pt.figures._figure.Figure"', 'argument "flor"',
+                                      'incompatible type "str"; expected "bool"'), strict=True):
             self.assertIn(words, line)
 
 

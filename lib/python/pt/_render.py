@@ -10,7 +10,7 @@ from pt._columns import check_finite, real_column
 from pt._context import Context
 from pt._scene import Material
 from pt.figures import Figure, Particles, figure
-from pt.figures._view import Direction
+from pt.figures._options import Direction
 
 
 def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike | None = None, *,

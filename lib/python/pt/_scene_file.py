@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from pt._camera import Camera
+from pt._scene import Material
 
 
 def camera_section(camera: Camera) -> dict[str, Any]:
@@ -13,3 +14,14 @@ def camera_section(camera: Camera) -> dict[str, Any]:
     if camera.vertical_fov is None:
         return {**section, "projection": "orthographic", "vertical_extent": camera.vertical_extent}
     return {**section, "vertical_fov": math.degrees(camera.vertical_fov)}
+
+
+def material_section(material: object) -> dict[str, Any]:
+    """Without what is as by default; one number for a grey."""
+    assert isinstance(material, Material)  # and no index of one
+    section: dict[str, Any] = {}
+    for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
+        value = getattr(material, name)
+        if value not in (0.0, False, (0.0, 0.0, 0.0)):
+            section[name] = value[0] if isinstance(value, tuple) and len(set(value)) == 1 else value
+    return section

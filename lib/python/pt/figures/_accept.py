@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from pt.figures._errors import DataError
+from pt.figures._options import Columns
 from pt.figures._particles import Particles
 from pt.figures.readers import open_frames
 from pt.figures.readers._frames import Frames, Listed, one_frame
@@ -16,8 +17,6 @@ from pt.figures.readers._numpy import frames_of_array, frames_of_arrays
 from pt.figures.readers._objects import of_ase, of_mdanalysis, of_ovito
 
 ROLES = ("x", "y", "z", "radius", "diameter", "element", "type", "red", "green", "blue")
-
-Columns = Mapping[str, str] | str | None
 
 
 def load(data: Any, *, frame: int | None = None, columns: Columns = None, format: str | None = None,

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import colorsys
 import difflib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Final, TypeAlias
 
@@ -14,10 +15,10 @@ import numpy.typing as npt
 from pt._fit import Array, chunks
 from pt.figures import _elements as elements
 from pt.figures._errors import module
+from pt.figures._options import Options
 from pt.figures._particles import Particles
 from pt.figures._radii import categories, column
 
-Color: TypeAlias = "str | Mapping[str, str] | Sequence[float] | npt.ArrayLike | None"
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
@@ -26,7 +27,6 @@ PLAIN: Final = "#96aabe"  # a light bluish grey
 # vermilion, sky blue, reddish purple, yellow. The order is our own: the first two differ most in lightness too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
-SCALES: Final = ("linear", "log", "symmetric")
 MOST_CATEGORIES: Final = 1000
 SKEW: Final = 4.0  # all over 1% to 99% of the numbers; 1 of uniform numbers, 2 of a million normal, 3 of exponential
 
@@ -59,23 +59,6 @@ class Swatches:
 Legend: TypeAlias = "ColorBar | Swatches | None"
 
 
-@dataclass(frozen=True)
-class Coloring:
-    """What colours say: the options of pt.figure() of these names.
-
-    names   the categories of all frames, of a series
-    """
-
-    color: Color = None
-    colormap: Any = None
-    range: tuple[float, float] | None = None
-    scale: str = "linear"
-    categories: bool = False
-    nan_color: str = "#bfbfbf"
-    title: str | None = None
-    names: tuple[str, ...] | None = None
-
-
 def srgb(name: str, color: Any) -> RGB:
     """From "#rrggbb", a name that matplotlib knows, or three numbers from 0 to 1."""
     if isinstance(color, str) and len(color) == 7 and color[0] == "#":
@@ -92,10 +75,8 @@ def srgb(name: str, color: Any) -> RGB:
     return red, green, blue
 
 
-def colors_of(particles: Particles, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     """Shape (n, 3) or, of one colour for all, (3,)."""
-    if given.scale not in SCALES:
-        raise ValueError(f"scale = {given.scale!r}: must be {', '.join(SCALES)}")
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -119,7 +100,7 @@ def colors_of(particles: Particles, given: Coloring, notes: list[str]) -> tuple[
     return _of_values(array, given.title or "", given, notes)
 
 
-def _named(particles: Particles, color: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+def _named(particles: Particles, color: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     """A column, its magnitude, three columns of red, green and blue, or a colour."""
     title = given.title or color
     if color in ("type", "element") and color not in particles.columns:
@@ -171,7 +152,7 @@ def _direct(colors: Any, notes: list[str]) -> Bytes:
         array.astype(np.uint8))
 
 
-def _of_values(values: Array, title: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     if given.categories or values.dtype.kind in "USOb":
         names, codes = categories(values)
         numbers = values.dtype.kind in "iu"
@@ -181,7 +162,7 @@ def _of_values(values: Array, title: str, given: Coloring, notes: list[str]) -> 
     return _of_numbers(values, title, given, notes)
 
 
-def _of_types(particles: Particles, given: Coloring, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
+def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
     """Elements have their colours, other types those of the palette."""
     numbers = particles.elements
     if numbers is None:
@@ -200,17 +181,19 @@ def _own(colors: Mapping[str, str]) -> dict[str, RGB]:
     return {str(name): srgb(f"color of {name}", color) for name, color in colors.items()}
 
 
-def _of_categories(title: str, names: list[str], codes: Array, given: Coloring,
+def _of_categories(title: str, names: list[str], codes: Array, given: Options,
                    own: Mapping[str, RGB], numbered: bool) -> tuple[Bytes, Legend]:
     """numbered: names are numbers, mostly from 1: then the number says the colour, so that files agree."""
-    missing = [name for name in own if name not in names] if given.names is None else []
-    if missing:
-        raise ValueError(f"color: {missing[0]!r} is none of the types, {', '.join(names[:20])}")
+    order = names if isinstance(given.categories, bool) else list(given.categories)
+    for option, each in (("color", own), ("categories", names)):
+        missing = [name for name in each if name not in order]
+        if missing:
+            told = "is none of the types," if option == "color" else "is in the data, and not among"
+            raise ValueError(f"{option}: {missing[0]!r} {told} {', '.join(order[:20])}")
     if len(names) > MOST_CATEGORIES:
         raise ValueError(f"color: {len(names)} categories; there can be {MOST_CATEGORIES}")
-    order = list(given.names or names)
     places = [order.index(name) for name in names]
-    if numbered and given.names is None and all(name.isdigit() and 1 <= int(name) <= 64 for name in names):
+    if numbered and all(name.isdigit() and 1 <= int(name) <= 64 for name in order):
         places = [int(name) - 1 for name in names]
     palette = distinct_colors(max(places, default=0) + 1)
     table = np.array([own.get(name, palette[place]) for name, place in zip(names, places, strict=True)], np.uint8)
@@ -219,7 +202,6 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Coloring,
 
 def distinct_colors(count: int) -> list[RGB]:
     """As many as are wanted, no two alike: the palette, then hues by the golden ratio in rings of lightness."""
-    import colorsys
     colors: list[RGB] = list(PALETTE)
     k = 0
     while len(colors) < count:
@@ -244,7 +226,7 @@ def color_table(colormap: Any) -> Bytes:
     return table
 
 
-def _of_numbers(values: Array, title: str, given: Coloring, notes: list[str]) -> tuple[Bytes, Legend]:
+def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     table = color_table(given.colormap or ("coolwarm" if given.scale == "symmetric" else "viridis"))
     log = given.scale == "log"
     low, high = given.range or _range(values, given, title, notes)
@@ -274,7 +256,7 @@ def _of_numbers(values: Array, title: str, given: Coloring, notes: list[str]) ->
     return colors, ColorBar(title, table, low, high, log, tuple(no_value.tolist()) if nowhere else None)
 
 
-def _range(values: Array, given: Coloring, title: str, notes: list[str]) -> tuple[float, float]:
+def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
     """Of all finite numbers; of 1% to 99% of them where few are far from all others."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf

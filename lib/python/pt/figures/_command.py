@@ -11,6 +11,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import Field, fields
 from typing import Any, NoReturn
 
 from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least,
@@ -18,12 +19,9 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
 from pt._context import Context
 from pt._errors import Error
 from pt.figures._accept import frames as read_frames, load
-from pt.figures._colors import SCALES
-from pt.figures._figure import Effort, Figure, Look, Staged
-from pt.figures._layout import PROJECTIONS
+from pt.figures._figure import Figure, Staged
+from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
-from pt.figures._stage import STYLES
-from pt.figures._view import VIEWS
 
 PICTURES = (".png", ".jpg", ".jpeg", ".exr")
 EPILOG = """\
@@ -39,34 +37,12 @@ def refuse(message: str, code: int = USAGE) -> NoReturn:
     sys.exit(code)
 
 
-def pair(separator: str, kind: type, rule: str) -> Callable[[str], Any]:
-    """Two numbers of a command line."""
-    def read(text: str) -> Any:
+def typed(read: Callable[[str], Any], rule: str) -> Callable[[str], Any]:
+    def value(text: str) -> Any:
         try:
-            first, second = (kind(each) for each in text.split(separator))
+            return read(text)
         except ValueError:
             raise argparse.ArgumentTypeError(f"must be {rule}, is {text!r}") from None
-        return first, second
-    return read
-
-
-def share(text: str) -> float:
-    try:
-        value = float(text.rstrip("%")) / (100.0 if text.endswith("%") else 1.0)
-    except ValueError:
-        value = 0.0
-    if not 0.0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"must be above 0, like 2% or 0.02, is {text!r}")
-    return value
-
-
-def stops(text: str) -> float | None:
-    try:
-        value = None if text == "auto" else float(text)
-    except ValueError:
-        value = float("inf")
-    if value is not None and not -64.0 <= value <= 64.0:
-        raise argparse.ArgumentTypeError(f"must be auto or from -64 to 64, is {text!r}")
     return value
 
 
@@ -79,57 +55,31 @@ def parser() -> argparse.ArgumentParser:
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
         help="may be given again: .png, .jpg are the figure; .exr is the linear radiance of its scene; - is standard "
         "output")
-    add("--format", choices=("exr", "png", "jpg", "jpeg"), help="of an image to standard output")
+    add("--format", dest="output_format", choices=("exr", "png", "jpg", "jpeg"), help="of an image to standard output")
+    add("--png-bits", type=int, choices=(8, 16), default=8)
     add("--legend", metavar="FILE", help="what the colours say, as .svg, .pdf or .png")
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
-    add("--turntable", type=at_least(2, int), metavar="N", help="N pictures once round; -o f-###.png")
-    add("--frames", type=pair("-", int, "two frames like 0-99"), metavar="A-B",
-        help="a picture of each frame; -o f-###.png")
-    add = command.add_argument_group("data").add_argument
-    add("--frame", type=int, help="0 is the first, -1 the last (default)")
-    add("--data-format", help="by default the file's first bytes or its name say it")
-    add("--columns", metavar="x=NAME,...", help="where positions and others are")
-    add("--where", action="append", default=[], metavar="CONDITION",
-        help='show particles for which this holds, like "z < 5"; may be given again')
-    add("--wrap", action="store_true", help="bring particles that have left a periodic cell back into it")
-    add("--drop-nonfinite", action="store_true", help="leave out particles whose position is no number")
-    add = command.add_argument_group("particles").add_argument
-    add("--color", metavar="COLUMN|COLOUR|...",
-        help="column of numbers or words; |v| or |vx,vy,vz|, a magnitude; red,green,blue; a colour for all; or of types, "
-        "O=red,H=#ffffff (default: of elements or types, else the data's, else grey)")
-    add("--colormap", metavar="MAP", help="of matplotlib, like magma or viridis_r (default: viridis, or coolwarm)")
-    add("--color-range", type=pair(",", float, "two numbers like -1,2.5"), metavar="LO,HI",
-        help="of the first and the last colour (default: all there are; of skewed data 1%% to 99%%)")
-    add("--color-scale", choices=SCALES, default="linear", help="symmetric: about 0")
-    add("--categories", action="store_true", help="numbers of the column name categories")
-    add("--nan-color", default="#bfbfbf", metavar="COLOUR", help="of particles without a number")
-    add("--title", help="of the legend, with the unit (default: the column)")
-    add("--colorbar", action="store_true", help="put the legend into the picture, at the right")
-    add("--radius", metavar="R|COLUMN|covalent|van-der-waals|TYPE=R,...",
-        help="also with a factor, 0.5*diameter (default: the column radius, else covalent, else half of what most "
-        "neighbours are apart)")
-    add = command.add_argument_group("view").add_argument
-    add("--size", type=pair("x", int, "WxH, like 800x600"), metavar="WxH",
-        help="pixels (default: 1024x768 in the shape of the data)")
-    add("--view", default=VIEWS[0], metavar="SIDE|X,Y,Z", help=f"{', '.join(VIEWS)}, or the direction to the camera")
-    add("--up", default="z", metavar="AXIS|X,Y,Z", help="x, y, z, -x, -y or -z, or a direction (default: z)")
-    add("--projection", choices=PROJECTIONS, default=PROJECTIONS[0])
-    add = command.add_argument_group("look").add_argument
-    add("--style", choices=STYLES, default=STYLES[0])
-    add("--outlines", action="store_true", help="dark lines round the balls")
-    add("--floor", action="store_true", help="a floor that shows the shadows alone")
-    add("--background", default="white", metavar="COLOUR", help="or transparent")
-    add("--box", choices=("lines", "none"), default="lines", help="the cell, where the file has one")
-    add("--exposure", type=stops, default=0.0, metavar="EV", help="brightens the balls; auto: as pt render")
-    add("--png-bits", type=int, choices=(8, 16), default=8)
-    add = command.add_argument_group("samples").add_argument
-    add("--spp", type=at_least(1, int), metavar="N", help="samples a pixel (default: 128), the most with --error")
-    add("--error", type=share, metavar="E", help="end at this relative error, like 2%%")
-    add("--seed", type=at_least(0, int), default=0, metavar="N")
-    add("--device", help="what to render on, as of pt render")
+    add("--turntable", type=at_least(2, int), metavar="N", help="N pictures once round the vertical axis, lamps and all")
+    add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")
     add("--progress", choices=("auto", "json", "none"), default="auto")
     add("-q", "--quiet", action="store_true", help="print errors only")
+    groups: dict[str, Any] = {}
+    for each in fields(Options):
+        if group := each.metadata["group"]:
+            groups[group] = groups.get(group) or command.add_argument_group(group)
+            add_option(groups[group], each)
     return command
+
+
+def add_option(group: Any, option: Field[Any]) -> None:
+    known, default = option.metadata, option.default
+    words = known["words"] + (f" (default: {default})" if isinstance(default, str) else "")
+    more: dict[str, Any] = {"action": "store_true"}
+    if default is not False:
+        more = {"action": "append" if default == () else "store", "metavar": known["metavar"] or None, "choices":
+                known.get("choices"), "type": typed(known["read"], known["metavar"]) if "read" in known else None}
+    group.add_argument(known.get("flag", "--" + option.name.replace("_", "-")), dest=option.name,
+                       default=[] if default == () else default, help=words.replace("%", "%%"), **more)
 
 
 def joined(words: list[str]) -> list[str]:
@@ -143,27 +93,24 @@ def joined(words: list[str]) -> list[str]:
     return result
 
 
-def check(options: argparse.Namespace) -> None:
+def check(given: argparse.Namespace) -> None:
     """Names and what contradicts itself: now rather than after minutes."""
-    series = options.turntable or options.frames
-    if not (options.output or options.legend or options.write_scene):
+    series = given.turntable or given.frames
+    files: list[tuple[str, str, tuple[str, ...]]] = [("-o", path, PICTURES) for path in given.output]
+    files += [("--legend", given.legend, (".svg", ".pdf", ".png"))] if given.legend else []
+    files += [("--write-scene", given.write_scene, (".json",))] if given.write_scene else []
+    if not files:
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
-    if options.turntable and options.frames:
+    if given.turntable and given.frames:
         refuse("--turntable: not with --frames")
-    if options.frames and options.data == "-":
+    if given.frames and given.data == "-":
         refuse("--frames: read the file twice, which standard input cannot be")
-    if options.data != "-" and not os.access(options.data, os.R_OK):
-        refuse(f"{options.data}: is not there or cannot be read", FILES)
-    names: list[str] = []
-    for option, path, endings in (*(("-o", path, PICTURES) for path in options.output),
-                                  ("--legend", options.legend, (".svg", ".pdf", ".png")),
-                                  ("--write-scene", options.write_scene, (".json",))):
-        if path is None:
-            continue
-        if path == "-" and option == "-o":
-            if not options.format or series:
-                refuse("-o -: needs --format" if not series else "-o -: a series needs files")
-            continue
+    if given.data != "-" and not os.access(given.data, os.R_OK):
+        refuse(f"{given.data}: is not there or cannot be read", FILES)
+    if "-" in given.output and (series or not given.output_format):
+        refuse("-o -: a series needs files" if series else "-o -: needs --format")
+    files = [each for each in files if each[:2] != ("-o", "-")]
+    for option, path, endings in files:
         place = pathlib.Path(path)
         if place.suffix.lower() not in endings:
             refuse(f"{option} {path}: must end in {', '.join(endings)}")
@@ -171,10 +118,10 @@ def check(options: argparse.Namespace) -> None:
             refuse(f"{option} {path}: its folder {place.parent} is not there or cannot be written to", FILES)
         if series and option == "-o" and "#" not in place.name:
             refuse(f"-o {path}: of a series the name must have # signs, for the number")
-        if options.background == "transparent" and place.suffix.lower() in (".jpg", ".jpeg"):
+        if given.background == "transparent" and place.suffix.lower() in (".jpg", ".jpeg"):
             refuse(f"--background transparent: -o {path}: JPEG has no alpha; .png has")
-        names.append(os.path.realpath(path))
-    if len(set(names)) < len(names) or os.path.realpath(options.data) in names:
+    names = [os.path.realpath(path) for _, path, _ in files]
+    if len(set(names)) < len(names) or os.path.realpath(given.data) in names:
         refuse("an output is named twice, or is the data")
 
 
@@ -195,72 +142,67 @@ class Shown:
         return False
 
 
-def draw(options: argparse.Namespace) -> int:
-    look = Look(color=options.color, radius=options.radius, colormap=options.colormap, range=options.color_range,
-                scale=options.color_scale, categories=options.categories, nan_color=options.nan_color,
-                title=options.title, where=options.where, wrap=options.wrap, view=options.view, up=options.up,
-                projection=options.projection, size=options.size, style=options.style, floor=options.floor,
-                outlines=options.outlines, box=options.box == "lines", background=options.background,
-                colorbar=options.colorbar)
-    effort = Effort(samples=options.spp, error=options.error, seed=options.seed, exposure=options.exposure)
-    shown = Shown("none" if options.quiet else options.progress)
+def staged(given: argparse.Namespace, options: Options) -> Any:
+    """Pairs of the number of a picture, None if there is but one, and what it shows."""
+    if given.frames:
+        first, last = given.frames
+        return zip(range(first, last + 1), frames(lambda: read_frames(given.data, first, last, **options.reading), options))
+    particles = load(given.data, frame=options.frame, **options.reading)
+    if given.turntable:
+        return enumerate(turntable(particles, given.turntable, options))
+    return [(None, Staged.of(particles, options))]
 
-    numbers: list[int | None] = [None]
-    columns = {"columns": options.columns, "format": options.data_format, "drop_nonfinite": options.drop_nonfinite}
-    if options.frames:
-        first, last = options.frames
-        numbers = [*range(first, last + 1)]
-        staged = frames(lambda: read_frames(options.data, first, last, **columns), look)
-    else:
-        particles = load(options.data, frame=options.frame, **columns)
-        if options.turntable:
-            numbers = [*range(options.turntable)]
-            staged = turntable(particles, options.turntable, look)
-        else:
-            staged = iter([Staged.of(particles, look)])
+
+def draw(given: argparse.Namespace, options: Options) -> int:
     context: Context | None = None
     told: set[str] = set()
     missed = False
-    for number, each in zip(numbers, staged):
-        for note in each.drawn.notes if not options.quiet else ():
-            if note not in told:
-                print(f"pt-figure: {note}", file=sys.stderr)
-            told.add(note)
-        if options.legend and not number:
-            each.save_legend(options.legend)
-        if options.write_scene and not number:
-            each.save_scene(options.write_scene, effort)
-        if options.output:
+    for number, each in staged(given, options):
+        if not given.quiet:
+            for note in each.drawn.notes:
+                if note not in told:
+                    print(f"pt-figure: {note}", file=sys.stderr)
+            told.update(each.drawn.notes)
+        if given.legend and not number:
+            each.save_legend(given.legend)
+        if given.write_scene and not number:
+            each.save_scene(given.write_scene)
+        if given.output:
             context = context or Context(options.device)
-            figure = each.draw(effort, context, shown)
-            write(figure, number, options)
+            figure = each.draw(context)
+            write(figure, number, given)
             missed = missed or (options.error is not None and figure.error_bounds[1] > options.error)
     return TARGET_MISSED if missed else 0
 
 
-def write(figure: Figure, number: int | None, options: argparse.Namespace) -> None:
-    for path in options.output:
+def write(figure: Figure, number: int | None, given: argparse.Namespace) -> None:
+    for path in given.output:
         if path == "-":
-            sys.stdout.buffer.write(figure.encode(options.format, bits=options.png_bits))
+            sys.stdout.buffer.write(figure.encode(given.output_format, bits=given.png_bits))
             sys.stdout.buffer.flush()
         else:
-            figure.save(numbered(path, number), bits=options.png_bits)
-    if not options.quiet:
-        names = ", ".join(numbered(path, number) for path in options.output)
-        print(f"wrote {names}: {figure!r}", file=sys.stderr if "-" in options.output else sys.stdout)
+            figure.save(numbered(path, number), bits=given.png_bits)
+    if not given.quiet:
+        names = ", ".join(numbered(path, number) for path in given.output)
+        print(f"wrote {names}: {figure!r}", file=sys.stderr if "-" in given.output else sys.stdout)
 
 
 def main() -> None:
-    options = parser().parse_args(joined(sys.argv[1:]))
-    check(options)
+    given = parser().parse_args(joined(sys.argv[1:]))
     try:
-        code = draw(options)
+        options = Options(**{name: value for name, value in vars(given).items() if name in Options.__annotations__
+                             and name != "progress"}, progress=Shown("none" if given.quiet else given.progress))
+    except ValueError as error:
+        refuse(str(error))
+    check(given)
+    try:
+        code = draw(given, options)
     except KeyboardInterrupt:
         refuse("stopped; no more images are written", SIGNAL + signal.SIGINT)
     except Error as error:
         refuse(str(error), CODE_OF_RESULT.get(error.result, INTERNAL))
     except OSError as error:
-        refuse(f"{error.filename or options.data}: {error.strerror or error}", FILES)
+        refuse(f"{error.filename or given.data}: {error.strerror or error}", FILES)
     except (ValueError, TypeError) as error:
         refuse(str(error), SCENE)
     sys.exit(code)

@@ -3,64 +3,41 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import math
 import os
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any, Final
+from typing import Any, Concatenate, Final, ParamSpec
 
 import numpy as np
 import numpy.typing as npt
 
-from pt._callbacks import Progress
-from pt._camera import Camera, RenderSettings
+from pt._camera import RenderSettings
 from pt._context import Context
 from pt._display import automatic_exposure, encode_png, linear, quantised, signal
 from pt._files import Path, write_atomically
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
-from pt._scene import Material, Scene, SphereArray
-from pt.figures._accept import Columns, load
-from pt.figures._colors import Color, Coloring, Legend, colors_of, srgb
+from pt._scene import Scene, SphereArray
+from pt.figures._accept import load
+from pt.figures._colors import Legend, colors_of, srgb
 from pt.figures._compose import compose, lay_over
 from pt.figures._files import encode_exr, encode_jpeg, write_scene
 from pt.figures._layout import Balls, Layout, View
 from pt.figures._legend import raster, save
+from pt.figures._options import Options, described
 from pt.figures._overlay import Overlaid, Shares, cell_corners, cell_edges, read_shares
 from pt.figures._particles import Cell, Particles
-from pt.figures._radii import Radius, radii_of
-from pt.figures._stage import PATH_LENGTH, SURROUND_BRIGHTNESS
-from pt.figures._view import Direction
+from pt.figures._radii import radii_of
+from pt.figures._stage import SURROUND_BRIGHTNESS
 from pt.figures._where import holds
 
-SAMPLES: Final = 128
-MOST_SAMPLES: Final = 65536  # for a target error
 LEAST_LENGTH: Final = 1e-18  # which the library takes
 INK: Final = "#222222"  # of words on a bright background
 LEAST_WIDTH: Final = 16  # pixels beside a colour bar
 PICTURES: Final = (".png", ".jpg", ".jpeg", ".exr", ".npy")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Look(Coloring):
-    """How particles are shown: the options of figure() of these names."""
-
-    radius: Radius = None
-    where: str | Sequence[str] = ()
-    wrap: bool = False
-    view: Direction = "three-quarter"
-    up: Direction = "z"
-    projection: str = "perspective"
-    camera: Camera | None = None
-    size: tuple[int, int] | None = None
-    style: str = "matte"
-    material: Material | None = None
-    floor: bool = False
-    outlines: bool = False
-    box: bool = True
-    background: Any = "white"
-    colorbar: bool = False
 
 
 @dataclass(frozen=True)
@@ -85,18 +62,18 @@ class Drawn:
         return Balls(self.centers, self.radii, corners)
 
 
-def prepare(particles: Particles, look: Look, scale: float | None = None) -> Drawn:
+def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
     """Radii, ranges of colours and categories are those of all particles, also of those that are not shown."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
-    if look.wrap:
+    if options.wrap:
         if particles.cell is None:
             raise ValueError(f"wrap: {particles.name} has no cell")
         particles = particles.wrapped()
-    radii = radii_of(particles, look.radius, notes)
-    colors, legend = colors_of(particles, look, notes)
-    conditions = [look.where] if isinstance(look.where, str) else look.where
+    radii = radii_of(particles, options.radius, notes)
+    colors, legend = colors_of(particles, options, notes)
+    conditions = [options.where] if isinstance(options.where, str) else options.where
     shown: Array | None = None
     for condition in conditions:
         shown = holds(particles, condition) if shown is None else shown & holds(particles, condition)
@@ -108,7 +85,7 @@ def prepare(particles: Particles, look: Look, scale: float | None = None) -> Dra
         radii = radii[shown] if len(radii) > 1 else radii
         colors = colors[shown] if colors.ndim == 2 else colors
     _check(particles.name, radii, shown)
-    cell = particles.cell if look.box else None
+    cell = particles.cell if options.box == "lines" else None
     centers, radii, cell, scale = _in_range(positions, radii, cell, scale)
     return Drawn(centers, np.broadcast_to(radii, len(centers)) if len(radii) == 1 else radii, colors, legend, cell,
                  scale, notes)
@@ -139,38 +116,16 @@ def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | 
     return positions * np.float64(scale), np.maximum(radii * np.float64(scale), LEAST_LENGTH), cell, scale
 
 
-def view_of(drawn: Drawn, look: Look, turns: bool = False) -> View:
+def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
     """turns: as of View.of."""
-    size = look.size
-    if size is not None and look.colorbar and drawn.legend is not None:
+    size = options.size
+    if size is not None and options.colorbar and drawn.legend is not None:
         size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
         if size[0] < LEAST_WIDTH:
-            raise ValueError(f"size = {look.size}: has no room for particles beside the colour bar")
-    if look.camera is not None:
-        return View.through(look.camera, look.up, size or (1024, 768), drawn.scale)
-    return View.of(drawn.balls, look.view, look.up, look.projection, size, turns)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Effort:
-    """How a figure is rendered: the options of figure() of these names."""
-
-    samples: int | None = None
-    error: float | None = None
-    max_path_length: int = PATH_LENGTH
-    seed: int = 0
-    exposure: float | None = 0.0
-
-    def __post_init__(self) -> None:
-        if self.error is not None and not 0.0 < self.error < math.inf:
-            raise ValueError(f"error = {self.error}: must be > 0 and finite, or None to take all samples")
-        if self.samples is not None and not 0 < self.samples < 2**32:
-            raise ValueError(f"samples = {self.samples}: must be at least 1 and below 2^32")
-
-    @property
-    def most(self) -> int:
-        """Samples that a pixel gets at most."""
-        return self.samples or (SAMPLES if self.error is None else MOST_SAMPLES)
+            raise ValueError(f"size = {options.size}: has no room for particles beside the colour bar")
+    if options.camera is not None:
+        return View.through(options.camera, options.up, size or (1024, 768), drawn.scale)
+    return View.of(drawn.balls, options.view, options.up, options.projection, size, turns)
 
 
 @dataclass(frozen=True)
@@ -179,18 +134,18 @@ class Staged:
 
     drawn: Drawn
     layout: Layout
-    look: Look
+    options: Options
 
     @staticmethod
-    def of(particles: Particles, look: Look) -> Staged:
-        drawn = prepare(particles, look)
-        view = view_of(drawn, look)
-        return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), look.style, look.floor), look)
+    def of(particles: Particles, options: Options) -> Staged:
+        drawn = prepare(particles, options)
+        view = view_of(drawn, options)
+        return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), options.style, options.floor), options)
 
     @functools.cached_property
     def scene(self) -> Scene:
         stage, drawn = self.layout.stage, self.drawn
-        material = self.look.material or stage.material
+        material = self.options.material or stage.material
         colors: Array | None = drawn.colors
         if drawn.colors.ndim == 1:  # of all: a part of the material
             material = replace(material, diffuse=linear(drawn.colors / 255.0) * np.array(material.diffuse))
@@ -198,8 +153,8 @@ class Staged:
         return Scene(stage.lamps, [stage.floor] if stage.floor else [],
                      [SphereArray(drawn.centers, drawn.radii, material, color=colors)])
 
-    def save_scene(self, path: Path, effort: Effort) -> None:
-        write_scene(path, self.scene, self.layout.camera, self.layout.size, effort.max_path_length, effort.most)
+    def save_scene(self, path: Path) -> None:
+        write_scene(path, self.scene, self.layout.camera, self.layout.size, self.options)
 
     def save_legend(self, path: Path) -> None:
         suffix = pathlib.Path(path).suffix.lower()
@@ -207,18 +162,20 @@ class Staged:
             raise ValueError(f"{os.fspath(path)!r}: must end in .svg, .pdf or .png")
         write_atomically(path, lambda file: save(self.drawn.legend, file, suffix[1:]))
 
-    def draw(self, effort: Effort, context: Context, progress: Progress | None = None) -> Figure:
+    def draw(self, context: Context) -> Figure:
         camera, scene, lamps = self.layout.camera, self.scene, self.layout.stage.lamps
-        settings = RenderSettings(*self.layout.size, max_path_length=effort.max_path_length, seed=effort.seed)
-        image = context.render(scene, camera, settings, effort.most, target_error=effort.error or 0.0, progress=progress)
+        options = self.options
+        settings = RenderSettings(*self.layout.size, max_path_length=options.max_path_length, seed=options.seed)
+        image = context.render(scene, camera, settings, options.most_samples, target_error=options.error or 0.0,
+                               progress=options.progress)
         cell, radii = self.drawn.cell, self.drawn.radii
         edges = [] if cell is None else cell_edges(cell.origin, cell.vectors)
-        shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.look.outlines))
+        shares = read_shares(context, camera, settings, Overlaid(len(lamps), radii, edges, self.options.outlines))
         stage: Any = SURROUND_BRIGHTNESS if len(lamps) > 1 else 1.0
         if scene.planes:
             bare = Scene(lamps, scene.planes)
             stage = context.render(bare, camera, settings, math.ceil(image.stats.mean_sample_count)).radiance
-        return Figure(image, self, effort, stage, shares)
+        return Figure(image, self, stage, shares)
 
 
 class Figure(Image):
@@ -231,12 +188,12 @@ class Figure(Image):
     error      of the radiance, stated by the renderer, as of any Image
     """
 
-    def __init__(self, image: Image, staged: Staged, effort: Effort, stage: Any, shares: Shares) -> None:
+    def __init__(self, image: Image, staged: Staged, stage: Any, shares: Shares) -> None:
         vars(self).update(vars(image))
-        self.exposure = effort.exposure
+        self.exposure = staged.options.exposure
         self.scene, self.camera = staged.scene, staged.layout.camera
         self.legend, self.notes = staged.drawn.legend, staged.drawn.notes
-        self._staged, self._effort, self._stage, self._shares = staged, effort, stage, shares
+        self._staged, self._stage, self._shares = staged, stage, shares
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
         """The picture as bytes of sRGB, shape (height, width, 3), or 4 with a transparent background. exposure: stops by
@@ -248,21 +205,21 @@ class Figure(Image):
         """to_srgb8, or as uint16."""
         exposure = self.exposure if exposure is None else exposure
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
-        look = self._staged.look
-        background, ink = _background(look.background)
+        options = self._staged.options
+        background, ink = _background(options.background)
         light, alpha = compose(self.radiance, self._stage, self._shares, exposure)
         if background is None:
             whole = signal(light / np.maximum(alpha, 1e-9)[:, :, None])
             pixels = np.concatenate([whole, alpha[:, :, None]], axis=2)
         else:
             pixels = signal(lay_over(light, alpha, background))
-        if look.colorbar and self.legend is not None:
+        if options.colorbar and self.legend is not None:
             pixels = np.hstack([pixels, self._strip(len(pixels), background, ink)])
         return quantised(pixels, dtype)
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
         """The legend on the background, as it stands at the right of the picture."""
-        size = self._staged.look.size
+        size = self._staged.options.size
         words = raster(self.legend, height, ink)
         width = size[0] - self.shape[1] if size else _strip_width(words, height)
         words = words[:height, :width]
@@ -280,7 +237,7 @@ class Figure(Image):
         if format == "exr":
             return encode_exr(self.radiance)
         if format in ("jpg", "jpeg"):
-            if self._staged.look.background == "transparent":
+            if self._staged.options.background == "transparent":
                 raise ValueError("background = transparent: JPEG has no alpha; PNG has")
             return encode_jpeg(self.picture(np.uint8, exposure))
         if format != "png" or bits not in (8, 16):
@@ -306,7 +263,7 @@ class Figure(Image):
     def save_scene(self, path: Path) -> None:
         """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the cell
         and colour bar are no part of it; neither is the seed."""
-        self._staged.save_scene(path, self._effort)
+        self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:
         return self.encode("png")
@@ -326,68 +283,32 @@ def _strip_width(words: Doubles, height: int) -> int:
     return words.shape[1] + 2 * max(8, round(0.025 * height))
 
 
-def figure(data: Any, *, color: Color = None, radius: Radius = None, colormap: Any = None,
-           range: tuple[float, float] | None = None, scale: str = "linear", categories: bool = False,
-           nan_color: str = "#bfbfbf", title: str | None = None, where: str | Sequence[str] = (), wrap: bool = False,
-           view: Direction = "three-quarter", up: Direction = "z", projection: str = "perspective",
-           camera: Camera | None = None, size: tuple[int, int] | None = None, style: str = "matte",
-           material: Material | None = None, floor: bool = False, outlines: bool = False, box: bool = True,
-           background: Any = "white", colorbar: bool = False, frame: int | None = None, columns: Columns = None,
-           format: str | None = None, drop_nonfinite: bool = False, samples: int | None = None,
-           error: float | None = None, max_path_length: int = PATH_LENGTH, seed: int = 0, exposure: float | None = 0.0,
-           device: str | None = None, context: Context | None = None, progress: Progress | None = None) -> Figure:
-    """Renders particles: camera, light, sizes and colours follow from the data where options do not say otherwise.
+P = ParamSpec("P")
 
-    data         a file's name, an array of shape (n, 3), a dict or frame of columns, or what load() takes besides
-    frame, columns, format, drop_nonfinite   as of load()
-    where        shows particles for which this holds: "z < 5", "element != H", or several
-    wrap         brings particles that have left a periodic cell back into it
 
-    color        a column by its name, or an array of shape (n,): numbers through the colour map, or words;
-                 "|velocity|" or "|vx,vy,vz|": a magnitude; "type"; "red,green,blue": columns of sRGB; a colour for all,
-                 "#ff8000" or "orange"; {"O": "red"} of some types; an array of shape (n, 3): sRGB, floats from 0 to 1 or
-                 uint8. None: of elements those of Jmol, of types a palette, those of the data, else grey
-    colormap     of matplotlib, by its name or as an object; viridis, or coolwarm on a symmetric scale
-    range        numbers that the first and the last colour stand for. None: all there are, or 1% to 99% of them where
-                 few are far from all others; notes say which
-    scale        linear, log, or symmetric: about 0
-    categories   numbers name categories
-    nan_color    of particles without a number
-    title        of the legend, with the unit; by default the column's name
-    colorbar     the legend is at the right, in the picture
+def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], Figure]:
+    """The function of data and of the keywords that make options."""
+    def figure(data: Any, /, *args: P.args, **keywords: P.kwargs) -> Figure:
+        options = make(*args, **keywords)
+        staged = Staged.of(load(data, frame=options.frame, **options.reading), options)
+        if options.context is not None:
+            return staged.draw(options.context)
+        with Context(options.device) as context:
+            return staged.draw(context)
 
-    radius       a number in the units of the data, an array, a column, covalent or van-der-waals (of elements, in
-                 angstroms), {"O": 0.7} of all types; in text also with a factor, "0.5*diameter". None: the data's, else
-                 covalent, else half of what most neighbours are apart
+    figure.__doc__ = f"""Renders particles: camera, light, sizes and colours follow from the data where options do not say otherwise.
 
-    size         width and height, pixels. None: 1024 x 768 in all, in the shape of the data
-    view         three-quarter, front, back, left, right, top, bottom, or the direction to the camera
-    up           "z", "-y" or three numbers: what is up in the data, and in the picture
-    projection   perspective or orthographic
-    camera       takes this one, in the units of the data, in place of view and projection
-    style        matte, glossy, or ambient-occlusion: with light from all sides alone
-    material     of the particles, in place of the style's; colours multiply its diffuse
-    floor        for shadows
-    outlines     dark lines round the balls
-    box          lines of the cell, where the data have one
-    background   a colour, or transparent
-
-    samples      a pixel; default 128. With an error the most that a pixel gets, by default 65536
-    error        ends when the image's relative error is at or below it: 0.01 is 1%
-    max_path_length, seed   as of RenderSettings
-    exposure     brightens the balls, stops; None: automatic
-    device, context   as for Context; a context that is given is left with another scene and other settings
-    progress     called with the share that is done; returning True ends the samples early
+    data             a file's name, an array of shape (n, 3), a dict or frame of columns, or what load() takes besides
+{described()}
 
     ValueError: data or options that do not fit, with their name, the value and the rule.
     """
-    look = Look(color=color, radius=radius, colormap=colormap, range=range, scale=scale, categories=categories,
-                nan_color=nan_color, title=title, where=where, wrap=wrap, view=view, up=up, projection=projection,
-                camera=camera, size=size, style=style, material=material, floor=floor, outlines=outlines, box=box,
-                background=background, colorbar=colorbar)
-    effort = Effort(samples=samples, error=error, max_path_length=max_path_length, seed=seed, exposure=exposure)
-    staged = Staged.of(load(data, frame=frame, columns=columns, format=format, drop_nonfinite=drop_nonfinite), look)
-    if context is not None:
-        return staged.draw(effort, context, progress)
-    with Context(device) as own:
-        return staged.draw(effort, own, progress)
+    first = inspect.Parameter("data", inspect.Parameter.POSITIONAL_ONLY, annotation=Any)
+    keywords = inspect.signature(make)
+    vars(figure)["__signature__"] = keywords.replace(parameters=[first, *keywords.parameters.values()],
+                                                     return_annotation=Figure)
+    figure.__qualname__ = "figure"
+    return figure
+
+
+figure = _with_keywords(Options)

@@ -16,9 +16,10 @@ import numpy.typing as npt
 
 from pt._camera import Camera
 from pt._files import Path, write_atomically
-from pt._scene import Material, Scene
-from pt._scene_file import camera_section
+from pt._scene import Scene
+from pt._scene_file import camera_section, material_section
 from pt.figures._errors import module
+from pt.figures._options import Options
 
 EXR_ROWS: Final = 16  # of a block packed by zip
 
@@ -55,8 +56,7 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
     return header + places.astype("<u8").tobytes() + b"".join(blocks)
 
 
-def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int], max_path_length: int, samples: int
-                ) -> None:
+def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int], options: Options) -> None:
     """A scene file of the program pt, and beside it NPY files of its particles' columns."""
     place = pathlib.Path(path)
     if place.suffix.lower() != ".json":
@@ -73,26 +73,15 @@ def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int],
     document: dict[str, Any] = {
         "camera": camera_section(camera),
         "film": {"width": size[0], "height": size[1], "exposure": 0, "tonemap": "none"},
-        "render": {"max_path_length": max_path_length, "spp": samples},
+        "render": {"max_path_length": options.max_path_length, "spp": options.most_samples},
         "materials": {}, "spheres": [], "planes": []}
     for name, lamp in zip(("surround", "key"), scene.spheres):
-        document["materials"][name] = _material(lamp.material)
+        document["materials"][name] = material_section(lamp.material)
         document["spheres"].append({"center": list(lamp.center), "radius": lamp.radius, "material": name})
     for plane in scene.planes:
-        document["materials"]["floor"] = _material(plane.material)
+        document["materials"]["floor"] = material_section(plane.material)
         document["planes"].append({"normal": list(plane.normal), "offset": plane.offset, "material": "floor"})
-    document["materials"]["particles"] = _material(array.material)
+    document["materials"]["particles"] = material_section(array.material)
     document["spheres"].append({**item, "material": "particles"})
     text = json.dumps(document, indent=2) + "\n"
     write_atomically(place, lambda file: file.write(text.encode()))
-
-
-def _material(material: Any) -> dict[str, Any]:
-    """Without what is as by default; one number for a grey."""
-    assert isinstance(material, Material)
-    section: dict[str, Any] = {}
-    for name in ("diffuse", "specular", "emission"):
-        red, green, blue = getattr(material, name)
-        if red or green or blue:
-            section[name] = red if red == green == blue else [red, green, blue]
-    return {**section, "glossiness": material.glossiness} if material.glossiness else section

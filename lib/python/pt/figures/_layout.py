@@ -11,10 +11,10 @@ import numpy as np
 from pt._camera import Camera
 from pt._fit import SIDES, Array, Doubles, Extents, Spin, apex, pyramid, reach
 from pt._scene import Plane
+from pt.figures._options import Direction
 from pt.figures._stage import FLOOR, FLOOR_GAP, Stage, make_stage
-from pt.figures._view import Compass, Direction, relative_height, toward_camera, up_vector, view_axes
+from pt.figures._view import Compass, relative_height, toward_camera, up_vector, view_axes
 
-PROJECTIONS: Final = ("perspective", "orthographic")
 VERTICAL_FOV: Final = 20.0 * math.pi / 180.0  # narrow, as wide angles make balls at the sides look like eggs
 MARGIN: Final = 0.03  # share of the picture that stays free at each side: by taste
 PIXELS: Final = 1024.0 * 768.0
@@ -60,8 +60,6 @@ class View:
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
         """turns: all of what a turntable shows is to be seen."""
-        if projection not in PROJECTIONS:
-            raise ValueError(f"projection = {projection!r}: must be {', '.join(PROJECTIONS)}")
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Any, Final, TypeAlias
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from pt._fit import Array, Doubles, chunks
 from pt.figures import _elements as elements
+from pt.figures._options import Radius
 from pt.figures._particles import Particles
-
-Radius: TypeAlias = "float | str | Mapping[str, float] | npt.ArrayLike | None"
 
 PROBES: Final = 2000
 IN_CELL: Final = 8  # particles, where they fill their box evenly

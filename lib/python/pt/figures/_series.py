@@ -10,32 +10,32 @@ import numpy as np
 
 from pt._fit import Doubles
 from pt.figures._colors import ColorBar, Swatches
-from pt.figures._figure import Drawn, Look, Staged, prepare, view_of
+from pt.figures._figure import Drawn, Staged, prepare, view_of
 from pt.figures._layout import Layout, View
+from pt.figures._options import Options, Radius
 from pt.figures._particles import Particles
-from pt.figures._radii import Radius
 
 
-def frames(read: Callable[[], Iterator[Particles]], look: Look) -> Iterator[Staged]:
+def frames(read: Callable[[], Iterator[Particles]], options: Options) -> Iterator[Staged]:
     """Each frame. All are read twice: first for what has to fit all of them."""
-    look, view, reaches, scale = _common(read(), look)
-    layout = Layout.of(view, reaches, look.style, look.floor)
+    options, view, reaches, scale = _common(read(), options)
+    layout = Layout.of(view, reaches, options.style, options.floor)
     for particles in read():
-        yield Staged(prepare(particles, look, scale), layout, look)
+        yield Staged(prepare(particles, options, scale), layout, options)
 
 
-def _common(trajectory: Iterator[Particles], look: Look) -> tuple[Look, View, Doubles, float]:
-    """The look with what all frames share, their view, how far they reach in it, and their scale."""
+def _common(trajectory: Iterator[Particles], options: Options) -> tuple[Options, View, Doubles, float]:
+    """The options, with what all frames share, their view, how far they reach in it, and their scale."""
     view: View | None = None
     reaches: Doubles | None = None
     scale: float | None = None
     bars: list[ColorBar] = []
     names: dict[str, None] = {}
     for particles in trajectory:
-        drawn = prepare(particles, look, scale)
+        drawn = prepare(particles, options, scale)
         if view is None:
-            look = replace(look, radius=_rule(particles, drawn, look))
-            view, scale = view_of(drawn, look), drawn.scale
+            options = replace(options, radius=_rule(particles, drawn, options))
+            view, scale = view_of(drawn, options), drawn.scale
         mine = view.reaches(drawn.balls)
         reaches = mine if reaches is None else np.maximum(reaches, mine)
         if isinstance(drawn.legend, ColorBar):
@@ -45,22 +45,22 @@ def _common(trajectory: Iterator[Particles], look: Look) -> tuple[Look, View, Do
     if view is None or reaches is None or scale is None:
         raise ValueError("frames: there are none")
     if bars:
-        look = replace(look, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
-    return replace(look, names=tuple(names) or None), view, reaches, scale
+        options = replace(options, range=(min(bar.low for bar in bars), max(bar.high for bar in bars)))
+    return replace(options, categories=tuple(names) or options.categories), view, reaches, scale
 
 
-def _rule(particles: Particles, drawn: Drawn, look: Look) -> Radius:
+def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
     """Of radii, so that those of later frames do not follow from their own distances."""
-    if look.radius is not None or particles.radii is not None:
-        return look.radius
+    if options.radius is not None or particles.radii is not None:
+        return options.radius
     return float(drawn.radii[0]) / drawn.scale if drawn.radii.strides == (0,) else "covalent"
 
 
-def turntable(particles: Particles, count: int, look: Look) -> Iterator[Staged]:
+def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
     """Once round the vertical axis, from the view on; lamps go with the camera."""
-    drawn = prepare(particles, look)
-    view = view_of(drawn, look, turns=True)
-    layout = Layout.of(view, view.reaches(drawn.balls), look.style, look.floor)
+    drawn = prepare(particles, options)
+    view = view_of(drawn, options, turns=True)
+    layout = Layout.of(view, view.reaches(drawn.balls), options.style, options.floor)
     assert view.spin is not None
     for k in range(count):
-        yield Staged(drawn, layout.turned(view.spin, 2.0 * math.pi * k / count), look)
+        yield Staged(drawn, layout.turned(view.spin, 2.0 * math.pi * k / count), options)

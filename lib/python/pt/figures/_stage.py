@@ -10,8 +10,6 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-STYLES: Final = ("matte", "glossy", "ambient-occlusion")
-
 # A surface that faces the key lamp and sees all of the surround has the radiance of its albedo: the colours of a legend
 # are those of the lit sides.
 SURROUND_BRIGHTNESS: Final = 0.4375  # of few bits, so that means are the same number
@@ -21,7 +19,6 @@ KEY_AZIMUTH: Final = math.radians(-35.0)  # by eye: shapes show best, and shadow
 KEY_ELEVATION: Final = math.radians(40.0)
 FLOOR: Final = Material(diffuse=0.8)
 FLOOR_GAP: Final = 1e-4  # of the radius: a ball that touched the floor would meet it where roundings decide
-PATH_LENGTH: Final = 4
 
 
 @dataclass(frozen=True)
@@ -39,8 +36,6 @@ class Stage:
 
 def material_of(style: str) -> Material:
     """A white ball gives off no more than it receives."""
-    if style not in STYLES:
-        raise ValueError(f"style = {style!r}: must be {', '.join(STYLES)}")
     specular = 0.12 if style == "glossy" else 0.0
     return Material(diffuse=1.0 - specular, specular=specular, glossiness=60.0 if specular else 0.0)
 

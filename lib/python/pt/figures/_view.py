@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, TypeAlias
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
 from pt._fit import Doubles
-
-VIEWS: Final = ("three-quarter", "front", "back", "left", "right", "top", "bottom")
-Direction: TypeAlias = "str | Sequence[float] | npt.NDArray[Any]"
+from pt.figures._options import VIEWS, Direction
 
 # By taste the three-quarter view is so far from the front towards the right that neither an edge of a box nor its
 # diagonal is in the line of sight, and above the horizon. Flat data would hide themselves, and are seen from higher.

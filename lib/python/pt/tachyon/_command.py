@@ -12,7 +12,7 @@ import numpy as np
 
 from pt._command_line import FILES, SCENE
 from pt._scene import Material, SphereArray
-from pt._scene_file import camera_section
+from pt._scene_file import camera_section, material_section
 from pt.tachyon._reader import TachyonScene, read
 
 
@@ -52,7 +52,7 @@ def scene_file(found: TachyonScene) -> dict[str, Any]:
         spheres.append({"center": sphere.center, "radius": sphere.radius, "material": name})
     return {"camera": camera_section(found.camera),
             "film": {"width": found.settings.width, "height": found.settings.height},
-            "materials": {name: _material(each) for name, each in materials.items()},
+            "materials": {name: material_section(each) for name, each in materials.items()},
             "spheres": spheres,
             "planes": [{"normal": plane.normal, "offset": plane.offset, "material": f"texture {plane.material}"}
                        for plane in found.scene.planes]}
@@ -63,9 +63,3 @@ def _spheres_of(arrays: Any) -> Iterator[dict[str, Any]]:
         assert isinstance(array, SphereArray) and isinstance(array.material, np.ndarray)
         for center, radius, index in zip(array.center.tolist(), array.radius.tolist(), array.material.tolist()):
             yield {"center": center, "radius": radius, "material": f"texture {index}"}
-
-
-def _material(material: Material) -> dict[str, Any]:
-    keys = {"diffuse": material.diffuse, "specular": material.specular, "emission": material.emission,
-            "glossiness": material.glossiness, "hidden_from_camera": material.hidden_from_camera}
-    return {name: value for name, value in keys.items() if value not in (0.0, False, (0.0, 0.0, 0.0))}
