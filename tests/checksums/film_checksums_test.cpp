@@ -1,0 +1,166 @@
+// Films of the shipped scenes against checksums in tests/data/film_checksums.txt, which a change that is not about
+// radiance leaves as they are: on a CPU, on a CPU that is used as GPUs are, and on two devices in short submissions.
+#include "cli/scene/scene_file.h"
+#include "lib/base/digest.h"
+#include "tests/support/context_fixture.h"
+#include "tests/support/shared_context.h"
+
+#include <pt/film.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+constexpr std::uint32_t width = 27; // no multiples of a tile's
+constexpr std::uint32_t height = 20;
+constexpr std::uint32_t tile_count = 4 * 3;
+constexpr std::uint32_t most_of_tile = 13;
+
+std::string hexadecimal(std::uint64_t number) {
+    std::ostringstream text;
+    text << std::hex << number;
+    return text.str();
+}
+
+template <typename Number>
+std::string checksum_of(const std::vector<Number> &numbers) {
+    return hexadecimal(pt::checksum(std::as_bytes(std::span(numbers))));
+}
+
+// Of what follows the identity, which names the kernels: tiles, samples and sums, without the checksum behind them.
+std::string checksum_of_sums(const std::string &film) {
+    const std::size_t first = film.find("\ntile ");
+    return hexadecimal(pt::checksum(std::as_bytes(std::span(film).first(film.size() - 8).subspan(first))));
+}
+
+class FilmChecksums : public ContextFixture {
+protected:
+    static std::string film_of(pt_context *on) {
+        std::uint64_t size = 0;
+        EXPECT_EQ(pt_save_film(on, nullptr, &size), PT_OK) << pt_last_error(on);
+        std::string film(size, '\0');
+        EXPECT_EQ(pt_save_film(on, film.data(), &size), PT_OK) << pt_last_error(on);
+        return film;
+    }
+
+    static std::vector<float> image_of(pt_context *on, std::uint32_t quantity, std::uint32_t rows = height) {
+        std::vector<float> image(std::size_t{3} * width * rows);
+        const pt_image target = image_target(image, quantity);
+        EXPECT_EQ(pt_readback(on, &target), PT_OK) << pt_last_error(on);
+        return image;
+    }
+
+    static void take(pt_context *on, std::uint32_t samples, const std::vector<std::uint32_t> &by_tile = {}) {
+        pt_accumulate_info info{};
+        info.struct_size = sizeof info;
+        info.sample_count = samples;
+        info.tile_samples = by_tile.empty() ? nullptr : by_tile.data();
+        info.tile_count = static_cast<std::uint32_t>(by_tile.size());
+        ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
+    }
+
+    // Of an even film its sums, the picture and its standard errors, and the sums after tiles have taken more. Expects
+    // the same bits of rows that are rendered alone, and of a film that is saved and goes on.
+    static std::string checksums(pt_context *on, const cli::SceneFile &file, std::uint32_t sampler) {
+        const pt_scene scene = file.scene();
+        pt_render render{};
+        render.struct_size = sizeof render;
+        render.width = width;
+        render.height = height;
+        render.max_path_length = std::min(file.max_path_length.value_or(3), 4U);
+        render.sampler = sampler;
+        EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_camera(on, &file.camera), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        take(on, 5); // before, over and behind moves of the parts' split
+        take(on, 20);
+        const std::string begun = film_of(on);
+        take(on, 15);
+        const std::string whole = film_of(on);
+        const std::vector<float> image = image_of(on, PT_QUANTITY_RADIANCE);
+        std::string found = checksum_of_sums(whole) + ' ' + checksum_of(image) + ' ' +
+                            checksum_of(image_of(on, PT_QUANTITY_STANDARD_ERROR));
+        render.first_row = 5;
+        render.row_count = 9;
+        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        take(on, 40);
+        EXPECT_TRUE(
+            std::ranges::equal(image_of(on, PT_QUANTITY_RADIANCE, 9),
+                               std::span(image).subspan(std::size_t{5} * 3 * width, std::size_t{9} * 3 * width)));
+        render.first_row = render.row_count = 0;
+        EXPECT_EQ(pt_set_render(on, &render), PT_OK) << pt_last_error(on);
+        EXPECT_EQ(pt_add_film(on, begun.data(), begun.size()), PT_OK) << pt_last_error(on);
+        take(on, 15);
+        EXPECT_TRUE(film_of(on) == whole);
+        std::vector<std::uint32_t> by_tile(tile_count);
+        for (std::uint32_t tile = 0; tile < tile_count; ++tile)
+            by_tile[tile] = tile * 7 % most_of_tile;
+        take(on, most_of_tile, by_tile);
+        take(on, 30);
+        return found + ' ' + checksum_of_sums(film_of(on));
+    }
+
+    Context shared(std::uint32_t devices, std::uint32_t submit_milliseconds, bool like_gpus) {
+        return create_context([&](pt_create_info &info) { info.submit_milliseconds = submit_milliseconds; },
+                              [&](const pt_create_info *info, pt_context **context) {
+                                  return create_shared(devices, *info, context, like_gpus);
+                              });
+    }
+
+    std::string device_name() const {
+        pt_device_info info{};
+        EXPECT_EQ(pt_get_context_device(context(), &info), PT_OK);
+        return std::string(info.name) + ", " + info.driver;
+    }
+};
+
+// Lines of a device's bits: "device NAME", then those of scenes.
+std::vector<std::string> lines_of(const std::string &device) {
+    std::ifstream file(PT_TEST_DATA_DIR "/film_checksums.txt");
+    std::vector<std::string> lines;
+    bool is_of_device = false;
+    for (std::string line; std::getline(file, line);)
+        if (constexpr std::string_view start = "device "; line.starts_with(start))
+            is_of_device = line.substr(start.size()) == device;
+        else if (is_of_device)
+            lines.push_back(line);
+    return lines;
+}
+
+// A scene in one way, with one sampler, such that each way meets each sampler; in all ways with PT_TEST_MANY.
+TEST_F(FilmChecksums, AreThoseOfBefore) {
+    constexpr const char *samplers[] = {"random", "halton", "halton-cp", "sobol"};
+    std::vector<std::filesystem::path> scenes;
+    for (const auto &entry : std::filesystem::directory_iterator(PT_SCENES_DIRECTORY))
+        if (entry.path().extension() == ".json")
+            scenes.push_back(entry.path());
+    std::ranges::sort(scenes);
+    EXPECT_GE(scenes.size(), 17U);
+    const std::vector<std::string> expected = lines_of(device_name());
+    if (expected.empty())
+        GTEST_SKIP() << "no checksums of " << device_name() << ": other devices round otherwise";
+    ASSERT_EQ(expected.size(), scenes.size());
+    const Context ways[] = {shared(1, 50, false), shared(1, 50, true), shared(2, 1, false)};
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const cli::SceneFile file = cli::read_scene_file(scenes[i].string());
+        const std::string name = scenes[i].stem().string() + ' ' + samplers[i % std::size(samplers)] + ' ';
+        const auto sampler = static_cast<std::uint32_t>(PT_SAMPLER_RANDOM + i % std::size(samplers));
+        for (std::size_t way = 0; way < std::size(ways); ++way) {
+            if (way != i % std::size(ways) && !std::getenv("PT_TEST_MANY"))
+                continue;
+            EXPECT_EQ(name + checksums(ways[way].get(), file, sampler), expected[i]) << "way " << way;
+        }
+    }
+}
+
+} // namespace
