@@ -12,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 namespace {
@@ -53,8 +52,6 @@ struct LitScene {
 TEST(LampTreeImage, HasTheMeanOfOneWithoutTheTree) {
     for (const auto &[count, motion, path_length] :
          {LitScene{70, 2.0, 3}, LitScene{500, 0.0, 2}, LitScene{40, 0.0, 4}}) {
-        if (path_length > 3 && !std::getenv("PT_TEST_MANY"))
-            continue; // its kernels take ten seconds to build
         pt::Scene scene = lamp_scenes::in_a_box(count, 4, motion);
         for (pt::Sphere &lamp : scene.spheres)
             lamp.center += glm::dvec3(0, 5, 0);
