@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt._fit import chunks
+from pt._fit import chunks, coordinates
 from pt.figures._elements import elements_of, listed
 from pt.figures._errors import DataError
 
@@ -20,6 +20,8 @@ Array = npt.NDArray[Any]
 NEGLIGIBLE: Final = 1e-12  # of the largest coordinate: a hundred thousandth of what float32 can tell apart
 MANY_COLUMNS: Final = 1000
 MOST_COMPARED: Final = 2_000_000  # particles among which those in one place are looked for
+MOST_SORTED: Final = 100_000
+_ODD: Final = np.uint64(0x9E3779B97F4A7C15)  # 2^64 over the golden ratio: Knuth's multiplicative hash
 
 # Columns of positions, best first: a letter, with a stem before or after it, or a stem with a number.
 _STEMS: Final = ("", "pos", "position", "positions", "point", "points", "coord", "coords", "coordinate", "coordinates",
@@ -265,15 +267,14 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 
 def _flushed(positions: Array) -> Array:
     """With 0 for what is negligible beside the largest coordinate: rounding leaves numbers like 3e-19."""
-    largest = max((float(np.nanmax(np.abs(column), where=np.isfinite(column), initial=0)) for column in positions.T))
-    result = positions
-    for axis, column in enumerate(positions.T):
-        small = (np.abs(column) < NEGLIGIBLE * largest) & (column != 0)
-        if small.any():
-            if result is positions:
-                result = positions.copy()  # it may be the user's own
-            result[small, axis] = 0
-    return result
+    least, largest = np.inf, 0.0
+    for rows in chunks(len(positions)):
+        sizes = np.abs(positions[rows])
+        largest = max(largest, float(sizes.max(where=np.isfinite(sizes), initial=0)))
+        least = min(least, float(sizes.min(where=sizes > 0, initial=np.inf)))
+    if least >= NEGLIGIBLE * largest:
+        return positions
+    return np.where(np.abs(positions) < NEGLIGIBLE * largest, 0, positions)  # it may be the user's own
 
 
 def _finite(particles: Particles, drop: bool) -> Particles:
@@ -300,13 +301,21 @@ def _finite(particles: Particles, drop: bool) -> Particles:
 
 
 def _note_coinciding(particles: Particles) -> None:
-    """Counts particles in the place of another one, by a random projection in which others do not fall together."""
-    if len(particles) <= MOST_COMPARED:
-        places = particles.positions @ np.array((0.6180339887498949, 0.7548776662466927, 0.8191725133961645))
-        places.sort()
-        count = int((places[1:] == places[:-1]).sum())
-        if count:
-            particles.notes.append(f"{count:,} of {len(particles):,} particles lie exactly where another one does")
+    """Counts particles in the place of another one, by a projection in which others do not fall together; of many
+    particles among those alone whose projections have a hash that begins with zeros."""
+    count, bits = len(particles), (len(particles) // MOST_SORTED).bit_length()
+    if count > MOST_COMPARED:
+        return
+    found = []
+    for rows in chunks(count):
+        x, y, z = coordinates(particles.positions[rows])
+        places = 0.6180339887498949 * x + 0.7548776662466927 * y + 0.8191725133961645 * z
+        found.append(places[places.view(np.uint64) * _ODD < np.uint64(2**(64 - bits) - 1)] if bits else places)
+    places = np.sort(np.concatenate(found))
+    coinciding = int((places[1:] == places[:-1]).sum()) << bits
+    if coinciding:
+        particles.notes.append(f"{'about ' if bits else ''}{coinciding:,} of {count:,} particles lie exactly where another one "
+                               "does")
 
 
 def _put_radii(particles: Particles, chosen: dict[str, str]) -> None:

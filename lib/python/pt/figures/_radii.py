@@ -9,16 +9,16 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from pt._fit import Array, Doubles, chunks
+from pt._fit import Array, Doubles, chunks, coordinates
 from pt.figures import _elements as elements
 from pt.figures._options import Radius
 from pt.figures._particles import Particles
 
-PROBES: Final = 2000
+PROBES: Final = 1000
 IN_CELL: Final = 8  # particles, where they fill their box evenly
 MOST_PAIRS: Final = 4_000_000
 TABLE_BITS: Final = 22
-STEPS: Final = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
+STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def column(particles: Particles, name: str) -> Array:
@@ -141,17 +141,16 @@ def typical_radius(positions: Array) -> float:
     return 0.5 * median
 
 
-def _neighbour_distances(positions: Array) -> tuple[Doubles, Doubles]:
+def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
     """Of some particles the distances to the nearest and to the fourth neighbour, where these are in the cells of a
     grid next to theirs."""
     count = len(positions)
-    low, high = positions.min(axis=0).astype(np.float64), positions.max(axis=0).astype(np.float64)
+    low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
     broad = extent > 1e-6 * extent.max()
     if not broad.any():
         return np.zeros(0), np.zeros(0)
-    probes = np.arange(0, count, -(-count // PROBES))
-    places = positions[probes].astype(np.float64)
+    places = positions[::-(-count // PROBES)].astype(np.float64)
     side = float(np.prod(extent[broad]) * IN_CELL / count) ** (1.0 / int(broad.sum()))
     if count <= 27 * IN_CELL:
         side = 2.0 * float(extent.max())  # all are neighbours
@@ -163,47 +162,45 @@ def _neighbour_distances(positions: Array) -> tuple[Doubles, Doubles]:
             break
         side *= max((27 * IN_CELL / crowd) ** (1 / 3), 0.05)
     near, begin, end = _near(positions, places, low, side)
-    fewer = np.cumsum((end - begin).sum(axis=1)) <= MOST_PAIRS
-    fewer[0] = True
-    begin, lengths = begin[fewer].ravel(), (end - begin)[fewer].ravel()
-    within = np.arange(lengths.sum()) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-    others = near[np.repeat(begin, lengths) + within]
-    which = np.repeat(np.repeat(np.arange(int(fewer.sum())), 27), lengths)
-    distances = np.linalg.norm(positions[others].astype(np.float64) - places[which], axis=1)
-    apart = (distances > 0.0) & (distances <= side)  # farther ones may have nearer rivals outside of these cells
-    which, distances = which[apart], distances[apart]
-    order = np.lexsort((distances, which))
-    which, distances = which[order], distances[order]
-    rank = np.arange(len(which)) - np.searchsorted(which, which)
-    return distances[rank == 0], distances[rank == 3]
+    found: list[Array] = []
+    pairs = 0
+    for place, *cells in zip(places, begin.tolist(), end.tolist()):
+        others = np.concatenate([near[first:last] for first, last in zip(*cells) if first < last])
+        distances = np.linalg.norm(others - place, axis=1)
+        # Those farther away than the side may have nearer rivals outside of these cells.
+        found.append(np.sort(distances[(distances > 0.0) & (distances <= side)]))
+        pairs += len(others)
+        if pairs > MOST_PAIRS:
+            break
+    return np.array([each[0] for each in found if len(each)]), np.array([each[3] for each in found if len(each) > 3])
 
 
-def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Array, Array, Array]:
-    """The particles in the cells of some places and beside them, ordered by cell; where each of a place's 27 cells
+def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple[Doubles, Array, Array]:
+    """The positions in the cells of some places and beside them, ordered by cell; where each of a place's 27 cells
     begins in that order and where it ends."""
-    cells = np.floor((places - low) / side).astype(np.int64)
-    keys = _keys((cells[:, None] + STEPS).reshape(-1, 3)).reshape(-1, len(STEPS))
-    near = _particles_in(positions, low, side, keys)
-    hashes = _keys(np.floor((positions[near] - low) / side).astype(np.int64))
-    order = np.argsort(hashes, kind="stable")
-    begin, end = np.searchsorted(hashes[order], keys, "left"), np.searchsorted(hashes[order], keys, "right")
-    return near[order], begin, end
-
-
-def _particles_in(positions: Array, low: Doubles, side: float, keys: Array) -> Array:
-    """Indices of the particles whose cells have one of the keys."""
+    keys = _keys(_cells(places, low, side)[:, :, None] + STEPS)
     wanted = np.zeros(1 << TABLE_BITS, bool)
-    wanted[keys.ravel()] = True
-    found = []
+    wanted[keys] = True
+    near, hashes = [], []
     for rows in chunks(len(positions)):
-        cells = np.floor((positions[rows] - low) / side).astype(np.int64)
-        found.append(rows.start + np.flatnonzero(wanted[_keys(cells)]))
-    return np.concatenate(found)
+        each = _keys(_cells(positions[rows], low, side))
+        chosen = np.flatnonzero(wanted[each])
+        near.append(positions[rows][chosen])
+        hashes.append(each[chosen])
+    ordered = np.concatenate(hashes)
+    order = np.argsort(ordered, kind="stable")
+    begin, end = (np.searchsorted(ordered[order], keys, way) for way in ("left", "right"))
+    return np.concatenate(near)[order].astype(np.float64), begin, end
+
+
+def _cells(positions: Array, low: Doubles, side: float) -> Array:
+    """Shape (3, n)."""
+    return np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
 
 
 def _keys(cells: Array) -> Array:
     """Of cells of a grid: Teschner et al. 2003, "Optimized Spatial Hashing for Collision Detection of Deformable
     Objects". Cells that share a key by chance cost time and change nothing, as distances decide."""
-    hashed = cells[:, 0] * 73856093 ^ cells[:, 1] * 19349663 ^ cells[:, 2] * 83492791
+    hashed = cells[0] * 73856093 ^ cells[1] * 19349663 ^ cells[2] * 83492791
     keys: Array = (hashed ^ hashed >> TABLE_BITS) & (1 << TABLE_BITS) - 1
     return keys

@@ -182,12 +182,11 @@ def _after_lines(data: bytes, start: int, end: int, most: int) -> tuple[int, int
     count = 0
     while count < most and start < end:
         stop = min(end, start + 64 * (most - count))  # so that short frames look at little
-        found = data.count(b"\n", start, stop)
+        is_end = np.frombuffer(data, np.uint8, stop - start, start) == 10
+        found = int(np.count_nonzero(is_end))  # several times as fast as bytes.count where lines are short
         if count + found >= most:
-            ends = np.flatnonzero(np.frombuffer(data, np.uint8, stop - start, start) == 10)
-            return start + int(ends[most - count - 1]) + 1, most
-        count += found
-        start = stop
+            return start + int(np.flatnonzero(is_end)[most - count - 1]) + 1, most
+        count, start = count + found, stop
     return start, count
 
 
