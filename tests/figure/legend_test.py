@@ -12,12 +12,14 @@ from pt.figures._colors import ColorBar, Swatches
 
 try:
     import matplotlib
+    from matplotlib.colors import LogNorm, Normalize
 except ImportError:
     print("matplotlib is not installed")
     sys.exit(77)
 
-TABLE = matplotlib.colormaps["viridis"](np.arange(256), bytes=True)[:, :3]
-BAR = ColorBar("energy (eV)", TABLE, -1.0, 2.5, False, None)
+VIRIDIS = matplotlib.colormaps["viridis"]
+TABLE = np.floor(255 * VIRIDIS(np.arange(256))[:, :3] + 0.5).astype(int)  # as it is drawn
+BAR = ColorBar("energy (eV)", -1.0, 2.5, Normalize(-1.0, 2.5), VIRIDIS, None)
 NAMES = Swatches("type", ("a<b>&c", "$x", "Zn"), np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]], np.uint8))
 
 
@@ -30,7 +32,7 @@ def saved(legend, format="svg"):
 class Files(unittest.TestCase):
     def test_formats_and_words(self):
         for legend, words in ((BAR, ["energy (eV)", "0", "2"]), (NAMES, ["type", "Zn"]),
-                              (ColorBar("m", TABLE, 1e-3, 1e6, True, (9, 9, 9)), ["no value", "m"])):
+                              (ColorBar("m", 1e-3, 1e6, LogNorm(1e-3, 1e6), VIRIDIS, (9, 9, 9)), ["no value", "m"])):
             with matplotlib.rc_context({"svg.fonttype": "none"}):
                 drawn = "".join(xml.etree.ElementTree.fromstring(saved(legend)).itertext())
             for word in words:

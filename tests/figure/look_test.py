@@ -45,14 +45,13 @@ class Numbers(unittest.TestCase):
                 expected = matplotlib.colormaps[colormap](shares, bytes=True)[:, :3]
                 # Where the share falls on the border of two colours, roundings decide.
                 differ = (rgb != expected).any(axis=1)
-                border = np.abs(shares * len(legend.table) - np.round(shares * len(legend.table))) < 1e-9
+                border = np.abs(shares * legend.colormap.N - np.round(shares * legend.colormap.N)) < 1e-9
                 self.assertFalse((differ & ~border).any(), (colormap, options))
                 self.assertEqual((legend.low, legend.high), (norm.vmin, norm.vmax))
 
     def test_default_maps(self):
         for scale, name in (("linear", "viridis"), ("symmetric", "coolwarm")):
-            table = matplotlib.colormaps[name](np.arange(256), bytes=True)[:, :3]
-            np.testing.assert_array_equal(colored("v", scale=scale)[1].table, table)
+            self.assertEqual(colored("v", scale=scale)[1].colormap, matplotlib.colormaps[name])
 
     def test_what_is_no_number_has_a_color_of_its_own(self):
         values = VALUES.copy()
@@ -72,7 +71,9 @@ class Numbers(unittest.TestCase):
         np.testing.assert_allclose((legend.low, legend.high), np.quantile(skewed, (0.01, 0.99)))
         self.assertIn("1% to 99% of all, which go from", notes)
         self.assertEqual(colored("v")[1].high, VALUES.max())
-        self.assertEqual(colored(np.full(COUNT, 3.0))[1].high, 3.0)
+        rgb, legend, _ = colored(np.full(COUNT, 3.0))
+        self.assertEqual((legend.low, legend.high), (3.0, 3.0))
+        np.testing.assert_array_equal(rgb[0], legend.colormap(128, bytes=True)[:3])  # of the middle
         self.assertLess(colored(skewed, scale="symmetric")[1].high, 6)
 
     def test_magnitudes(self):

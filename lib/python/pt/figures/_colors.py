@@ -14,10 +14,11 @@ import numpy.typing as npt
 
 from pt._fit import Array, chunks
 from pt.figures import _elements as elements
+from pt.figures._elements import categories
 from pt.figures._errors import module
 from pt.figures._options import Options
 from pt.figures._particles import Particles
-from pt.figures._radii import categories, column
+from pt.figures._radii import column
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
@@ -33,17 +34,17 @@ SKEW: Final = 4.0  # all over 1% to 99% of the numbers; 1 of uniform numbers, 2 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """Numbers as colours.
+    """Numbers as colours, by matplotlib.
 
-    table      shape (k, 3), sRGB: from low to high in even steps, of logarithms on a log scale
-    no_value   colour of what is no number, if there is any
+    low, high   numbers of the first and the last colour; where they are equal the norm is wider, and they are in its middle
+    no_value    colour of what is no number, if there is any
     """
 
     title: str
-    table: Bytes
     low: float
     high: float
-    log: bool
+    norm: Any
+    colormap: Any
     no_value: RGB | None
 
 
@@ -128,35 +129,33 @@ def _components(particles: Particles, name: str) -> list[str]:
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """sRGB from 0 to 1 of floats, from 0 to the largest of integers."""
+    """sRGB from 0 to 1 of floats, from 0 to the largest of unsigned integers, and to 255 of others."""
     array = np.asarray(colors)
-    if array.dtype.kind not in "fu" and not (array.dtype.kind == "i" and array.size and 0 <= array.min() and
-                                             array.max() <= 255):
+    if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
+        array = array.astype(np.uint8)
+    if array.dtype.kind not in "fu":
         raise TypeError(f"colors.dtype = {array.dtype}: must be floats from 0 to 1, uint8 or uint16, sRGB")
-    if array.shape[-1] == 4:
-        opaque = 1.0 if array.dtype.kind == "f" else np.iinfo(array.dtype).max
-        if (array[..., 3] < opaque).any():
-            notes.append("alpha is not drawn: balls are opaque")
-        array = array[..., :3]
-    if array.dtype.kind == "f":
-        result = np.empty(array.shape, np.uint8)
-        flat, out = array.reshape(-1, 3), result.reshape(-1, 3)
-        least, largest = 0.0, 1.0
-        for rows in chunks(len(flat)):
-            least, largest = min(least, float(flat[rows].min())), max(largest, float(flat[rows].max()))
-            out[rows] = np.floor(255.0 * np.clip(np.nan_to_num(flat[rows]), 0.0, 1.0) + 0.5)
-        if least < -1e-3 or largest > 1.001:
-            notes.append(f"colours from {least:.3g} to {largest:.3g} are clipped to 0 to 1")
-        return result
-    return array if array.dtype == np.uint8 else (array >> 8).astype(np.uint8) if array.dtype == np.uint16 else (
-        array.astype(np.uint8))
+    most = 1.0 if array.dtype.kind == "f" else np.iinfo(array.dtype).max
+    if array.shape[-1] == 4 and (array[..., 3] < most).any():
+        notes.append("alpha is not drawn: balls are opaque")
+    array = array[..., :3]
+    if array.dtype == np.uint8:
+        return array
+    result = np.empty(array.shape, np.uint8)
+    least, largest = 0.0, 1.0
+    for rows in chunks(len(array)):
+        shares = np.nan_to_num(array[rows] / most)
+        least, largest = min(least, float(shares.min())), max(largest, float(shares.max()))
+        result[rows] = np.floor(255.0 * np.clip(shares, 0.0, 1.0) + 0.5)
+    if least < -1e-3 or largest > 1.001:
+        notes.append(f"colours from {least:.3g} to {largest:.3g} are clipped to 0 to 1")
+    return result
 
 
 def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
     if given.categories or values.dtype.kind in "USOb":
         names, codes = categories(values)
-        numbers = values.dtype.kind in "iu"
-        return _of_categories(title, names, codes, given, {}, numbers)
+        return _of_categories(title, names, codes, given, {}, values.dtype.kind in "iu", [])
     if values.dtype.kind not in "fiu":
         raise TypeError(f"color has {values.dtype}: must be numbers or words")
     return _of_numbers(values, title, given, notes)
@@ -164,28 +163,23 @@ def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> t
 
 def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
     """Elements have their colours, other types those of the palette."""
-    numbers = particles.elements
-    if numbers is None:
-        labels = column(particles, "type")
-        names, codes = categories(labels)
-        return _of_categories(given.title or "type", names, codes, given, _own(own), labels.dtype.kind in "iuf")
-    there = np.flatnonzero(np.bincount(numbers))
-    names = [elements.SYMBOLS[number] for number in there]
-    places = np.zeros(256, np.intp)
-    places[there] = np.arange(len(there))
-    known: dict[str, RGB] = {name: tuple(color.tolist()) for name, color in zip(names, elements.COLORS[there], strict=True)}
-    return _of_categories(given.title or "element", names, places[numbers], given, {**known, **_own(own)}, False)
+    known: dict[str, RGB] = {}
+    kind, labels = ("type", column(particles, "type")) if particles.elements is None else ("element", particles.elements)
+    names, codes = categories(labels)
+    if kind == "element":
+        numbers = [int(name) for name in names]
+        names = [elements.SYMBOLS[number] for number in numbers]
+        known = {name: tuple(elements.COLORS[number].tolist()) for name, number in zip(names, numbers)}
+    known.update((str(name), srgb(f"color of {name}", color)) for name, color in own.items())
+    return _of_categories(given.title or kind, names, codes, given, known, labels.dtype.kind in "if", list(own))
 
 
-def _own(colors: Mapping[str, str]) -> dict[str, RGB]:
-    return {str(name): srgb(f"color of {name}", color) for name, color in colors.items()}
-
-
-def _of_categories(title: str, names: list[str], codes: Array, given: Options,
-                   own: Mapping[str, RGB], numbered: bool) -> tuple[Bytes, Legend]:
-    """numbered: names are numbers, mostly from 1: then the number says the colour, so that files agree."""
+def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool,
+                   wanted: list[str]) -> tuple[Bytes, Legend]:
+    """numbered: names are numbers, mostly from 1: then the number says the colour, so that files agree. wanted: must be
+    among the names."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
-    for option, each in (("color", own), ("categories", names)):
+    for option, each in (("color", wanted), ("categories", names)):
         missing = [name for name in each if name not in order]
         if missing:
             told = "is none of the types," if option == "color" else "is in the data, and not among"
@@ -196,7 +190,7 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options,
     if numbered and all(name.isdigit() and 1 <= int(name) <= 64 for name in order):
         places = [int(name) - 1 for name in names]
     palette = distinct_colors(max(places, default=0) + 1)
-    table = np.array([own.get(name, palette[place]) for name, place in zip(names, places, strict=True)], np.uint8)
+    table = np.array([known.get(name, palette[place]) for name, place in zip(names, places, strict=True)], np.uint8)
     return table.reshape(-1, 3)[codes], Swatches(title, tuple(names), table)
 
 
@@ -213,47 +207,41 @@ def distinct_colors(count: int) -> list[RGB]:
     return colors[:count]
 
 
-def color_table(colormap: Any) -> Bytes:
-    """The colours of a map of matplotlib's, by its name or as an object: shape (k, 3)."""
-    if isinstance(colormap, str):
-        colormaps = module("matplotlib", "a colour map").colormaps
-        if colormap not in colormaps:
-            near = difflib.get_close_matches(colormap, list(colormaps), 3)
-            raise ValueError(f"colormap = {colormap!r}: must be one of matplotlib's, like "
-                             f"{', '.join(near or ['viridis', 'magma', 'cividis', 'coolwarm', 'viridis_r'])}")
-        colormap = colormaps[colormap]
-    table: Bytes = colormap(np.arange(colormap.N), bytes=True)[:, :3]
-    return table
+def _colormap(colormap: Any) -> Any:
+    """Of matplotlib, by its name or as an object."""
+    if not isinstance(colormap, str):
+        return colormap
+    colormaps = module("matplotlib", "a colour map").colormaps
+    if colormap not in colormaps:
+        near = difflib.get_close_matches(colormap, list(colormaps), 3)
+        raise ValueError(f"colormap = {colormap!r}: must be one of matplotlib's, like "
+                         f"{', '.join(near or ['viridis', 'magma', 'cividis', 'coolwarm', 'viridis_r'])}")
+    return colormaps[colormap]
 
 
 def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    table = color_table(given.colormap or ("coolwarm" if given.scale == "symmetric" else "viridis"))
+    colormap = _colormap(given.colormap or ("coolwarm" if given.scale == "symmetric" else "viridis"))
     log = given.scale == "log"
     low, high = given.range or _range(values, given, title, notes)
     if not (math.isfinite(low) and math.isfinite(high) and low <= high and (not log or low > 0.0)):
         raise ValueError(f"color range = {low:g}, {high:g}: must be two numbers, the second larger"
                          f"{', and above 0 on a log scale' if log else ''}")
-    no_value = np.array(srgb("nan_color", given.nan_color), np.uint8)
+    wider = 0.5 * (abs(low) or 1.0) if low == high else 0.0
+    norms = module("matplotlib.colors", "a colour map")
+    norm = (norms.LogNorm if log else norms.Normalize)(low - wider, high + wider)
+    no_value = srgb("nan_color", given.nan_color)
     colors = np.empty((len(values), 3), np.uint8)
     nowhere = 0
-    start, length = (math.log(low), math.log(high / low)) if log else (low, high - low)
     for rows in chunks(len(values)):
         numbers = values[rows].astype(np.float64)
-        if log:
-            with np.errstate(divide="ignore", invalid="ignore"):
-                numbers = np.where(numbers > 0.0, np.log(numbers), np.nan)
-        valid = ~np.isnan(numbers)
-        shares = (numbers - start) / length if length > 0.0 else np.full(len(numbers), 0.5)
-        shares[~valid] = 0.0
-        # As matplotlib does: the last colour is that of 1 too.
-        colors[rows] = table[np.clip(shares * len(table), 0, len(table) - 1).astype(np.intp)]
-        if not valid.all():
-            colors[rows][~valid] = no_value
-            nowhere += int((~valid).sum())
+        bad = ~(numbers > 0.0) if log else np.isnan(numbers)
+        colors[rows] = colormap(norm(numbers), bytes=True)[:, :3]
+        colors[rows][bad] = no_value
+        nowhere += int(np.count_nonzero(bad))
     if nowhere:
         notes.append(f"{nowhere} particles have no {title or 'value'}{' above 0' if log else ''}: they are "
                      f"{given.nan_color}")
-    return colors, ColorBar(title, table, low, high, log, tuple(no_value.tolist()) if nowhere else None)
+    return colors, ColorBar(title, low, high, norm, colormap, no_value if nowhere else None)
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:

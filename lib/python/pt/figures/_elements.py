@@ -68,6 +68,14 @@ def distinct(labels: Array) -> tuple[Array, Array]:
     return np.array(values, labels.dtype), codes
 
 
+def categories(labels: Array) -> tuple[list[str], Array]:
+    """The different labels in ascending order, as text, and of each particle which it is."""
+    values, codes = distinct(labels)
+    order = np.argsort(values)
+    names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
+    return names, np.argsort(order)[codes]
+
+
 def _letters(label: str) -> str:
     """Without digits, charges and what follows them: Fe of Fe2+, H of 1HB2, C of C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)

@@ -41,14 +41,8 @@ def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
 
 
 def _draw_bar(sheet: Any, bar: ColorBar, height: float, font: float, ink: Any) -> None:
-    colors = _matplotlib("colors")
-    low, high = bar.low, bar.high
-    if low == high:
-        low, high = low - (abs(low) or 1.0) * 0.5, high + (abs(high) or 1.0) * 0.5
-    norm = colors.LogNorm(max(low, bar.low / 2.0), high) if bar.log else colors.Normalize(low, high)
     axes = sheet.add_axes((0.0, 0.0, 1.6 * font / POINTS_PER_INCH / 3.0, 1.0))
-    shades = _matplotlib("cm").ScalarMappable(norm, colors.ListedColormap(bar.table / 255.0))
-    sheet.colorbar(shades, cax=axes, label=bar.title)
+    sheet.colorbar(_matplotlib("cm").ScalarMappable(bar.norm, bar.colormap), cax=axes, label=bar.title)
     if bar.no_value:
         patch = _matplotlib("patches").Patch(facecolor=np.array(bar.no_value) / 255.0, edgecolor=ink, label="no value")
         sheet.legend(handles=[patch], loc="upper left", bbox_to_anchor=(0.0, -0.5 * font / POINTS_PER_INCH / height),

@@ -78,9 +78,9 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
         shares.particles[first:end] = _share(is_particle[wanted])
         if len(lines[0]):
             covered = np.zeros(objects.shape, bool)
-            begin, stop = np.searchsorted(lines[0], (top * PER_SIDE, bottom * PER_SIDE))
-            rows, columns, ways = (each[begin:stop] for each in lines)
-            rows = rows - top * PER_SIDE
+            here = (lines[0] >= top * PER_SIDE) & (lines[0] < bottom * PER_SIDE)
+            rows, columns, ways = (each[here] for each in lines)
+            rows -= top * PER_SIDE
             shown = ways * (1.0 - ROUNDING) <= depths[rows, columns]
             covered[rows[shown], columns[shown]] = True
             shares.lines[first:end] = _share(covered[wanted])
@@ -115,54 +115,39 @@ def _pixels_per_length(camera: Camera, height: int, depths: Array) -> Array:
     return scale
 
 
-def _project(camera: Camera, size: tuple[int, int], point: Doubles) -> tuple[float, float, float]:
-    """Column and row in hits, and depth along the view."""
-    right, above, back = camera.axes()
-    way = point - np.asarray(camera.position)
-    depth = float(-(way @ back))
-    scale = float(_pixels_per_length(camera, size[1], np.array([depth]))[0]) * PER_SIDE
-    return (0.5 * size[0] * PER_SIDE + scale * float(way @ right), 0.5 * size[1] * PER_SIDE - scale * float(way @ above),
-            depth)
-
-
 def _line_hits(camera: Camera, size: tuple[int, int], segments: Sequence[tuple[Doubles, Doubles]], radius: float
                ) -> tuple[Array, Array, Array]:
-    """Rows and columns of the hits that lines pass nearer than radius, ordered by row, and the lines' depths there."""
-    parts = [_segment_hits(_project(camera, size, begin), _project(camera, size, end), size, radius, camera)
-             for begin, end in segments]
-    if not parts:
-        return np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0)
-    rows, columns, depths = (np.concatenate(each) for each in zip(*parts, strict=True))
-    order = np.argsort(rows, kind="stable")
-    return rows[order], columns[order], depths[order]
-
-
-def _segment_hits(begin: tuple[float, float, float], end: tuple[float, float, float], size: tuple[int, int],
-                  radius: float, camera: Camera) -> tuple[Array, Array, Array]:
-    (x, y, depth), dx, dy = begin, end[0] - begin[0], end[1] - begin[1]
-    first, last = np.clip((math.floor(min(y, end[1]) - radius), math.ceil(max(y, end[1]) + radius)), 0,
-                          size[1] * PER_SIDE - 1).astype(int)
-    rows = np.arange(first, last + 1)
-    # The strip of that width cuts a row in a range that is no longer than the row's height and the radius make it.
-    low, high = np.full(len(rows), min(x, end[0]) - radius), np.full(len(rows), max(x, end[0]) + radius)
-    if abs(dy) > 1e-9:
-        middle = x + dx * (rows + 0.5 - y) / dy
-        wide = radius * math.hypot(dx, dy) / abs(dy) + radius
-        low, high = np.maximum(low, middle - wide), np.minimum(high, middle + wide)
-    starts = np.clip(np.floor(low), 0, size[0] * PER_SIDE).astype(int)
-    counts = np.maximum(np.clip(np.ceil(high) + 1, 0, size[0] * PER_SIDE).astype(int) - starts, 0)
-    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-    columns, rows = np.repeat(starts, counts) + within, np.repeat(rows, counts)
-    square = dx * dx + dy * dy
-    across, down = columns + 0.5 - x, rows + 0.5 - y
-    share = np.clip((across * dx + down * dy) / square, 0.0, 1.0) if square > 0.0 else np.zeros(len(rows))
-    near = np.hypot(share * dx - across, share * dy - down) <= radius
-    rows, columns, share = rows[near], columns[near], share[near]
-    # Along a straight line of the picture the inverse of the depth is linear in a perspective (Blinn 1992, "Hyperbolic
-    # interpolation"), and the depth itself with parallel rays.
-    if camera.vertical_extent is None:
-        return rows, columns, 1.0 / (1.0 / depth + share * (1.0 / end[2] - 1.0 / depth))
-    return rows, columns, depth + share * (end[2] - depth)
+    """Rows and columns of the hits that lines pass nearer than radius, and the lines' depths there."""
+    axes = np.array(camera.axes())
+    limits = np.array(size) * PER_SIDE
+    wide = np.arange(2 * math.ceil(1.5 * radius) + 1) - math.ceil(1.5 * radius)  # at 45 degrees, sqrt(2) of the radius
+    power = -1.0 if camera.vertical_extent is None else 1.0
+    found = [np.zeros((3, 0))]
+    for segment in segments:
+        seen = (np.array(segment) - camera.position) @ axes.T * (1, 1, -1)  # to the right, up, and depth
+        seen = seen[np.argsort(seen[:, 2])]
+        if seen[1, 2] <= 0.0:
+            continue  # behind the camera
+        hidden = max(0.0, (1e-6 * seen[1, 2] - seen[0, 2]) / (seen[1, 2] - seen[0, 2] or 1.0))
+        seen[0] += hidden * (seen[1] - seen[0])
+        scale = _pixels_per_length(camera, size[1], seen[:, 2])[:, None] * PER_SIDE
+        begin, end = 0.5 * limits + scale * seen[:, :2] * (1, -1)
+        way = end - begin
+        steep = int(abs(way[1]) > abs(way[0]))  # then it is gone through by rows, and by columns else
+        first, last = np.clip(np.sort((begin[steep], end[steep])) + (-radius, radius), 0, limits[steep]).astype(int)
+        along = np.arange(first, last)
+        across = begin[1 - steep] + (along + 0.5 - begin[steep]) * way[1 - steep] / (way[steep] or 1.0)
+        hits = np.stack(np.broadcast_arrays(along[:, None], np.floor(across)[:, None] + wide))[[steep, 1 - steep]]
+        offset = hits + 0.5 - begin[:, None, None]
+        share = np.clip(np.tensordot(way, offset, 1) / (way @ way or 1.0), 0.0, 1.0)
+        near = np.hypot(*(share * way[:, None, None] - offset)) <= radius
+        near &= ((hits >= 0) & (hits < limits[:, None, None])).all(axis=0)
+        # Along a straight line of the picture the inverse of the depth is linear in a perspective (Blinn 1992, "Hyperbolic
+        # interpolation"), and the depth itself with parallel rays.
+        nearest, farthest = seen[:, 2]**power
+        found.append(np.stack([hits[1][near], hits[0][near], (nearest + share[near] * (farthest - nearest))**power]))
+    rows, columns, depths = np.concatenate(found, axis=1)
+    return rows.astype(np.intp), columns.astype(np.intp), depths
 
 
 def _outlines(objects: Array, depths: Array, is_particle: Array, overlaid: Overlaid, pixels: Array, width: float

@@ -110,21 +110,12 @@ def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str
 
 
 def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
-    names, codes = categories(column(particles, "type" if particles.elements is None else "element"))
+    names, codes = elements.categories(column(particles, "type" if particles.elements is None else "element"))
     missing = [name for name in names if name not in radii]
     if missing:
         raise ValueError(f"radius: the type {missing[0]} is none of those with a radius, {', '.join(radii)}")
     each: Array = np.array([radii[name] for name in names], np.float32)[codes]
     return each
-
-
-def categories(labels: Any) -> tuple[list[str], Array]:
-    """The different labels in ascending order, as text, and of each row which it is."""
-    array = np.asarray(labels)
-    if array.dtype.kind == "O":
-        array = array.astype(str)
-    names, codes = np.unique(array, return_inverse=True)
-    return [f"{name:.9g}" if array.dtype.kind == "f" else str(name) for name in names], codes.reshape(-1)
 
 
 def typical_radius(positions: Array) -> float:
@@ -189,13 +180,14 @@ def _near(positions: Array, places: Doubles, low: Doubles, side: float) -> tuple
         hashes.append(each[chosen])
     ordered = np.concatenate(hashes)
     order = np.argsort(ordered, kind="stable")
-    begin, end = (np.searchsorted(ordered[order], keys, way) for way in ("left", "right"))
+    begin, end = np.searchsorted(ordered[order], keys, "left"), np.searchsorted(ordered[order], keys, "right")
     return np.concatenate(near)[order].astype(np.float64), begin, end
 
 
 def _cells(positions: Array, low: Doubles, side: float) -> Array:
     """Shape (3, n)."""
-    return np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
+    cells: Array = np.floor((coordinates(positions) - low[:, None]) / side).astype(np.int64)
+    return cells
 
 
 def _keys(cells: Array) -> Array:

@@ -67,12 +67,9 @@ class TextFrames:
         return len(self._places) - 1
 
     def has(self, index: int) -> bool:
-        while len(self._places) <= index and self._pass():
+        while len(self._places) <= index + 1 and self._pass():
             pass
-        if len(self._places) > index + 1:
-            return True
-        self.lines.go_to(self._places[-1])
-        return len(self._places) > index and not self._is_whole and bool(self.lines.peek(1).strip())
+        return len(self._places) > index + 1
 
     def _pass(self) -> bool:
         """Finds the end of one more frame."""

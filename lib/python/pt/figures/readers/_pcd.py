@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from pt.figures._particles import Particles, assembled
 from pt.figures.readers._lines import Lines
-from pt.figures.readers._ply import records
-from pt.figures.readers._rows import Layout, Rows, shown
+from pt.figures.readers._ply import binary_columns, text_columns
+from pt.figures.readers._rows import shown
 
 _PACKED_COLORS: Final = ("rgb", "rgba")
 
@@ -25,27 +25,21 @@ def read_pcd(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> 
         if line.strip() and not line.startswith("#"):
             key, *words = line.split()
             head[key] = words
+    kinds: dict[str, str] = {}
     try:
-        fields = head["FIELDS"]
-        counts = [int(word) for word in head.get("COUNT", ["1"] * len(fields))]
-        kinds = [{"F": "f", "U": "u", "I": "i"}[kind] + size for kind, size in zip(head["TYPE"], head["SIZE"])]
+        counts = map(int, head.get("COUNT", ["1"] * len(head["FIELDS"])))
+        for name, kind, size, width in zip(head["FIELDS"], head["TYPE"], head["SIZE"], counts, strict=True):
+            for i in range(width):  # names of padding come again
+                key = name if width == 1 and name not in kinds else f"{name}[{i or len(kinds)}]"
+                kinds[key] = np.dtype({"F": "f", "U": "u", "I": "i"}[kind] + size).str
         count = int(head["POINTS"][0])
-        names = [name if width == 1 else f"{name}[{i}]" for name, width in zip(fields, counts) for i in range(width)]
-        kind = np.dtype([(f"{name} {i}", each) for i, (name, each) in enumerate(zip(names, (
-            each for each, width in zip(kinds, counts, strict=True) for _ in range(width)), strict=True))])
     except (KeyError, ValueError, IndexError, TypeError) as error:
         raise lines.refuse(f"the head must have FIELDS, SIZE, TYPE, COUNT and POINTS that fit together: {error}") from None
-    notes: list[str] = []
-    if head["DATA"] == ["binary"]:
-        columns = dict(zip(names, records(lines, kind, count).values()))
-    elif head["DATA"] == ["ascii"]:
-        rows = Rows(lines, Layout(names, names))
-        rows.read(count)
-        notes = rows.notes
-        columns = {name: values.astype(kind[i]) for i, (name, values) in enumerate(rows.columns().items())}
-    else:
+    if head["DATA"] not in (["ascii"], ["binary"]):
         raise lines.refuse(f"DATA {shown(' '.join(head['DATA']))}: must be ascii or binary; pcl_convert_pcd_ascii_binary "
                            "writes these")
+    notes: list[str] = []
+    columns = (text_columns if head["DATA"] == ["ascii"] else binary_columns)(lines, kinds, count, notes)
     return assembled(lines.name, _with_colors(columns), mapping=mapping, drop_nonfinite=drop_nonfinite, notes=notes)
 
 

@@ -1,4 +1,4 @@
-"""Points in PLY (Stanford) and PCD (Point Cloud Library) files: a head, then records, binary or as text."""
+"""Points in PLY files (Stanford): a head, then records, binary or as text."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
+from pt.figures._errors import DataError
 from pt.figures._particles import Particles, assembled
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, shown
@@ -27,22 +28,19 @@ class _Element:
     count: int
     properties: list[tuple[str, str, str]]  # name, type, and of lists the type of their length
 
-    def has_lists(self) -> bool:
-        return any(length for _, _, length in self.properties)
-
 
 def read_ply(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
     order, elements = _ply_head(lines)
     notes = [f"the {element.count:,} faces of the mesh are not drawn: only its vertices are" for element in elements
              if element.name == "face" and element.count]
     for element in elements:
-        if element.name == "vertex":
-            columns = _text(lines, element, notes) if not order else _binary(lines, element, order)
-            return assembled(lines.name, columns, mapping=mapping, drop_nonfinite=drop_nonfinite, notes=notes)
-        if not order:
-            _require(lines, lines.skip(element.count), element)
+        if any(length for _, _, length in element.properties):
+            columns = _by_value(lines, element, order)
         else:
-            _binary(lines, element, order)
+            kinds = {name: order + kind for name, kind, _ in element.properties}
+            columns = (binary_columns if order else text_columns)(lines, kinds, element.count, notes)
+        if element.name == "vertex":
+            return assembled(lines.name, columns, mapping=mapping, drop_nonfinite=drop_nonfinite, notes=notes)
     raise lines.refuse('there is no element "vertex"')
 
 
@@ -72,89 +70,59 @@ def _ply_head(lines: Lines) -> tuple[str, list[_Element]]:
     raise lines.refuse("the file ends within its head: it was cut short")
 
 
-def _require(lines: Lines, found: int, element: _Element) -> None:
-    if found < element.count:
-        raise lines.refuse(f"the file ends after {found:,} of {element.count:,} of element {element.name}: it was cut "
-                           "short")
-
-
-def _text(lines: Lines, element: _Element, notes: list[str]) -> dict[str, Array]:
+def text_columns(lines: Lines, kinds: Mapping[str, str], count: int, notes: list[str]) -> dict[str, Array]:
     """Numbers have the types of the head, which say the scale of colors."""
-    kinds = {name: kind for name, kind, length in element.properties if not length}
     rows = Rows(lines, Layout(list(kinds), list(kinds)))
-    if element.has_lists():
-        for index in range(element.count):
-            line = lines.line()
-            if line is None:
-                _require(lines, index, element)
-            rows.add(_without_lists(lines, line or "", element).encode(), 1, lines.number)
-    else:
-        rows.read(element.count)
+    rows.read(count)
     notes += rows.notes
     columns = rows.columns()
     for name, values in columns.items():
         kind = np.dtype(kinds[name])
-        if kind.kind in "iu" and len(values) and not (np.iinfo(kind).min <= values.min() <= values.max()
-                                                      <= np.iinfo(kind).max):
+        if kind.kind in "iu" and len(values) and not np.iinfo(kind).min <= values.min() <= values.max() <= np.iinfo(kind).max:
             raise lines.refuse(f"{name} goes from {values.min():g} to {values.max():g}: its type is {kind}")
         columns[name] = values.astype(kind)
     return columns
 
 
-def _without_lists(lines: Lines, line: str, element: _Element) -> str:
-    words = line.split()
-    kept = []
-    for name, _, length in element.properties:
-        if not words:
-            raise lines.refuse(f"{shown(line)}: has no {name}")
-        word = words.pop(0)
-        if not length:
-            kept.append(word)
-        elif word.isdecimal() and int(word) <= len(words):
-            del words[:int(word)]
-        else:
-            raise lines.refuse(f"{shown(line)}: the list {name} has fewer values than it says")
-    if words:
-        raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the head says")
-    return " ".join(kept)
-
-
-def _binary(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
-    if element.has_lists():
-        return _binary_with_lists(lines, element, order)
-    kind = np.dtype([(name, order + kind) for name, kind, _ in element.properties])
-    return records(lines, kind, element.count)
-
-
-def records(lines: Lines, kind: npt.DTypeLike, count: int) -> dict[str, Array]:
-    """Columns of binary records, in place."""
-    kind = np.dtype(kind)
+def binary_columns(lines: Lines, kinds: Mapping[str, str], count: int, _: list[str]) -> dict[str, Array]:
+    """In place."""
+    kind = np.dtype(list(kinds.items()))
     if not kind.itemsize:
         return {}
     found = lines.mapped(kind, count)
     if len(found) < count:
         raise lines.refuse(f"the file ends after {len(found):,} of {count:,} records of {kind.itemsize} bytes: it was cut "
                            "short")
-    return {name: found[name] for name in kind.names or ()}
+    return {name: found[name] for name in kinds}
 
 
-def _binary_with_lists(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
-    """Value by value, as each record has a length of its own."""
+def _by_value(lines: Lines, element: _Element, order: str) -> dict[str, Array]:
+    """As each record has a length of its own; text if there is no order of bytes."""
+    words: list[str] = []
+
     def take(kind: str, count: int) -> Array:
-        kind = order + kind
-        data = lines.take(np.dtype(kind).itemsize * count)
-        if len(data) < np.dtype(kind).itemsize * count:
-            raise lines.refuse(f"byte {lines.byte:,}: the file ends within element {element.name}: it was cut short")
-        return np.frombuffer(data, kind)
+        size = np.dtype(kind).itemsize * count
+        data = lines.take(size) if order else b""
+        if len(data) < size if order else len(words) < count:
+            raise lines.refuse(f"{f'byte {lines.byte:,}: ' if order else ''}the file ends within element {element.name}, or a "
+                               "list has fewer values than it says")
+        taken = np.frombuffer(data, order + kind) if order else np.array(words[:count]).astype(kind)
+        del words[:count]
+        return taken
 
     values: dict[str, list[Any]] = {name: [] for name, _, length in element.properties if not length}
     for _ in range(element.count):
-        for name, kind, length in element.properties:
-            if length:
-                count = int(take(length, 1)[0])
-                if count < 0:
-                    raise lines.refuse(f"byte {lines.byte:,}: {name}: a list of {count} values")
-                take(kind, count)
-            else:
-                values[name].append(take(kind, 1)[0])
+        line = "" if order else lines.line() or ""
+        words = line.split()
+        try:
+            for name, kind, length in element.properties:
+                found = take(kind, int(take(length, 1)[0]) if length else 1)
+                if not length:
+                    values[name].append(found[0])
+        except DataError:
+            raise
+        except (ValueError, OverflowError) as error:  # no number, or a list of -1 values
+            raise lines.refuse(f"{shown(line)}: {error}") from None
+        if words:
+            raise lines.refuse(f"{shown(line)}: has {len(words)} more values than the head says")
     return {name: np.array(values[name], kind) for name, kind, length in element.properties if not length}
