@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from pt.figures._elements import distinct
 from pt.figures._particles import Cell, Particles, assembled
 from pt.figures.readers._frames import Frames, Listed
 
@@ -25,7 +26,7 @@ def of_mdanalysis(group: Any, name: str, options: Options) -> Frames:
 
     def read(index: int) -> Particles:
         step = trajectory[index]
-        columns = {"positions": atoms.positions.copy()}  # which the next frame overwrites
+        columns = {"positions": atoms.positions}  # a copy
         for key, attribute in (("element", "elements"), ("name", "names"), ("type", "types"), ("radius", "radii"),
                                ("mass", "masses"), ("charge", "charges"), ("resid", "resids"), ("resname", "resnames"),
                                ("segid", "segids")):
@@ -43,9 +44,11 @@ def of_ovito(data: Any, name: str, options: Options) -> Particles:
     columns = {"positions" if key == "Position" else key: np.asarray(particles[key]) for key in particles.keys()}
     kinds = particles.get("Particle Type")
     if kinds is not None:
-        named = {each.id: each.name or str(each.id) for each in kinds.types}
-        columns["type"] = np.array([named.get(kind, str(kind)) for kind in np.asarray(kinds).tolist()])
-        del columns["Particle Type"]
+        columns["type"] = columns.pop("Particle Type")
+        named = {each.id: each.name for each in kinds.types if each.name}
+        if named:
+            values, codes = distinct(columns["type"])
+            columns["type"] = np.array([named.get(value, f"type {value}") for value in values.tolist()])[codes]
     cell = None
     if data.cell is not None:
         matrix = np.asarray(data.cell[...])  # columns are the edges and the origin

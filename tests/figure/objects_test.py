@@ -1,0 +1,224 @@
+"""Objects and files of other packages: of those that are installed, and else of stand-ins that have the attributes of the
+real ones which are read."""
+
+import io
+import pathlib
+import subprocess
+import sys
+import tempfile
+import types
+import unittest
+import unittest.mock
+
+import numpy as np
+from pt.figures import load
+from pt.figures._errors import DataError
+
+PLACES = np.array([[2.0, 1, 2], [3, 4, 5], [6, 7, 6]])  # within the cell
+EDGES = np.array([[9.0, 0, 0], [1, 8, 0], [2, 3, 7]])
+
+
+def stand_in(name, **attributes):
+    """An object of a type whose module has this name."""
+    kind = type(name.rpartition(".")[2], (types.SimpleNamespace,), {"__module__": name.rpartition(".")[0]})
+    return kind(**attributes)
+
+
+def installed(name):
+    try:
+        return __import__(name)
+    except ImportError:
+        return None
+
+
+def ase_atoms(places):
+    if installed("ase"):
+        import ase
+        return ase.Atoms("OHH", positions=places, cell=EDGES, pbc=(True, False, True))
+    return stand_in("ase.atoms.Atoms", positions=places, arrays={"positions": places, "numbers": np.array([8, 1, 1])},
+                    cell=types.SimpleNamespace(array=EDGES), pbc=np.array([True, False, True]))
+
+
+class Steps(list):
+    """Frames of a universe: reading one moves the atoms."""
+
+    frame = 0
+
+    def __getitem__(self, index):
+        self.atoms.positions = list.__getitem__(self, index)
+        return types.SimpleNamespace(dimensions=np.array([9, 8, 7, 90, 90, 90]), triclinic_dimensions=EDGES)
+
+
+def universe():
+    """Of two frames; the first is the current one."""
+    if installed("MDAnalysis"):
+        import MDAnalysis
+        from MDAnalysis.lib.mdamath import triclinic_box
+        found = MDAnalysis.Universe.empty(3, trajectory=True)
+        found.add_TopologyAttr("names", ["OW", "HW1", "HW2"])
+        found.add_TopologyAttr("elements", ["O", "H", "H"])
+        found.load_new(np.stack([PLACES, PLACES + 1]), dimensions=np.array([triclinic_box(*EDGES)] * 2))
+        return found
+    steps = Steps([PLACES, PLACES + 1])
+    steps.atoms = stand_in("MDAnalysis.core.groups.AtomGroup", elements=np.array(["O", "H", "H"], object),
+                           names=np.array(["OW", "HW1", "HW2"], object))
+    return stand_in("MDAnalysis.core.universe.Universe", atoms=steps.atoms, trajectory=steps,
+                    universe=types.SimpleNamespace(trajectory=steps))
+
+
+class Property(np.ndarray):
+    """An array with the types of OVITO's particles."""
+
+
+def ovito_data(name):
+    """Of the types 1, which is named so, and 2."""
+    cell = np.column_stack([EDGES.T, (1, 2, 3)])
+    if installed("ovito"):
+        from ovito.data import DataCollection
+        found = DataCollection()
+        particles = found.create_particles(count=3)
+        particles.create_property("Position", data=PLACES)
+        kinds = particles.create_property("Particle Type", data=[1, 2, 2])
+        kinds.add_type_id(1, particles, name=name)
+        kinds.add_type_id(2, particles, name="")
+        found.create_cell(cell, pbc=(True, False, True))
+        return found
+    matrix = type("Cell", (), {"__getitem__": lambda self, key: cell, "pbc": (True, False, True)})()
+    columns = {"Position": PLACES, "Particle Type": np.array([1, 2, 2]).view(Property)}
+    columns["Particle Type"].types = [types.SimpleNamespace(id=1, name=name), types.SimpleNamespace(id=2, name="")]
+    return stand_in("ovito.data.DataCollection", particles=columns, cell=matrix)
+
+
+class Objects(unittest.TestCase):
+    def check(self, found, places=PLACES, elements=(8, 1, 1)):
+        np.testing.assert_allclose(found.positions, places)
+        self.assertEqual(None if found.elements is None else tuple(found.elements), elements)
+        np.testing.assert_allclose(found.cell.vectors, EDGES, atol=1e-5)  # where it went through angles of float32
+        return found
+
+    def test_ase(self):
+        self.assertEqual(self.check(load(ase_atoms(PLACES))).cell.periodic.tolist(), [True, False, True])
+        images = [ase_atoms(PLACES), ase_atoms(PLACES + 1)]
+        self.check(load(images), PLACES + 1)
+        self.check(load(images, frame=0))
+        with self.assertRaisesRegex(DataError, "frame 2: the data have 2 frames, from 0 or -2 to 1"):
+            load(images, frame=2)
+
+    def test_mdanalysis(self):
+        for data in universe(), universe().atoms:
+            if not hasattr(data, "universe"):
+                continue
+            found = self.check(load(data))  # the frame that it is at
+            self.assertEqual(found.columns["name"].tolist(), ["OW", "HW1", "HW2"])
+            self.check(load(data, frame=1), PLACES + 1)
+            np.testing.assert_allclose(found.positions, PLACES)  # which moving on has not changed
+
+    def test_ovito(self):
+        self.assertEqual(load(ovito_data("")).types.tolist(), [1, 2, 2])
+        found = self.check(load(ovito_data("O")), elements=None)
+        self.assertEqual(found.types.tolist(), ["O", "type 2", "type 2"])
+        self.assertEqual((found.cell.origin.tolist(), found.cell.periodic.tolist()), ([1, 2, 3], [True, False, True]))
+
+    def test_tables(self):
+        columns = {**dict(zip("xyz", PLACES.T)), "kind": np.array(["a", "b", "a"])}
+        tables = [getattr(package, "DataFrame")(columns) for package in map(installed, ("pandas", "polars")) if package]
+        series = {key: types.SimpleNamespace(to_numpy=lambda values=values: values) for key, values in columns.items()}
+        frame = stand_in("polars.dataframe.frame.DataFrame", columns=list(columns))
+        type(frame).__getitem__ = lambda self, key: series[key]
+        for data in [columns, frame, *tables]:
+            found = load(data)
+            np.testing.assert_array_equal(found.positions, PLACES)
+            self.assertEqual(found.columns["kind"].tolist(), ["a", "b", "a"])
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def read(self, name, content, **modules):
+        path = self.folder / name
+        path.write_bytes(content)
+        with unittest.mock.patch.dict(sys.modules, modules):
+            return load(path)
+
+    def test_pcd(self):
+        head = "# .PCD v0.7\nFIELDS x y z rgb _\nSIZE 4 4 4 4 1\nTYPE F F F {} U\nCOUNT 1 1 1 1 3\nPOINTS {}\nDATA {}\n"
+        packed = np.array([0x102030, 0x405060, 0x708090], np.uint32)
+        records = np.zeros(3, "f4,f4,f4,u4,V3")
+        for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
+            records[key] = values
+        text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
+        for kind in "FU":  # the bytes of colours are those of a float, or a number
+            found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
+            np.testing.assert_array_equal(found.positions, PLACES)
+            np.testing.assert_allclose(found.colors[1] * 255, (0x40, 0x50, 0x60), rtol=1e-6)
+        found = self.read("a.pcd", (head.format("U", 3, "ascii") + text).encode())
+        np.testing.assert_array_equal(found.positions, PLACES)
+        np.testing.assert_allclose(found.colors[2] * 255, (0x70, 0x80, 0x90), rtol=1e-6)
+        for content, words in ((head.format("U", 4, "ascii") + text, "ends after 3 of 4 particles"),
+                               (head.format("U", 3, "binary_compressed"), "must be ascii or binary"),
+                               (head.format("X", 3, "ascii"), "the head must have FIELDS"),
+                               (head[:30], "within its head")):
+            with self.assertRaisesRegex(DataError, words):
+                self.read("a.pcd", content.encode())
+
+    def test_las(self):
+        """Bytes among its 16-bit colours are bytes."""
+        if installed("laspy"):
+            import laspy
+            las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))
+            las.x, las.y, las.z = PLACES.T
+            las.red, las.green, las.blue = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 255]])
+            buffer = io.BytesIO()
+            las.write(buffer)
+            found = self.read("a.las", buffer.getvalue())
+        else:
+            columns = {"X": [0] * 3, "intensity": [0] * 3, "red": [255, 0, 0], "green": [0, 255, 0], "blue": [0, 0, 255]}
+            las = type("Las", (), {"xyz": PLACES, "__getitem__": lambda self, key: np.array(columns[key], np.uint16),
+                                   "point_format": types.SimpleNamespace(dimension_names=columns)})()
+            found = self.read("a.las", b"LASF", laspy=types.SimpleNamespace(read=lambda path: las))
+        np.testing.assert_allclose(found.positions, PLACES, atol=0.005)
+        np.testing.assert_array_equal(found.colors, np.eye(3))
+        self.assertIn("intensity", found.columns)
+
+    @unittest.skipUnless(installed("ase"), "ASE is not installed")
+    def test_formats_of_ase(self):
+        from ase.io import write
+        for name in ("a.pdb", "a.cif", "POSCAR", "a.gro", *(["a.data"] if installed("ase").__version__ >= "3.23" else [])):
+            write(self.folder / name, ase_atoms(PLACES), **({"format": "lammps-data"} if name == "a.data" else {}))
+            found = load(self.folder / name)
+            apart = np.linalg.norm(found.positions - found.positions[:1], axis=1)  # some move or turn the cell
+            np.testing.assert_allclose(np.sort(apart), np.linalg.norm(PLACES - PLACES[0], axis=1), atol=2e-3)
+            self.assertIsNotNone(found.cell)
+
+    def test_a_package_that_is_not_there_or_cannot_read(self):
+        for name, package in (("a.cif", "ase"), ("a.las", "laspy"), ("a.vtk", "pyvista"), ("a.stl", "trimesh"),
+                              ("a.gsd", "MDAnalysis")):
+            with self.assertRaisesRegex(DataError, f"{name}: this format needs the module {package}: pip install 'pt.figure-"):
+                self.read(name, b"data", **{package: None, f"{package}.io": None})
+
+            def read(*_, **__):
+                raise KeyError("no such thing")
+            with self.assertRaisesRegex(DataError, f"{name}: .* cannot read it: 'no such thing'"):
+                module = types.SimpleNamespace(read=read, load=read, Universe=read, io=None)
+                self.read(name, b"data", **{package: module, f"{package}.io": module})
+
+    def test_standard_input(self):
+        """Of all readers of ours, also packed; of others it cannot be."""
+        program = "import sys\nfrom pt.figures import load\nprint(load('-', frame=0).positions.tolist())"
+        buffer = io.BytesIO()
+        np.save(buffer, PLACES)
+        import gzip
+        rows = "".join(f"{x} {y} {z}\n" for x, y, z in PLACES).encode()
+        for data in (buffer.getvalue(), gzip.compress(rows), b"x,y,z\n" + rows.replace(b" ", b","),
+                     b"3\nProperties=pos:R:3\n" + rows + b"3\nProperties=pos:R:3\n" + rows[::-1]):
+            done = subprocess.run([sys.executable, "-c", program], input=data, capture_output=True, check=True)
+            self.assertEqual(done.stdout.decode(), f"{PLACES.tolist()}\n")
+        done = subprocess.run([sys.executable, "-c", program], input=b"LASF", capture_output=True)
+        self.assertIn("standard input: laspy reads files: standard input must be one of", done.stderr.decode())
+
+
+if __name__ == "__main__":
+    unittest.main()
