@@ -83,7 +83,7 @@ private:
             return PT_TYPE_FLOAT64;
         if (code == "|u1")
             return PT_TYPE_SRGB8;
-        refuse("has numbers of the type " + std::string(code) +
+        refuse("has numbers of the type " + std::string(code.substr(0, 20)) +
                ", must be <f4, <f8 or |u1: save array.astype(\"float32\")");
     }
 

@@ -1,0 +1,31 @@
+// NPY files from bytes: what is accepted has all of its numbers, and what is not is refused in words that name the
+// file.
+#include "tests/fuzz/mutation.h"
+#include "tests/fuzz/require.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/scene/npy_file.h"
+
+#include <pt/pt.h>
+
+#include <string_view>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+    constexpr std::size_t longest_message = 150;
+    try {
+        const cli::NpyArray array = cli::parse_npy(std::string(data, data + size), "a.npy");
+        const std::size_t number_bytes = array.type == PT_TYPE_FLOAT64 ? 8 : array.type == PT_TYPE_FLOAT32 ? 4 : 1;
+        fuzz::require(number_bytes > 1 || array.type == PT_TYPE_SRGB8, "columns have types that spheres take");
+        fuzz::require(array.row_length <= 3, "rows are no longer than positions");
+        const std::size_t row_bytes = number_bytes * (array.row_length ? array.row_length : 1);
+        fuzz::require(array.row_bytes() == row_bytes && array.file.size() == size &&
+                          (size - array.first) / row_bytes == array.row_count && (size - array.first) % row_bytes == 0,
+                      "the numbers are the last bytes of the file");
+    } catch (const cli::Failure &failure) {
+        const std::string_view words = failure.what();
+        fuzz::require(failure.code() == cli::ExitCode::scene, "what is refused is the scene's fault");
+        fuzz::require(words.starts_with("a.npy: ") && words.size() < longest_message,
+                      "messages are short and name the file");
+    }
+    return 0;
+}
