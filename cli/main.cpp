@@ -1,4 +1,5 @@
 // The program `pt`: chooses the command, and turns every exception into an exit code.
+#include "cli/base/device_text.h"
 #include "cli/base/devices_command.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/help_formatter.h"
@@ -8,11 +9,8 @@
 #include "cli/base/standard_streams.h"
 #include "cli/base/usage_reason.h"
 #include "cli/compare/compare_command.h"
-#include "cli/film/merge_command.h"
-#include "cli/film/merge_options.h"
+#include "cli/merge/merge_command.h"
 #include "cli/render/render_command.h"
-#include "cli/render/render_options.h"
-#include "cli/render/render_report.h"
 #include "cli/scene/scene_schema.h"
 #include "cli/selftest/selftest_command.h"
 #include "cli/tonemap/tonemap_command.h"

@@ -1,74 +1,72 @@
 #include "cli/base/common_options.h"
 
-#include <pt/pt.h>
+#include "cli/base/number.h"
+#include "cli/base/text.h"
 
-#include <algorithm>
-#include <array>
+#include <optional>
+#include <utility>
 
 namespace cli {
+namespace {
 
-std::string alternatives(std::span<const std::string_view> names) {
-    std::string text;
-    for (const std::string_view name : names)
-        text.append(text.empty() ? "" : "|").append(name);
-    return text;
+std::string type_name(const ValueRule &rule) {
+    switch (rule.form) {
+    case ValueRule::Form::name:
+        return listed(rule.names, "|");
+    case ValueRule::Form::whole_number:
+        return "N";
+    case ValueRule::Form::number_or_auto:
+        return "X|auto";
+    default:
+        return "X";
+    }
 }
+
+} // namespace
 
 void refuse_option(const std::string &option, const std::string &rule, const std::string &text) {
     throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");
 }
 
-double read_target_error(const std::string &option, const std::string &text) {
-    const std::optional<double> share = parse_share(text);
-    if (!share || *share <= 0.0)
-        refuse_option(option, "must be a number above 0 like 0.005 or 0.5%", text);
-    return *share;
+nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule) {
+    nlohmann::json value = text;
+    if (const auto whole = parse_number<std::uint64_t>(text); whole && rule.form != ValueRule::Form::name)
+        value = *whole;
+    else if (const auto real = parse_number<double>(text); real && rule.form != ValueRule::Form::name)
+        value = *real;
+    try {
+        check(rule, value, {});
+    } catch (const JsonRefusal &refusal) {
+        throw CLI::ValidationError(option, refusal.what());
+    }
+    return value;
 }
 
-CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size) {
-    const auto read = [&size](const std::string &text) {
-        size = parse_size(text);
-        if (!size)
-            refuse_option("--size", "must be two whole numbers like 1920x1080", text);
+CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
+                       std::function<void(const nlohmann::json &)> store, const std::string &help) {
+    const auto read = [name, rule, store = std::move(store)](const std::string &text) {
+        store(read_value(name, text, rule));
     };
-    return command.add_option_function<std::string>("--size", read, "Pixels (default: the scene's, else 512x512)")
-        ->type_name("WxH");
+    return command.add_option_function<std::string>(name, read, help)->type_name(type_name(rule));
 }
 
-CLI::Option *add_max_path_length(CLI::App &command, std::optional<std::uint32_t> &max_path_length) {
-    return add_whole_number<std::uint32_t>(command, "--max-path-length", max_path_length, 1,
-                                           "Surface vertices after the camera, 1 = emission only (default: the "
-                                           "scene's, else " +
-                                               std::to_string(PT_DEFAULT_MAX_PATH_LENGTH) + ")")
-        ->type_name("L");
-}
-
-CLI::Option *add_seed(CLI::App &command, std::optional<std::uint64_t> &seed) {
-    return add_whole_number<std::uint64_t>(command, "--seed", seed, 0, "Seed (default: the scene's, else 0)");
+CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
+                      const std::string &help) {
+    return command.add_option(name, target, help)->type_name(value);
 }
 
 CLI::Option *add_device(CLI::App &command, std::string &device) {
-    return command
-        .add_option("--device", device,
-                    "Index or UUID from `pt devices`, or several (0,1), or part of a name (default: the best one)")
-        ->type_name("INDEX|UUID|NAME|gpu|cpu|all");
+    return add_text(command, "--device", device, "INDEX|UUID|NAME|gpu|cpu|all",
+                    "Index or UUID from `pt devices`, or several (0,1), or part of a name (default: the best one)");
 }
 
-void add_reporting(CLI::App &command, std::string &progress, bool &quiet) {
-    const std::string group = "Messages";
-    static constexpr std::array<std::string_view, 3> styles{"auto", "json", "none"};
-    command
-        .add_option_function<std::string>(
-            "--progress",
-            [&progress](const std::string &text) {
-                if (std::find(styles.begin(), styles.end(), text) == styles.end())
-                    throw CLI::ValidationError("--progress", unknown_name("style", text, styles));
-                progress = text;
-            },
-            "On stderr: auto (a line if it is a terminal; the default), json (an object a line), none")
-        ->type_name(alternatives(styles))
-        ->group(group);
-    command.add_flag("-q,--quiet", quiet, "Print errors only")->group(group);
+CLI::Option *add_shader_dir(CLI::App &command, std::string &shader_dir) {
+    return add_text(command, "--shader-dir", shader_dir, "DIR",
+                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/");
+}
+
+CLI::Option *add_quiet(CLI::App &command, bool &quiet) {
+    return command.add_flag("-q,--quiet", quiet, "Print errors only");
 }
 
 } // namespace cli

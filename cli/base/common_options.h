@@ -1,13 +1,12 @@
-// Options that several commands share, and the reading of values for which CLI11 is too lax.
+// Options that several commands share, and the reading of values for which CLI11 is too lax: it takes "-1" for the
+// largest unsigned number and "010" for 8.
 #pragma once
 
-#include "cli/base/number.h"
-#include "cli/base/suggestion.h"
+#include "cli/base/value_rule.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdint>
-#include <limits>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,75 +14,38 @@
 
 namespace cli {
 
-// "best|random|sobol", of these names.
-std::string alternatives(std::span<const std::string_view> names);
-
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 
-// CLI11 would read "-1" as the largest unsigned number and "010" as 8, so numbers are read here.
+// The value that a text stands for, which keeps the rule. Throws CLI::ValidationError.
+nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule);
+
+// store: gets the value, which keeps the rule.
+CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
+                       std::function<void(const nlohmann::json &)> store, const std::string &help);
+
 template <typename Number>
-Number read_option_number(const std::string &option, const std::string &text, Number smallest) {
-    const auto number = parse_number<Number>(text);
-    if (!number || *number < smallest) {
-        refuse_option(option,
-                      "must be a whole number from " + std::to_string(smallest) + " to " +
-                          std::to_string(std::numeric_limits<Number>::max()),
-                      text);
-    }
-    return *number;
+CLI::Option *add_number(CLI::App &command, const std::string &name, const ValueRule &rule,
+                        std::optional<Number> &target, const std::string &help) {
+    return add_value(
+        command, name, rule, [&target](const nlohmann::json &value) { target = value.get<Number>(); }, help);
 }
 
-// A relative error, as a number or in per cent.
-double read_target_error(const std::string &option, const std::string &text);
-
-template <typename Number, typename Target>
-CLI::Option *add_whole_number(CLI::App &command, const std::string &name, Target &target, Number smallest,
-                              const std::string &help) {
-    const auto read = [&target, name, smallest](const std::string &text) {
-        target = read_option_number<Number>(name, text, smallest);
-    };
-    return command.add_option_function<std::string>(name, read, help)->type_name("N");
-}
-
-template <typename Target>
-CLI::Option *add_real_number(CLI::App &command, const std::string &name, Target &target, double smallest,
-                             double largest, const std::string &help) {
-    const auto read = [&target, name, smallest, largest](const std::string &text) {
-        const auto number = parse_number<double>(text);
-        if (!number || *number < smallest || *number > largest) {
-            refuse_option(name,
-                          "must be a number from " + CLI::detail::to_string(smallest) + " to " +
-                              CLI::detail::to_string(largest),
-                          text);
-        }
-        target = *number;
-    };
-    return command.add_option_function<std::string>(name, read, help);
-}
-
-// find: std::optional<Value>(std::string_view).
-template <typename Find>
-auto read_name(const std::string &option, const std::string &text, Find find, const std::string &kind,
-               std::span<const std::string_view> known) {
-    const auto found = find(text);
-    if (!found)
-        throw CLI::ValidationError(option, unknown_name(kind, text, known));
-    return *found;
-}
-
+// find: the value of a name, as std::optional; kind: what the names are, for messages.
 template <typename Target, typename Find>
-CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, const std::string &kind,
-                      std::span<const std::string_view> known, const std::string &help) {
-    const auto read = [&target, find, name, kind, known](const std::string &text) {
-        target = read_name(name, text, find, kind, known);
-    };
-    return command.add_option_function<std::string>(name, read, help)->type_name(alternatives(known));
+CLI::Option *add_name(CLI::App &command, const std::string &name, Target &target, Find find, std::string_view kind,
+                      std::span<const std::string_view> names, const std::string &help) {
+    return add_value(
+        command, name, {.form = ValueRule::Form::name, .kind = kind, .names = names},
+        [&target, find](const nlohmann::json &value) { target = find(value.get_ref<const std::string &>()).value(); },
+        help);
 }
 
-CLI::Option *add_size(CLI::App &command, std::optional<ImageSize> &size);
-CLI::Option *add_max_path_length(CLI::App &command, std::optional<std::uint32_t> &max_path_length);
-CLI::Option *add_seed(CLI::App &command, std::optional<std::uint64_t> &seed);
+// A file, or another text. value: what stands for it in the help.
+CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
+                      const std::string &help);
+
 CLI::Option *add_device(CLI::App &command, std::string &device);
-void add_reporting(CLI::App &command, std::string &progress, bool &quiet);
+CLI::Option *add_shader_dir(CLI::App &command, std::string &shader_dir);
+CLI::Option *add_quiet(CLI::App &command, bool &quiet);
 
 } // namespace cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cli/base/exit_code.h"
-#include "cli/base/field_names.h"
 #include "cli/base/kernel_folder.h"
 #include "cli/base/library_error.h"
 #include "cli/base/user_cache.h"
@@ -94,11 +93,11 @@ public:
 private:
     [[noreturn]] void fail(pt_result result, const LibraryError &error) const {
         const bool loses_work = result == PT_ERROR_INTERNAL || result == PT_ERROR_DEVICE_LOST;
-        throw Failure(code_of(result, error),
-                      in_words_of_options(error) + (loses_work && !shader_dir_.empty()
-                                                        ? "; an endless loop or another local_size in the shaders in " +
-                                                              shader_dir_ + " does this"
-                                                        : ""));
+        throw Failure(code_of(result, error), error.in_words(&in_words_of_options) +
+                                                  (loses_work && !shader_dir_.empty()
+                                                       ? "; an endless loop or another local_size in the shaders in " +
+                                                             shader_dir_ + " does this"
+                                                       : ""));
     }
 
     // Shaders of --shader-dir are the user's to mend, like a scene file. Their compiler is a file.

@@ -1,11 +1,12 @@
 #include "cli/base/device_text.h"
 
+#include "cli/base/text.h"
+
 #include <pt/devices.h>
 #include <pt/pt.h>
 
 #include <array>
 #include <cstddef>
-#include <cstdio>
 
 namespace cli {
 
@@ -35,19 +36,20 @@ std::string memory_text(std::uint64_t bytes) {
         count /= 1024.0;
         ++unit;
     }
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f %s", count, larger_units[unit]);
-    return text.data();
+    return formatted("%.1f %s", count, larger_units[unit]);
+}
+
+std::string version_text() {
+    const std::uint32_t version = pt_version();
+    return concat(version / 1'000'000, ".", version / 1'000 % 1'000, ".", version % 1'000);
 }
 
 std::string uuid_text(const std::uint8_t (&uuid)[16]) {
     std::string text;
     for (std::size_t i = 0; i < 16; ++i) {
-        std::array<char, 3> digits{};
-        std::snprintf(digits.data(), digits.size(), "%02x", uuid[i]);
         if (i == 4 || i == 6 || i == 8 || i == 10)
             text += '-';
-        text += digits.data();
+        text += formatted("%02x", uuid[i]);
     }
     return text;
 }

@@ -1,5 +1,7 @@
-// What is shown of a device: its kind, its memory and its UUID as text.
+// What is shown of a device (its kind, its memory and its UUID), and the version of the library as text.
 #pragma once
+
+#include <pt/pt.h>
 
 #include <cstdint>
 #include <string>
@@ -11,6 +13,9 @@ std::string kind_name(std::uint32_t kind);
 
 // "7.7 GiB", "480 B": in the largest unit of which there is one at least.
 std::string memory_text(std::uint64_t bytes);
+
+// Of the library, which is the program's too: "0.2.0".
+std::string version_text();
 
 // 32 hexadecimal digits in the usual groups.
 std::string uuid_text(const std::uint8_t (&uuid)[16]);

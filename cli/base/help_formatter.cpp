@@ -31,7 +31,7 @@ std::string entry(const std::string &name, const std::string &text, std::size_t 
                                     : head + "\n" + wrapped(std::string(column, ' '), text, column);
 }
 
-std::string listed(const std::string &relation, const std::set<CLI::Option *> &options) {
+std::string related(const std::string &relation, const std::set<CLI::Option *> &options) {
     std::string names;
     for (const CLI::Option *option : options)
         names += (names.empty() ? " (" + relation + " " : ", ") + option->get_name();
@@ -53,7 +53,7 @@ std::string HelpFormatter::make_help(const CLI::App *command, std::string name, 
 
 std::string HelpFormatter::make_option(const CLI::Option *option, bool is_positional) const {
     const std::string value = is_positional ? "" : make_option_opts(option);
-    const std::string others = listed("needs", option->get_needs()) + listed("not with", option->get_excludes());
+    const std::string others = related("needs", option->get_needs()) + related("not with", option->get_excludes());
     return entry(make_option_name(option, is_positional) + value, option->get_description() + others, column_width_);
 }
 

@@ -1,11 +1,12 @@
-// Paths to values in JSON text: how they are written in messages, and which line of the text they lead to. Lines are
-// looked up for messages alone, by parsing the text once more: a scene may have millions of values.
+// Paths to values in JSON text, how they are written, and refusals of what they lead to.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -34,8 +35,30 @@ std::optional<ParsedPath> parse_path(std::string_view text);
 // Whether the value of the one path is, or is within, that of the other.
 bool is_within(const JsonPath &path, const JsonPath &outer);
 
-// The line, from 1, of the member's key or of the element, or of the innermost value around it that the text has;
-// nothing if it has not even the first step. Where a key is given several times, occurrence says which one counts.
-std::optional<std::size_t> find_line(std::string_view text, const JsonPath &path, std::size_t occurrence = 1);
+// Where a value stands, as a chain towards the root, so that a path is made only for messages: a scene may have
+// millions of values.
+struct JsonPlace {
+    const JsonPlace *parent = nullptr;
+    std::string_view key; // empty at the root and in arrays
+    std::size_t index = 0;
+    bool in_array = false;
+
+    JsonPlace member(std::string_view name) const { return {this, name, 0, false}; }
+    JsonPlace element(std::size_t number) const { return {this, {}, number, true}; }
+
+    JsonPath path() const; // from the root
+};
+
+// A value that breaks a rule. The caller that has the text adds file and line.
+struct JsonRefusal : std::runtime_error {
+    JsonRefusal(JsonPath place, const std::string &rule) : std::runtime_error(rule), path(std::move(place)) {}
+
+    JsonPath path;
+};
+
+// Throws JsonRefusal.
+[[noreturn]] inline void refuse(const JsonPlace &place, const std::string &rule) {
+    throw JsonRefusal(place.path(), rule);
+}
 
 } // namespace cli

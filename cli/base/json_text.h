@@ -1,8 +1,9 @@
-// The text of JSON reports.
+// The text of JSON reports, and numbers in them.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace cli {
@@ -11,6 +12,11 @@ namespace cli {
 // the figures beside it.
 inline std::string json_text(const nlohmann::ordered_json &value) {
     return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+// JSON has no infinity: null stands for an unknown error, or one beyond all numbers.
+inline nlohmann::ordered_json number_or_null(double number) {
+    return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json(nullptr);
 }
 
 } // namespace cli

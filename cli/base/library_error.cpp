@@ -2,8 +2,30 @@
 
 #include <pt/errors.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 namespace cli {
 namespace {
+
+struct OptionName {
+    std::string_view subject; // as in pt_broken_rule, like the member
+    std::string_view member;
+    const char *option;
+};
+
+constexpr std::array<OptionName, 9> option_names{{
+    {"render", "width", "--size: width"},
+    {"render", "height", "--size: height"},
+    {"render", "max_path_length", "--max-path-length"},
+    {"accumulate", "sample_count", "--spp"},
+    {"accumulate", "target_error", "--error"},
+    {"accumulate", "sampling", "--sampling"},
+    {"create", "device", "--device"},
+    {"create", "shader_dir", "--shader-dir"},
+    {"create", "submit_milliseconds", "--submit-ms"},
+}};
 
 std::string brackets(const std::optional<std::size_t> &index) {
     return index ? std::string("[").append(std::to_string(*index)).append("]") : "";
@@ -20,6 +42,18 @@ std::string field_text(const BrokenRule &rule) {
     if (!rule.member.empty())
         text.append(".").append(rule.member).append(brackets(rule.component));
     return text;
+}
+
+const char *find_option(const BrokenRule &rule) {
+    const auto found = std::ranges::find_if(option_names, [&rule](const OptionName &name) {
+        return rule.subject == name.subject && rule.member == name.member;
+    });
+    return found == option_names.end() ? nullptr : found->option;
+}
+
+std::string in_words_of_options(const BrokenRule &rule) {
+    const char *option = find_option(rule);
+    return rule_text(option != nullptr ? option : field_text(rule), rule);
 }
 
 std::string rule_text(const std::string &field, const BrokenRule &rule) {

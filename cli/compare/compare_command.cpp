@@ -5,7 +5,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
-#include "cli/base/report_file.h"
+#include "cli/base/output_file.h"
 #include "cli/compare/compare_report.h"
 #include "cli/compare/viridis.h"
 #include "cli/image/image_file.h"
@@ -59,13 +59,13 @@ std::vector<std::uint8_t> difference_picture(std::span<const float> differences,
     bytes.reserve(3 * differences.size());
     for (const float difference : differences) {
         const double share = largest > 0.0F ? difference / largest : 0.0;
-        const auto colour = std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : viridis(share);
-        bytes.insert(bytes.end(), colour.begin(), colour.end());
+        const auto color = std::isnan(difference) ? std::array<std::uint8_t, 3>{255, 255, 255} : viridis(share);
+        bytes.insert(bytes.end(), color.begin(), color.end());
     }
     return bytes;
 }
 
-// Returns what the brightest colour stands for.
+// Returns what the brightest color stands for.
 float write_difference(const std::string &path, std::uint32_t width, const std::vector<float> &differences) {
     const float largest = std::accumulate(differences.begin(), differences.end(), 0.0F,
                                           [](float most, float each) { return std::fmax(most, each); });

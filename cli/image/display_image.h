@@ -14,6 +14,9 @@ namespace cli {
 // What is done to the radiance, for the metadata.
 void add_tone_map(ImageAttributes &attributes, const ToneMap &tone_map);
 
+// "exposure -3.13 EV (auto)" and the end of the line.
+std::string automatic_exposure_line(const ToneMap &tone_map);
+
 // radiance: R, G, B triples of the window's part, >= 0. png_bits: of a channel, 8 or 16; JPEG has 8. alpha: of each
 // pixel, by which its radiance is multiplied already; empty for none, and for JPEG. Throws Failure(ExitCode::file), and
 // leaves an existing file as it was.

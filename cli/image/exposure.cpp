@@ -1,19 +1,10 @@
 #include "cli/image/exposure.h"
 
-#include "cli/base/number.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 namespace cli {
-
-std::optional<Exposure> parse_exposure(std::string_view text) {
-    if (text == "auto")
-        return Exposure{};
-    const auto stops = parse_number<double>(text);
-    return stops && std::abs(*stops) <= largest_exposure ? std::optional(Exposure{stops}) : std::nullopt;
-}
 
 double automatic_exposure(std::span<const float> radiance) {
     constexpr double middle_grey = 0.18;

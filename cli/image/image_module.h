@@ -18,7 +18,7 @@ struct pt_image_attribute {
 
 // What the channels of a layer are.
 enum : uint32_t {
-    PT_LAYER_COLOUR = 0,  // R, G and B; or one number, for which the layer is the channel
+    PT_LAYER_COLOR = 0,   // R, G and B; or one number, for which the layer is the channel
     PT_LAYER_VECTOR = 1,  // X, Y and Z
     PT_LAYER_NUMBERS = 2, // one whole number
 };
@@ -44,7 +44,7 @@ struct pt_image_data {
     size_t layer_count;
     const uint8_t *bytes;  // R, G, B triples for the others, else NULL
     const uint16_t *words; // for PNG in place of bytes: 16 bits to a channel
-    uint32_t has_alpha;    // 1: for PNG, R, G, B, A in place of triples, colours not multiplied by A
+    uint32_t has_alpha;    // 1: for PNG, R, G, B, A in place of triples, colors not multiplied by A
     double gamma;          // light is the byte / 255 to this power; 0: by the sRGB curve. For PNG
     const pt_image_attribute *attributes;
     size_t attribute_count;

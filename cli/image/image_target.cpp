@@ -2,7 +2,7 @@
 
 #include "cli/base/atomic_file.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/report_file.h"
+#include "cli/base/output_file.h"
 
 #include <algorithm>
 #include <unistd.h>

@@ -73,7 +73,7 @@ std::vector<png_text> texts_of(const pt_image_data &image, std::span<std::string
 
 // What the bytes mean as light (PNG, ISO 15948, 11.3.3): sRGB, or a power of it with the primaries of sRGB, which are
 // those of Rec. 709 (ITU-R BT.709, table 1). Perceptual is the intent for photographs.
-void set_colour_space(const Encoding &encoding, double gamma) {
+void set_color_space(const Encoding &encoding, double gamma) {
     if (gamma == 0.0) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
     } else {
@@ -105,7 +105,7 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
     png_set_IHDR(encoding.png, encoding.info, image.width, image.height, image.words != nullptr ? 16 : 8,
                  image.has_alpha != 0 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    set_colour_space(encoding, image.gamma);
+    set_color_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as
     // large as the best of all filters and zlib's default do, in a third of the time or less.
     png_set_filter(encoding.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);

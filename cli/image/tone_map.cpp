@@ -11,44 +11,44 @@
 namespace cli {
 namespace {
 
-using Rows = std::array<Colour, 3>;
+using Rows = std::array<Color, 3>;
 
-Colour multiply(const Rows &rows, const Colour &colour) {
-    Colour product;
+Color multiply(const Rows &rows, const Color &color) {
+    Color product;
     for (std::size_t i = 0; i < 3; ++i)
-        product[i] = rows[i][0] * colour[0] + rows[i][1] * colour[1] + rows[i][2] * colour[2];
+        product[i] = rows[i][0] * color[0] + rows[i][1] * color[1] + rows[i][2] * color[2];
     return product;
 }
 
-Colour clamp(Colour colour) {
-    for (double &component : colour)
+Color clamp(Color color) {
+    for (double &component : color)
         component = std::clamp(component, 0.0, 1.0);
-    return colour;
+    return color;
 }
 
 // Reinhard, Stark, Shirley, Ferwerda 2002, "Photographic Tone Reproduction for Digital Images", eq. 3:
 // Ld = L / (1 + L). On the luminance, as in the paper, which keeps the ratio of the channels; per channel would wash
-// out every saturated colour. The price: a channel far above the luminance may pass 1 and is clipped.
-Colour reinhard(Colour colour) {
-    const double luminance = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2]; // Rec. 709
-    for (double &component : colour)
+// out every saturated color. The price: a channel far above the luminance may pass 1 and is clipped.
+Color reinhard(Color color) {
+    const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]; // Rec. 709
+    for (double &component : color)
         component /= 1.0 + luminance;
-    return colour;
+    return color;
 }
 
 // Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit of the ACES reference and output transforms, per
 // channel. More contrast and saturation than ACES itself has.
-Colour aces(Colour colour) {
-    for (double &x : colour)
+Color aces(Color color) {
+    for (double &x : color)
         x = x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
-    return colour;
+    return color;
 }
 
 // Sobotka 2022, AgX (github.com/sobotka/AgX), base look, in the form of Wrensch 2023, "Minimal AgX Implementation":
 // the primaries move inwards, 16.5 stops about middle grey are taken logarithmically, and a polynomial stands for the
 // sigmoid (mean squared error 3.7e-6); then the primaries move back. What comes out is a signal for a display of gamma
 // 2.2, so it is decoded here and every curve gives light.
-Colour agx(const Colour &colour) {
+Color agx(const Color &color) {
     static constexpr Rows inset{{{0.842479062253094, 0.0784335999999992, 0.0792237451477643},
                                  {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
                                  {0.0423756549057051, 0.0784336, 0.879142973793104}}};
@@ -59,41 +59,41 @@ Colour agx(const Colour &colour) {
     constexpr double lowest = -12.47393; // log2(0.18) - 10
     constexpr double highest = 4.026069; // log2(0.18) + 6.5
 
-    Colour signal = multiply(inset, colour);
+    Color signal = multiply(inset, color);
     for (double &component : signal) {
         const double stops = std::clamp(std::log2(component), lowest, highest); // log2(0) = -inf is clamped too
         const double x = (stops - lowest) / (highest - lowest);
         const auto horner = [x](double sum, double coefficient) { return sum * x + coefficient; };
         component = std::accumulate(sigmoid.rbegin(), sigmoid.rend(), 0.0, horner);
     }
-    Colour light = clamp(multiply(outset, signal));
+    Color light = clamp(multiply(outset, signal));
     for (double &component : light)
         component = std::pow(component, 2.2);
     return light;
 }
 
 // Khronos PBR Neutral Tone Mapper 2024 (github.com/KhronosGroup/ToneMapping). Takes off the 4 % that a Fresnel
-// reflection adds to a base colour, leaves what then peaks below 0.76 alone, and above it compresses the peak and
+// reflection adds to a base color, leaves what then peaks below 0.76 alone, and above it compresses the peak and
 // fades towards white.
-Colour neutral(Colour colour) {
+Color neutral(Color color) {
     constexpr double fresnel = 0.04;
     constexpr double start = 0.8 - fresnel;
     constexpr double range = 1.0 - start;
     constexpr double desaturation = 0.15;
 
-    const double least = *std::min_element(colour.begin(), colour.end());
+    const double least = *std::min_element(color.begin(), color.end());
     // The parabola meets the constant at 2 * fresnel with equal slope and goes through 0.
     const double offset = least < 2.0 * fresnel ? least - least * least / (4.0 * fresnel) : fresnel;
-    for (double &component : colour)
+    for (double &component : color)
         component -= offset;
-    const double peak = *std::max_element(colour.begin(), colour.end());
+    const double peak = *std::max_element(color.begin(), color.end());
     if (peak < start)
-        return colour;
+        return color;
     const double new_peak = 1.0 - range * range / (peak + range - start);
     const double white = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
-    for (double &component : colour)
+    for (double &component : color)
         component = std::lerp(component * new_peak / peak, new_peak, white);
-    return colour;
+    return color;
 }
 
 // Light of the display to the signal, both in [0, 1].
@@ -109,7 +109,7 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
     constexpr std::size_t grain = 20'000; // pixels: two milliseconds, many times what a thread takes to start
     in_parallel(radiance.size() / 3, grain, [&](std::size_t first, std::size_t end) {
         for (std::size_t i = 3 * first; i < 3 * end; i += 3) {
-            const Colour light =
+            const Color light =
                 apply_curve(map.curve, {radiance[i] * scale, radiance[i + 1] * scale, radiance[i + 2] * scale});
             for (std::size_t channel = 0; channel < 3; ++channel)
                 numbers[i + channel] = number_of(light[channel]);
@@ -127,7 +127,7 @@ std::optional<ToneCurve> find_tone_curve(std::string_view name) {
     return static_cast<ToneCurve>(found - tone_curve_names.begin());
 }
 
-Colour apply_curve(ToneCurve curve, const Colour &radiance) {
+Color apply_curve(ToneCurve curve, const Color &radiance) {
     switch (curve) {
     case ToneCurve::reinhard:
         return clamp(reinhard(radiance));

@@ -10,7 +10,7 @@
 
 namespace cli {
 
-using Colour = std::array<double, 3>; // linear, Rec. 709 primaries
+using Color = std::array<double, 3>; // linear, Rec. 709 primaries
 
 enum class ToneCurve {
     none,     // clamp to [0, 1]
@@ -24,9 +24,6 @@ inline constexpr std::array<std::string_view, 5> tone_curve_names{"none", "reinh
 
 std::optional<ToneCurve> find_tone_curve(std::string_view name);
 
-inline constexpr double least_gamma = 0.1;
-inline constexpr double largest_gamma = 10.0;
-
 struct ToneMap {
     double exposure = 0.0; // stops: radiance is multiplied by 2^exposure
     ToneCurve curve = ToneCurve::none;
@@ -34,7 +31,7 @@ struct ToneMap {
 };
 
 // Radiance >= 0 to light of the display, each component in [0, 1].
-Colour apply_curve(ToneCurve curve, const Colour &radiance);
+Color apply_curve(ToneCurve curve, const Color &radiance);
 
 // Light of the display in [0, 1] to the signal in [0, 1]: IEC 61966-2-1.
 double encode_srgb(double light);

@@ -3,7 +3,7 @@
 
 #include "cli/base/background_task.h"
 #include "cli/base/context.h"
-#include "cli/render/piecewise_render.h"
+#include "cli/render/render_observer.h"
 
 #include <chrono>
 #include <cstddef>
@@ -14,15 +14,12 @@
 
 namespace cli {
 
-class CheckpointObserver : public PieceObserver {
+class CheckpointObserver : public RenderObserver {
 public:
-    using Clock = std::chrono::steady_clock;
-
     // seconds: from one checkpoint to the next. say: shows a message.
     CheckpointObserver(const Context &context, std::string path, double seconds,
                        std::function<void(const std::string &)> say);
 
-    void enter(const PiecewiseImage & /*before*/, std::uint32_t /*rows*/) override {}
     bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
     void stepped(const RenderState &state) override;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <sstream>
 
 namespace cli {
 namespace {
@@ -19,13 +20,13 @@ struct FileLayer {
 // Z, N.X, N.Y, N.Z and id are what programs look for; of the others each is a layer by its name ("OpenEXR: Technical
 // Introduction", channel names). Layers whose channels are alike have one.
 constexpr std::array<FileLayer, 7> file_layers{{
-    {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, PT_LAYER_COLOUR},
-    {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, PT_LAYER_COLOUR},
-    {PT_QUANTITY_DEPTH, "Z", 1, PT_LAYER_COLOUR},
+    {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, PT_LAYER_COLOR},
+    {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, PT_LAYER_COLOR},
+    {PT_QUANTITY_DEPTH, "Z", 1, PT_LAYER_COLOR},
     {PT_QUANTITY_NORMAL, "N", 3, PT_LAYER_VECTOR},
-    {PT_QUANTITY_ALBEDO, "albedo", 3, PT_LAYER_COLOUR},
+    {PT_QUANTITY_ALBEDO, "albedo", 3, PT_LAYER_COLOR},
     {PT_QUANTITY_OBJECT, "id", 1, PT_LAYER_NUMBERS},
-    {PT_QUANTITY_COVERAGE, "A", 1, PT_LAYER_COLOUR},
+    {PT_QUANTITY_COVERAGE, "A", 1, PT_LAYER_COLOR},
 }};
 
 const FileLayer &file_layer(std::uint32_t quantity) {
@@ -36,16 +37,15 @@ const FileLayer &file_layer(std::uint32_t quantity) {
 } // namespace
 
 std::vector<std::uint32_t> parse_layers(const std::string &text) {
+    const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = layer_names.names()};
     std::vector<std::uint32_t> quantities;
-    const auto find = [](std::string_view name) { return layer_names.find(name); };
-    for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        const std::uint32_t quantity =
-            read_name("--layers", text.substr(begin, end - begin), find, "layer", layer_names.names());
+    std::istringstream names(text + ",");
+    for (std::string name; std::getline(names, name, ',');) {
+        read_value("--layers", name, rule);
+        const std::uint32_t quantity = layer_names.find(name).value();
         if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
             refuse_option("--layers", "must name a layer once", text);
         quantities.push_back(quantity);
-        begin = end + 1;
     }
     std::erase(quantities, std::uint32_t{PT_QUANTITY_RADIANCE});
     return quantities;

@@ -2,7 +2,6 @@
 
 #include "cli/render/progress_observer.h"
 #include "cli/render/render_loop.h"
-#include "cli/scene/scene_setup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +10,9 @@ namespace cli {
 namespace {
 
 // first_row: of the window.
-pt_render piece_of(const RenderSettings &settings, std::uint32_t first_row, std::uint32_t rows) {
-    const Rectangle &part = settings.window.part;
-    pt_render piece = settings.render;
+pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_t rows) {
+    const Rectangle &part = task.window.part;
+    pt_render piece = task.render;
     piece.first_row = part.y + first_row;
     piece.row_count = std::min(rows, part.height - first_row);
     return piece;
@@ -47,13 +46,13 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t first_row, std::
     }
 }
 
-void render_piece(const Context &context, const SceneFile &file, const RenderSettings &settings, const Stop &stop,
-                  Progress &progress, std::span<PieceObserver *const> others) {
-    ProgressObserver progress_observer(progress, settings.target_error, context.sample_count(), settings.sample_count);
+void render_piece(const Context &context, const RenderTask &task, const Stop &stop, Progress &progress,
+                  std::span<RenderObserver *const> others) {
+    ProgressObserver progress_observer(progress, task.options.target_error, context.sample_count(), task.sample_count);
     StopObserver stop_observer(stop);
     std::vector<RenderObserver *> observers{&progress_observer, &stop_observer};
     observers.insert(observers.end(), others.begin(), others.end());
-    run_render_loop(context, file, settings, observers);
+    run_render_loop(context, task, observers);
 }
 
 // Adds the samples that the context has of a piece; false if there are none.
@@ -77,17 +76,16 @@ bool add_piece(const Context &context, std::uint32_t rows, PiecewiseImage &image
 
 } // namespace
 
-std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                         std::uint32_t wanted_rows) {
-    const std::uint32_t height = settings.window.part.height;
-    std::uint32_t rows = wanted_rows == 0 ? height : std::min(wanted_rows, height);
+std::uint32_t fit_pieces(const Context &context, const RenderTask &task) {
+    const std::uint32_t height = task.window.part.height;
+    std::uint32_t rows = task.options.piece_rows == 0 ? height : std::min(task.options.piece_rows, height);
     for (;; rows = (rows + 1) / 2) {
-        const pt_render piece = piece_of(settings, 0, rows);
+        const pt_render piece = piece_of(task, 0, rows);
         const pt_result result = pt_set_render(context.get(), &piece);
         const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
         if (too_large && rows > 1)
             continue;
-        require_render(context, file, settings, result);
+        require(context, task, result);
         return rows;
     }
 }
@@ -98,26 +96,25 @@ PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before
     return image;
 }
 
-PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, const WantedImages &wanted, const Stop &stop, Progress &progress,
-                             std::span<PieceObserver *const> others) {
-    const Rectangle &part = settings.window.part;
+PiecewiseImage render_pieces(const Context &context, const RenderTask &task, std::uint32_t rows, const Stop &stop,
+                             Progress &progress, std::span<RenderObserver *const> others) {
+    const Rectangle &part = task.window.part;
     PiecewiseImage image{};
     image.part = part;
     image.radiance.resize(3 * part.pixel_count());
-    image.standard_error.resize(wanted.standard_error ? image.radiance.size() : 0);
-    for (const std::uint32_t layer : wanted.layers)
+    image.standard_error.resize(task.options.output.standard_error.empty() ? 0 : image.radiance.size());
+    for (const std::uint32_t layer : task.options.wanted_layers())
         image.layers.emplace_back(layer, part.pixel_count());
     while (image.rows_done < part.height && !stop()) {
         const std::uint32_t first_row = image.rows_done;
-        const pt_render piece = piece_of(settings, first_row, rows);
+        const pt_render piece = piece_of(task, first_row, rows);
         if (first_row > 0)
             context.require(pt_set_render(context.get(), &piece));
         const double height = part.height;
         progress.enter_part(first_row / height, (first_row + piece.row_count) / height);
-        for (PieceObserver *other : others)
+        for (RenderObserver *other : others)
             other->enter(image, piece.row_count);
-        render_piece(context, file, settings, stop, progress, others);
+        render_piece(context, task, stop, progress, others);
         if (!add_piece(context, piece.row_count, image))
             break;
     }

@@ -5,9 +5,8 @@
 #include "cli/base/context.h"
 #include "cli/base/progress.h"
 #include "cli/render/picture_layer.h"
-#include "cli/render/stop_observer.h"
-#include "cli/scene/render_settings.h"
-#include "cli/scene/scene_file.h"
+#include "cli/render/render_observer.h"
+#include "cli/render/render_task.h"
 
 #include <cstdint>
 #include <span>
@@ -15,14 +14,8 @@
 
 namespace cli {
 
-// What is read beside the radiance.
-struct WantedImages {
-    bool standard_error;
-    std::span<const std::uint32_t> layers; // PT_QUANTITY_*
-};
-
 struct PiecewiseImage {
-    Rectangle part;                    // of the picture: the settings' window
+    Rectangle part;                    // of the picture: the task's window
     std::vector<float> radiance;       // of this part; black below rows_done
     std::vector<float> standard_error; // empty if it was not asked for
     std::vector<PictureLayer> layers;  // likewise
@@ -30,18 +23,9 @@ struct PiecewiseImage {
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
 };
 
-// Hands the render settings over for the first piece, and returns how many rows a piece has: wanted_rows, or, if that
-// is 0, all of the window's; halved until the device has the memory. Throws Failure.
-std::uint32_t fit_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                         std::uint32_t wanted_rows);
-
-// Looks at an image while it is rendered in pieces.
-class PieceObserver : public RenderObserver {
-public:
-    // From now on a piece of so many rows is rendered. before: the pieces that are done; it stays where it is until all
-    // are.
-    virtual void enter(const PiecewiseImage &before, std::uint32_t rows) = 0;
-};
+// Hands the render settings over for the first piece, and returns how many rows a piece has: as many as the options say
+// or all of the window's, halved until the device has the memory. Throws Failure.
+std::uint32_t fit_pieces(const Context &context, const RenderTask &task);
 
 // The image so far, with what the context has of a piece.
 PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before, std::uint32_t rows);
@@ -49,8 +33,7 @@ PiecewiseImage image_so_far(const Context &context, const PiecewiseImage &before
 // After fit_pieces. Renders whole rows, for rows are what the library can be asked for, and reads the window's columns.
 // Ends early, between or within pieces, once it is to stop. The samples that the context has are the first ones of the
 // first piece.
-PiecewiseImage render_pieces(const Context &context, const SceneFile &file, const RenderSettings &settings,
-                             std::uint32_t rows, const WantedImages &wanted, const Stop &stop, Progress &progress,
-                             std::span<PieceObserver *const> others);
+PiecewiseImage render_pieces(const Context &context, const RenderTask &task, std::uint32_t rows, const Stop &stop,
+                             Progress &progress, std::span<RenderObserver *const> others);
 
 } // namespace cli

@@ -11,10 +11,8 @@
 
 namespace cli {
 
-class PreviewObserver : public PieceObserver {
+class PreviewObserver : public RenderObserver {
 public:
-    using Clock = std::chrono::steady_clock;
-
     // seconds: between pictures; infinite: only those that are asked for. write: called in a thread of its own, no
     // longer than finish() waits; false if not all could be written, after which nothing is written by itself.
     PreviewObserver(const Context &context, double seconds, std::function<bool(const PiecewiseImage &)> write);

@@ -1,50 +1,53 @@
 #include "cli/render/render_command.h"
 
-#include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
-#include "cli/base/message.h"
 #include "cli/base/vector_width.h"
-#include "cli/render/frames_command.h"
-#include "cli/render/parts_command.h"
-#include "cli/render/render_context.h"
 #include "cli/render/render_output.h"
 #include "cli/render/render_picture.h"
-#include "cli/render/watch_command.h"
-#include "cli/scene/render_settings.h"
-#include "cli/scene/scene_file.h"
-
-#include <chrono>
-#include <optional>
 
 namespace cli {
 namespace {
 
 int render_once(const RenderOptions &options, ValidationLog &log) {
-    RenderTimes times{};
-    times.start = std::chrono::steady_clock::now();
+    RenderTimes times;
     if (!options.parts)
         check_names(options);
-    SceneFile file = read_scene(options);
-    complete_scene(options, file);
-    const RenderSettings settings = merge_settings(options, file);
+    const SceneText text = read_scene_text(options.scene);
+    RenderTask task(options, parse_scene(text.text, text.path, options.overrides));
+    task.load();
     if (options.parts)
-        return render_parts(options, file, settings, log);
-    check_outputs(options, settings);
+        return render_parts(task, log);
+    check_outputs(task);
     catch_interrupts();
     catch_picture_requests();
     choose_vector_width();
 
     times.create_start = std::chrono::steady_clock::now();
     const Context context(render_create_info(options, log));
-    const Outcome outcome = render_picture(context, options, file, settings, times, [] { return false; });
+    const Outcome outcome = render_picture(context, task, times, [] { return false; });
     return exit_code_of(outcome, interrupt_signal());
 }
 
 } // namespace
 
+pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log) {
+    const auto text = [](const std::string &option) { return option.empty() ? nullptr : option.c_str(); };
+    pt_create_info info{};
+    info.struct_size = sizeof(pt_create_info);
+    info.device = text(options.device);
+    info.shader_dir = text(options.shader_dir);
+    info.submit_milliseconds = options.submit_milliseconds;
+    if (options.validation) {
+        info.flags = PT_CREATE_VALIDATION;
+        info.log = &ValidationLog::receive;
+        info.log_user = &log;
+    }
+    return info;
+}
+
 int run_render(const RenderOptions &options) {
     ValidationLog log;
-    const int code = options.watch    ? watch(options, log)
+    const int code = options.watch    ? render_watched(options, log)
                      : options.frames ? render_frames(options, log)
                                       : render_once(options, log);
     // Only now, for the layer reports leaks when the context goes.

@@ -1,53 +1,39 @@
 // The options of `pt render`: their names, help and syntax.
 #pragma once
 
-#include "cli/base/number.h"
-#include "cli/image/display_options.h"
-#include "cli/image/image_file.h"
+#include "cli/image/image_window.h"
 #include "cli/render/frame_range.h"
+#include "cli/render/output_options.h"
 #include "cli/scene/scene_override.h"
 
+#include <pt/pt.h>
+
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace cli {
 
 struct RenderOptions {
     std::string scene;
-    std::vector<SceneOverride> overrides; // of its values
-    std::vector<std::string> outputs;
-    std::optional<ImageFormat> format; // of an output that is standard output
-    std::string standard_error;        // path of the image of standard errors; empty: none
+    std::vector<SceneOverride> overrides; // of its values, also by options that say the same
+    OutputOptions output;
     std::vector<std::uint32_t> layers; // of each .exr beside its radiance, PT_QUANTITY_*
     bool alpha = false;
-    std::string stats;
-    bool parts = false;     // as they are asked for, in place of all outputs
-    std::string film;       // path of the film; empty: none
-    std::string checkpoint; // likewise
-    bool resume = false;
-    std::optional<double> checkpoint_seconds;
-    std::optional<double> preview_seconds; // nothing: only when SIGUSR1 asks
-
-    // Nothing where the scene file or a default decides.
-    std::optional<ImageSize> size;
     std::optional<Rectangle> crop;
-    std::optional<std::uint32_t> sample_count;
-    std::optional<double> target_error; // relative; nothing: take all samples
-    std::optional<std::uint32_t> sampling;
+
+    double target_error = 0.0; // relative; 0: take all samples
+    std::uint32_t sampling = PT_SAMPLING_BEST;
     std::optional<double> time_limit; // seconds, of each frame
-    std::optional<std::uint64_t> seed;
-    std::optional<std::uint32_t> max_path_length;
-    std::optional<std::uint32_t> sampler;
-    std::optional<std::uint32_t> estimator;
     std::uint32_t first_sample = 0;
 
-    DisplayOptions display; // of .png and .jpg alone
+    bool parts = false;     // as they are asked for, in place of all outputs
+    std::string checkpoint; // path of the film; empty: none
+    bool resume = false;
+    std::optional<double> checkpoint_seconds; // nothing: 30
+    std::optional<double> preview_seconds;    // nothing: only when SIGUSR1 asks
 
     std::optional<FrameRange> frames; // of an animation; nothing: a picture
     bool skip_existing = false;       // of these frames
@@ -59,12 +45,11 @@ struct RenderOptions {
 
     std::string shader_dir; // empty: the library's own kernels
     bool watch = false;
-
     std::string progress = "auto";
-    bool quiet = false;
-};
 
-inline constexpr double default_checkpoint_seconds = 30.0;
+    // The layers that have to be read, that of alpha among them: PT_QUANTITY_*.
+    std::vector<std::uint32_t> wanted_layers() const;
+};
 
 extern const char *const render_help;
 

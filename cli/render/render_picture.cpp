@@ -1,25 +1,25 @@
 #include "cli/render/render_picture.h"
 
 #include "cli/base/device_text.h"
-#include "cli/base/host_memory.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
+#include "cli/base/output_file.h"
 #include "cli/base/progress.h"
-#include "cli/base/report_file.h"
 #include "cli/base/source_date.h"
+#include "cli/base/text.h"
 #include "cli/film/context_film.h"
-#include "cli/image/image_file.h"
-#include "cli/render/picture_observers.h"
+#include "cli/render/checkpoint_observer.h"
 #include "cli/render/piecewise_render.h"
+#include "cli/render/preview_observer.h"
 #include "cli/render/render_output.h"
-#include "cli/render/render_report.h"
 #include "cli/render/resume.h"
-#include "cli/scene/scene_setup.h"
-#include "cli/scene/warnings.h"
+#include "cli/render/time_limit_observer.h"
+#include "cli/render/warnings.h"
 
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <span>
 #include <unistd.h>
@@ -29,23 +29,66 @@ namespace cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using WritePreview = std::function<bool(const PiecewiseImage &)>;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 ProgressStyle style_of(const RenderOptions &options) {
-    return progress_style(options.progress, options.quiet, isatty(STDERR_FILENO) == 1);
+    return progress_style(options.progress, options.output.quiet, isatty(STDERR_FILENO) == 1);
 }
 
 // False if that was stopped.
-bool take_scene(const Context &context, const RenderOptions &options, const SceneFile &file, const Stop &superseded) {
-    SceneProgress progress(std::cerr, style_of(options), Clock::now());
-    return describe_scene(context, file, [&](double share) {
+bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
+    SceneProgress progress(std::cerr, style_of(task.options), Clock::now());
+    return describe_scene(context, task.scene, [&](double share) {
         progress.update(share, Clock::now());
         return interrupt_signal() == 0 && !superseded();
     });
 }
+
+// What a rendering was asked to do beside its samples.
+struct Extras {
+    std::optional<PreviewObserver> preview; // of one picture: the file of a frame is to mean that it is done
+    std::optional<CheckpointObserver> checkpoint;
+    std::optional<TimeLimitObserver> time_limit; // which begins now
+
+    Extras(const Context &context, const RenderOptions &options, Progress &progress, WritePreview write_preview) {
+        constexpr double usual_seconds = 30.0;
+        if (!options.frames) {
+            preview.emplace(context, options.preview_seconds.value_or(std::numeric_limits<double>::infinity()),
+                            std::move(write_preview));
+        }
+        if (!options.checkpoint.empty()) {
+            checkpoint.emplace(context, options.checkpoint, options.checkpoint_seconds.value_or(usual_seconds),
+                               [&progress](const std::string &message) { progress.say(message); });
+        }
+        if (options.time_limit) {
+            time_limit.emplace(Clock::now(), *options.time_limit);
+            progress.limit_time(*options.time_limit);
+        }
+    }
+
+    std::vector<RenderObserver *> observers() {
+        std::vector<RenderObserver *> all;
+        if (preview)
+            all.push_back(&*preview);
+        if (checkpoint)
+            all.push_back(&*checkpoint);
+        if (time_limit)
+            all.push_back(&*time_limit);
+        return all;
+    }
+
+    // Once no more samples are taken: writes the last checkpoint, and waits for all that is being written.
+    void finish(std::uint32_t sample_count) {
+        if (preview)
+            preview->finish();
+        if (checkpoint)
+            checkpoint->finish(sample_count);
+    }
+};
 
 struct Rendered {
     PiecewiseImage image;
@@ -53,44 +96,42 @@ struct Rendered {
     bool has_checkpoint;
 };
 
-Rendered render_with_progress(const Context &context, const RenderOptions &options, const SceneFile &file,
-                              const RenderSettings &settings, std::uint32_t rows, const Stop &stop,
-                              const std::function<bool(const PiecewiseImage &)> &write_preview) {
-    const std::uint64_t pixel_count = std::uint64_t{settings.render.width} * settings.window.part.height;
-    Progress progress(std::cerr, style_of(options), pixel_count, settings.sample_count, Clock::now());
+Rendered render_with_progress(const Context &context, const RenderTask &task, std::uint32_t rows, const Stop &stop,
+                              const WritePreview &write_preview) {
+    const std::uint64_t pixel_count = std::uint64_t{task.render.width} * task.window.part.height;
+    Progress progress(std::cerr, style_of(task.options), pixel_count, task.sample_count, Clock::now());
     progress.begin_at(context.sample_count());
-    PictureObservers observers(context, options, progress, write_preview);
+    Extras extras(context, task.options, progress, write_preview);
     Rendered rendered{};
-    const std::vector<std::uint32_t> layers = wanted_layers(options);
-    const WantedImages wanted{!options.standard_error.empty(), layers};
-    rendered.image = render_pieces(context, file, settings, rows, wanted, stop, progress, observers.list());
-    observers.finish(static_cast<std::uint32_t>(std::lround(rendered.image.stats.mean_sample_count)));
-    rendered.timed_out = observers.is_timed_out();
-    rendered.has_checkpoint = observers.has_checkpoint();
+    rendered.image = render_pieces(context, task, rows, stop, progress, extras.observers());
+    extras.finish(static_cast<std::uint32_t>(std::lround(rendered.image.stats.mean_sample_count)));
+    rendered.timed_out = extras.time_limit && extras.time_limit->has_come();
+    rendered.has_checkpoint = extras.checkpoint && extras.checkpoint->is_valid();
     return rendered;
 }
 
 // Of one piece of the image a film could not go on with the others.
-void require_one_piece(const RenderOptions &options, const RenderSettings &settings, std::uint32_t rows) {
+void require_one_piece(const RenderTask &task, std::uint32_t rows) {
+    const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
-    const bool is_asked = !options.checkpoint.empty() || !options.film.empty();
-    if (is_asked && rows < settings.window.part.height) {
-        throw Failure(ExitCode::usage,
-                      option + ": needs the whole image on the device, which " +
-                          (options.piece_rows > 0 ? "--piece-rows " + std::to_string(rows) + " forbids"
-                                                  : "has room for " + std::to_string(rows) + " rows at a time"));
+    const bool is_asked = !options.checkpoint.empty() || !options.output.film.empty();
+    if (is_asked && rows < task.window.part.height) {
+        throw Failure(ExitCode::usage, option + ": needs the whole image on the device, which " +
+                                           (options.piece_rows > 0 ? concat("--piece-rows ", rows, " forbids")
+                                                                   : concat("has room for ", rows, " rows at a time")));
     }
 }
 
 // Takes over what the checkpoint has.
-void resume_if_asked(const Context &context, const RenderOptions &options, const RenderSettings &settings) {
+void resume_if_asked(const Context &context, const RenderTask &task) {
+    const RenderOptions &options = task.options;
     if (!options.resume)
         return;
-    const std::uint32_t sample_count = resume(context, options.checkpoint, settings);
-    if (!options.quiet) {
-        print_message(sample_count == 0 ? options.checkpoint + ": there is no checkpoint yet, so all samples are taken"
-                                        : options.checkpoint + ": goes on after " + std::to_string(sample_count) +
-                                              " of " + std::to_string(settings.sample_count) + " samples per pixel");
+    const std::uint32_t sample_count = resume(context, task);
+    if (!options.output.quiet) {
+        print_message(options.checkpoint + (sample_count == 0 ? ": there is no checkpoint yet, so all samples are taken"
+                                                              : concat(": goes on after ", sample_count, " of ",
+                                                                       task.sample_count, " samples per pixel")));
     }
 }
 
@@ -104,20 +145,16 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
 }
 
 // What an image in pieces takes of memory, before it is rendered.
-void print_pieces(const Context &context, const RenderOptions &options, const ImageWindow &window, std::uint32_t rows) {
-    const std::uint64_t host_bytes = image_bytes(window, image_count(options));
-    print_message(std::to_string((window.part.height + rows - 1) / rows) + " pieces of up to " + std::to_string(rows) +
-                  " rows: " + memory_text(context.read_stats().device_bytes) + " on the device, " +
-                  memory_text(host_bytes) + " for the image");
+void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
+    print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
+                         " rows: ", memory_text(context.read_stats().device_bytes), " on the device, ",
+                         memory_text(image_bytes(task)), " for the image"));
 }
 
-void print_summary(const RenderOptions &options, const RenderReport &report, const std::vector<std::string> &written) {
-    std::string names;
-    for (const std::string &path : written)
-        names += path + (&path == &written.back() ? ": " : ", ");
-    const std::string exposure = report.automatic_exposure ? exposure_text(report) + "\n" : "";
-    print_for_people("wrote " + names + summary_text(report) + "\n" + exposure + error_text(report) + "\n",
-                     takes_standard_output(options));
+void print_summary(const OutputOptions &output, const RenderReport &report, const std::vector<std::string> &written) {
+    print_for_people("wrote " + listed(written) + ": " + summary_text(report) + "\n" + automatic_exposure_line(report) +
+                         error_text(report) + "\n",
+                     output.takes_standard_output());
 }
 
 PictureImages images_of(const PiecewiseImage &image) {
@@ -125,88 +162,88 @@ PictureImages images_of(const PiecewiseImage &image) {
 }
 
 // Whether all images, and the film, could be written.
-bool write_outputs(ImageWriter &writer, const Context &context, const RenderOptions &options, RenderReport &report,
+bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask &task, RenderReport &report,
                    const PiecewiseImage &image, Clock::time_point start) {
+    const OutputOptions &output = task.options.output;
     const std::vector<std::string> warnings = image_warnings(report, image.radiance);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
-    if (!options.quiet)
+    if (!output.quiet)
         print_warnings(warnings);
-    std::vector<std::string> written = write_images(writer, options, report, images_of(image));
-    if (!options.film.empty() && write_film([&] { return saved_film(context); }, options.film))
-        written.push_back(options.film);
+    std::vector<std::string> written = write_images(writer, output, report, images_of(image));
+    if (!output.film.empty() && write_film([&] { return saved_film(context); }, output.film))
+        written.push_back(output.film);
     report.total_seconds = seconds_since(start);
-    write_report_file(options.stats, json_text(stats_json(report)));
-    if (!options.quiet && !written.empty())
-        print_summary(options, report, written);
-    return written.size() == output_count(options) + (options.film.empty() ? 0 : 1);
+    write_report_file(output.stats, json_text(stats_json(report)));
+    if (!output.quiet && !written.empty())
+        print_summary(output, report, written);
+    return written.size() == output_count(output) + (output.film.empty() ? 0 : 1);
 }
 
 // Nothing if no output is tone-mapped.
-std::optional<ToneMap> tone_map_of(const RenderOptions &options, const RenderSettings &settings,
-                                   std::span<const float> radiance) {
-    if (!needs_tone_map(options))
-        return std::nullopt;
-    const std::optional<double> stops = settings.exposure.stops;
-    return ToneMap{stops ? *stops : automatic_exposure(radiance), settings.tone_curve, settings.gamma};
+std::optional<ToneMap> tone_map_of(const RenderTask &task, std::span<const float> radiance) {
+    return needs_tone_map(task.options.output) ? std::optional(task.scene.display.tone_map(radiance)) : std::nullopt;
 }
 
-void print_interruption(const RenderSettings &settings, std::uint32_t done, std::uint32_t rows_done,
+void print_interruption(const RenderTask &task, std::uint32_t done, std::uint32_t rows_done,
                         const std::string &checkpoint) {
-    const std::uint32_t height = settings.window.part.height;
-    const bool whole = rows_done == height;
-    const std::string rows = std::to_string(rows_done) + " of " + std::to_string(height) + " rows";
-    print_message("stopped by " + interrupt_name() + " after " + std::to_string(done) + " of " +
-                  std::to_string(settings.sample_count) + " samples per pixel" +
-                  (done == 0 ? "; nothing was written"
-                   : whole   ? ""
-                             : " in " + rows + "; the others are black") +
-                  (checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
+    const std::uint32_t height = task.window.part.height;
+    print_message(
+        concat("stopped by ", interrupt_name(), " after ", done, " of ", task.sample_count, " samples per pixel",
+               done == 0             ? "; nothing was written"
+               : rows_done == height ? ""
+                                     : concat(" in ", rows_done, " of ", height, " rows; the others are black"),
+               checkpoint.empty() ? "" : "; --resume goes on from " + checkpoint));
+}
+
+RenderReport report_of(const Context &context, const RenderTask &task) {
+    RenderReport report{};
+    report.scene = task.scene.path;
+    report.date = source_date();
+    report.render = task.render;
+    report.window = task.window;
+    report.requested_sample_count = task.sample_count;
+    report.target_error = task.options.target_error;
+    context.require(pt_get_context_device(context.get(), &report.device));
+    return report;
 }
 
 } // namespace
 
-Outcome render_picture(const Context &context, const RenderOptions &options, const SceneFile &file,
-                       const RenderSettings &settings, const RenderTimes &times, const Stop &superseded) {
-    RenderReport report{};
-    report.scene = file.path;
-    report.date = source_date();
-    report.render = settings.render;
-    report.window = settings.window;
-    report.requested_sample_count = settings.sample_count;
-    report.target_error = settings.target_error;
-
-    context.require(pt_get_context_device(context.get(), &report.device));
-    if (!take_scene(context, options, file, superseded)) {
+Outcome render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
+                       const Stop &superseded) {
+    const RenderOptions &options = task.options;
+    RenderReport report = report_of(context, task);
+    if (!take_scene(context, task, superseded)) {
         if (superseded())
             return Outcome::superseded;
-        print_interruption(settings, 0, 0, "");
+        print_interruption(task, 0, 0, "");
         return Outcome::interrupted;
     }
-    report.warnings = input_warnings(file, settings);
-    if (!options.quiet)
+    report.warnings = input_warnings(task.scene, options.target_error);
+    if (!options.output.quiet)
         print_warnings(report.warnings);
-    const std::uint32_t rows = fit_pieces(context, file, settings, options.piece_rows);
-    require_one_piece(options, settings, rows);
-    if (rows < settings.window.part.height && !options.quiet)
-        print_pieces(context, options, settings.window, rows);
+    const std::uint32_t rows = fit_pieces(context, task);
+    require_one_piece(task, rows);
+    if (rows < task.window.part.height && !options.output.quiet)
+        print_pieces(context, task, rows);
     report.create_seconds = seconds_since(times.create_start);
 
     // Not earlier: drivers are shared objects too, and loading one would wait for the loading of the image module.
     ImageWriter writer;
-    if (needs_module(options))
+    if (needs_module(options.output))
         writer.load_module();
-    resume_if_asked(context, options, settings);
+    resume_if_asked(context, task);
     const auto write_preview = [&](const PiecewiseImage &image) {
         RenderReport so_far = report;
         so_far.stats = image.stats;
-        so_far.tone_map = tone_map_of(options, settings, image.radiance);
+        so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
-        const RenderOptions files = without_standard_output(options); // a stream takes one image
+        const OutputOptions files = without_standard_output(options.output); // a stream takes one image
         return write_images(writer, files, so_far, images_of(image)).size() == output_count(files);
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();
-    const Rendered rendered = render_with_progress(context, options, file, settings, rows, stop, write_preview);
+    const Rendered rendered = render_with_progress(context, task, rows, stop, write_preview);
     const PiecewiseImage &image = rendered.image;
     report.accumulate_seconds = seconds_since(accumulate_start);
     report.total_seconds = seconds_since(times.start);
@@ -214,22 +251,22 @@ Outcome render_picture(const Context &context, const RenderOptions &options, con
     report.stats = image.stats;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, interrupted, rendered.timed_out);
-    report.checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
+    const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";
     if (interrupted) {
-        print_interruption(settings, report.stats.sample_count, image.rows_done, report.checkpoint);
+        print_interruption(task, report.stats.sample_count, image.rows_done, checkpoint);
         if (report.stats.sample_count == 0)
             return Outcome::interrupted;
     } else if (superseded()) {
         return Outcome::superseded;
     }
-    report.tone_map = tone_map_of(options, settings, image.radiance);
-    report.automatic_exposure = report.tone_map && !settings.exposure.stops;
+    report.tone_map = tone_map_of(task, image.radiance);
+    report.automatic_exposure = report.tone_map && !task.scene.display.exposure;
     writer.wait();
-    const bool all_written = write_outputs(writer, context, options, report, image, times.start);
+    const bool all_written = write_outputs(writer, context, task, report, image, times.start);
     if (interrupted && all_written)
         return Outcome::interrupted;
     return outcome_of(
-        {report.target_error > 0.0, report.target_reached(), rendered.timed_out, rendered.has_checkpoint, all_written});
+        {task.has_target(), report.target_reached(), rendered.timed_out, rendered.has_checkpoint, all_written});
 }
 
 } // namespace cli

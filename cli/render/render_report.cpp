@@ -1,14 +1,14 @@
 #include "cli/render/render_report.h"
 
 #include "cli/base/device_text.h"
-#include "cli/base/json_number.h"
+#include "cli/base/json_text.h"
 #include "cli/base/method_names.h"
+#include "cli/base/text.h"
 #include "cli/image/display_image.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -57,13 +57,6 @@ double samples_per_second(const RenderReport &report) {
     return report.accumulate_seconds > 0.0 ? pixels * report.stats.mean_sample_count / report.accumulate_seconds : 0.0;
 }
 
-// Three significant digits, so that 0.0031% can be told from 0; without exponent for what is seen in pictures.
-std::string percent_text(double share) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g%%", 100.0 * share);
-    return text.data();
-}
-
 // Why the relative error may be far off; empty if there is no reason.
 std::string uncertainty_text(std::uint32_t uncertain) {
     if ((uncertain & PT_UNCERTAIN_UNMET) != 0)
@@ -89,10 +82,7 @@ std::string estimate_text(const pt_stats &stats) {
 std::string samples_text(const pt_stats &stats) {
     if (stats.sample_count == stats.max_sample_count)
         return std::to_string(stats.sample_count);
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.1f (%u to %u)", stats.mean_sample_count, stats.sample_count,
-                  stats.max_sample_count);
-    return text.data();
+    return formatted("%.1f (%u to %u)", stats.mean_sample_count, stats.sample_count, stats.max_sample_count);
 }
 
 std::string target_text(const RenderReport &report) {
@@ -108,12 +98,6 @@ std::string target_text(const RenderReport &report) {
 }
 
 } // namespace
-
-std::string version_text() {
-    const std::uint32_t version = pt_version();
-    return std::to_string(version / 1'000'000) + "." + std::to_string(version / 1'000 % 1'000) + "." +
-           std::to_string(version % 1'000);
-}
 
 nlohmann::ordered_json tone_map_json(const RenderReport &report) {
     if (!report.tone_map)
@@ -176,17 +160,12 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 }
 
 std::string summary_text(const RenderReport &report) {
-    std::array<char, 128> text{};
-    std::snprintf(text.data(), text.size(), ", %s spp in %.2f s on ", samples_text(report.stats).c_str(),
-                  report.total_seconds);
-    return window_text(report.window) + text.data() + report.device.name;
+    return window_text(report.window) + ", " + samples_text(report.stats) +
+           formatted(" spp in %.2f s on ", report.total_seconds) + report.device.name;
 }
 
-std::string exposure_text(const RenderReport &report) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "exposure %.2f EV%s", report.tone_map.value_or(ToneMap{}).exposure,
-                  report.automatic_exposure ? " (auto)" : "");
-    return text.data();
+std::string automatic_exposure_line(const RenderReport &report) {
+    return report.automatic_exposure ? automatic_exposure_line(report.tone_map.value()) : "";
 }
 
 std::string error_text(const RenderReport &report) {

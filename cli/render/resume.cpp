@@ -13,9 +13,9 @@ namespace {
 
 // Runs take their samples in order, so those that one has left are the first of the next.
 void require_first_samples(const std::string &path, const std::vector<pt_sample_range> &ranges,
-                           const RenderSettings &settings) {
-    const std::uint64_t first = settings.render.first_sample;
-    const pt_sample_range wanted{first, first + settings.sample_count};
+                           const RenderTask &task) {
+    const std::uint64_t first = task.render.first_sample;
+    const pt_sample_range wanted{first, first + task.sample_count};
     const bool are_first =
         ranges.size() == 1 && ranges.front().first == wanted.first && ranges.front().end <= wanted.end;
     if (!are_first) {
@@ -27,14 +27,15 @@ void require_first_samples(const std::string &path, const std::vector<pt_sample_
 
 } // namespace
 
-std::uint32_t resume(const Context &context, const std::string &path, const RenderSettings &settings) {
+std::uint32_t resume(const Context &context, const RenderTask &task) {
+    const std::string &path = task.options.checkpoint;
     std::error_code error;
     if (!std::filesystem::exists(path, error) && !error)
         return 0;
     const std::vector<std::byte> bytes = read_film_file(path);
     const std::vector<pt_sample_range> ranges = FilmHandle(path, bytes).ranges(0);
     add_film(context, path, bytes);
-    require_first_samples(path, ranges, settings);
+    require_first_samples(path, ranges, task);
     return context.sample_count();
 }
 

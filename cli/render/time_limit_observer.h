@@ -7,10 +7,8 @@
 
 namespace cli {
 
-class TimeLimitObserver : public PieceObserver {
+class TimeLimitObserver : public RenderObserver {
 public:
-    using Clock = std::chrono::steady_clock;
-
     TimeLimitObserver(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
 
     // Each piece of the image has its share of the time, with what those before have left.

@@ -1,44 +1,18 @@
 #include "cli/scene/scene_file.h"
 
-#include "cli/base/exit_code.h"
-#include "cli/base/json_path.h"
-#include "cli/base/json_value.h"
-#include "cli/base/report_file.h"
+#include "cli/base/output_file.h"
 #include "cli/base/text_file.h"
-#include "cli/scene/json_sections.h"
-#include "cli/scene/scene_override.h"
-#include "cli/scene/scene_place.h"
 #include "cli/scene/scene_reader.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <functional>
 #include <iterator>
 #include <span>
-#include <system_error>
 #include <utility>
 
 namespace cli {
 namespace {
 
-std::size_t hash_of(std::string_view text) {
-    return std::hash<std::string_view>{}(text);
-}
-
-// The text that was read, if the file still holds it: one that was edited does not, and a pipe is read once.
-std::optional<std::string> read_again(const SceneFile &scene) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(scene.path, ignored))
-        return std::nullopt;
-    try {
-        std::string text = read_file(scene.path);
-        return hash_of(text) == scene.text_hash ? std::optional(std::move(text)) : std::nullopt;
-    } catch (const Failure &) {
-        return std::nullopt;
-    }
-}
-
-pt_sphere_array coloured(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colours) {
+pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colors) {
     constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
     pt_sphere_array array{};
     array.struct_size = sizeof array;
@@ -47,42 +21,88 @@ pt_sphere_array coloured(std::span<const pt_sphere> spheres, std::span<const std
     array.radius = {&spheres[0].radius, stride, PT_TYPE_FLOAT64};
     array.motion = {&spheres[0].motion, stride, PT_TYPE_FLOAT64};
     array.material = {&spheres[0].material, stride, PT_TYPE_UINT32};
-    array.color = {colours.data(), sizeof colours[0], PT_TYPE_FLOAT32};
+    array.color = {colors.data(), sizeof colors[0], PT_TYPE_FLOAT32};
     return array;
 }
 
-// What has taken the place of the file's value there; nullptr if nothing has.
-const OverriddenValue *find_override(const SceneFile &scene, const JsonPath &path) {
-    const auto found = std::find_if(scene.overridden.rbegin(), scene.overridden.rend(),
-                                    [&](const OverriddenValue &each) { return is_within(path, each.path); });
-    return found == scene.overridden.rend() ? nullptr : &*found;
+// Keys of the file that pt.h calls otherwise.
+constexpr std::array<std::array<std::string_view, 2>, 6> renamed{{{"camera.target", "camera.look_at"},
+                                                                  {"camera.shutter_open", "camera.shutter[0]"},
+                                                                  {"camera.shutter_close", "camera.shutter[1]"},
+                                                                  {"render.width", "film.width"},
+                                                                  {"render.height", "film.height"},
+                                                                  {"accumulate.sample_count", "render.spp"}}};
+
+// Of an element of a column, whose components are spheres. The file's single spheres may be an array before others.
+JsonPath path_in_arrays(const SceneFile &scene, const BrokenRule &rule) {
+    const std::size_t of_spheres = scene.sphere_colors.empty() ? 0 : 1;
+    const bool is_single = *rule.index < of_spheres;
+    const std::size_t item =
+        is_single ? scene.item_of(rule.component.value_or(0)) : scene.sphere_columns[*rule.index - of_spheres].item;
+    JsonPath path{{"spheres"}, {{}, item, true}, {rule.member}};
+    if (rule.component && !is_single)
+        path.push_back({{}, *rule.component, true});
+    return path;
 }
 
-// text: of the file, if it is known.
-std::string explain_rule(const SceneFile &scene, const std::optional<std::string> &text, const BrokenRule &rule) {
-    const JsonPath path = path_of(scene, rule);
-    if (const OverriddenValue *value = find_override(scene, path))
-        return value->source + ": " + rule_text(path_text(path), rule);
-    const auto number = text && !path.empty() ? find_line(*text, path) : std::nullopt;
-    return rule_text(place_text(scene.path, number, path.empty() ? field_text(rule) : path_text(path)), rule);
+// Of the field that breaks a rule; empty if it is none of the file's. Materials have names there.
+JsonPath path_of(const SceneFile &scene, const BrokenRule &rule) {
+    if (rule.subject == "sphere_arrays" && rule.index)
+        return path_in_arrays(scene, rule);
+    const std::string name = rule.subject + "." + rule.member;
+    JsonPath path;
+    if (const auto found = std::ranges::find_if(renamed, [&](const auto &each) { return each[0] == name; });
+        found != renamed.end()) {
+        path = parse_path((*found)[1]).value().path;
+    } else if (find_section(rule.subject) == nullptr) {
+        return {};
+    } else {
+        path.push_back({rule.subject});
+        if (rule.index) {
+            const bool is_named = rule.subject == "materials" && *rule.index < scene.material_names.size();
+            const std::size_t item = rule.subject == "spheres" ? scene.item_of(*rule.index) : *rule.index;
+            path.push_back(is_named ? JsonStep{scene.material_names[item]} : JsonStep{{}, item, true});
+        }
+        path.push_back({rule.member});
+    }
+    if (rule.component)
+        path.push_back({{}, *rule.component, true});
+    return path;
+}
+
+// What has taken the place of the file's value there; nullptr if nothing has.
+const SceneOverride *find_override(const SceneFile &scene, const JsonPath &path) {
+    const auto found = std::find_if(scene.overrides.rbegin(), scene.overrides.rend(),
+                                    [&](const SceneOverride &each) { return is_within(path, each.path); });
+    return found == scene.overrides.rend() ? nullptr : &*found;
+}
+
+// A rule of what neither the file nor an option gave, or of a field that the file does not know, is the command's.
+bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPath &path) {
+    return find_option(rule) != nullptr && (path.empty() || !scene.gives(path));
+}
+
+std::string place_text(const SceneFile &scene, const JsonPath &path) {
+    const auto line = path.empty() ? std::nullopt : scene.lines.find(path);
+    return scene.path + (line ? ":" + std::to_string(*line) : "");
 }
 
 } // namespace
 
-void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour) {
+void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color) {
     constexpr std::array<float, 3> white{1.0F, 1.0F, 1.0F};
-    if (colour && sphere_colours.empty())
-        sphere_colours.assign(spheres.size(), white);
+    if (color && sphere_colors.empty())
+        sphere_colors.assign(spheres.size(), white);
     spheres.push_back(sphere);
-    if (!sphere_colours.empty() || colour)
-        sphere_colours.push_back(colour.value_or(white));
+    if (!sphere_colors.empty() || color)
+        sphere_colors.push_back(color.value_or(white));
 }
 
 pt_scene SceneFile::scene() const {
     pt_scene scene{};
     scene.struct_size = sizeof(pt_scene);
     scene.material_count = static_cast<std::uint32_t>(materials.size());
-    scene.sphere_count = sphere_colours.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
+    scene.sphere_count = sphere_colors.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
     scene.plane_count = static_cast<std::uint32_t>(planes.size());
     scene.materials = materials.data();
     scene.spheres = spheres.data();
@@ -92,8 +112,8 @@ pt_scene SceneFile::scene() const {
 
 std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     std::vector<pt_sphere_array> arrays;
-    if (!sphere_colours.empty())
-        arrays.push_back(coloured(spheres, sphere_colours));
+    if (!sphere_colors.empty())
+        arrays.push_back(colored(spheres, sphere_colors));
     std::transform(sphere_columns.begin(), sphere_columns.end(), std::back_inserter(arrays),
                    [](const SphereColumns &each) { return each.spheres(); });
     return arrays;
@@ -107,7 +127,7 @@ std::vector<std::uint32_t> SceneFile::material_flags() const {
 }
 
 bool SceneFile::is_hidden(std::uint32_t material) const {
-    return std::find(hidden_materials.begin(), hidden_materials.end(), material) != hidden_materials.end();
+    return std::ranges::find(hidden_materials, material) != hidden_materials.end();
 }
 
 std::size_t SceneFile::item_of(std::size_t sphere) const {
@@ -116,44 +136,57 @@ std::size_t SceneFile::item_of(std::size_t sphere) const {
     return sphere;
 }
 
+bool SceneFile::gives(const JsonPath &key) const {
+    return std::ranges::any_of(given, [&](const JsonPath &each) { return is_within(key, each); });
+}
+
 std::string SceneFile::explain(const BrokenRule &rule) const {
-    return explain_rule(*this, read_again(*this), rule);
+    const JsonPath path_there = path_of(*this, rule);
+    if (const SceneOverride *cause = find_override(*this, path_there))
+        return rule_text(cause->name_of(path_there), rule);
+    if (is_of_command(*this, rule, path_there))
+        return in_words_of_options(rule);
+    return rule_text(
+        place_text(*this, path_there) + ": " + (path_there.empty() ? field_text(rule) : path_text(path_there)), rule);
 }
 
 std::string SceneFile::explain(const LibraryError &error) const {
-    if (error.rules.empty())
-        return path + ": " + error.message;
-    const std::optional<std::string> text = read_again(*this);
-    return error.in_words([&](const BrokenRule &rule) { return explain_rule(*this, text, rule); });
+    return error.rules.empty() ? path + ": " + error.message
+                               : error.in_words([&](const BrokenRule &rule) { return explain(rule); });
 }
 
 ExitCode SceneFile::blame(const BrokenRule &rule) const {
-    const OverriddenValue *value = find_override(*this, path_of(*this, rule));
-    return value == nullptr ? ExitCode::scene : value->blame;
+    const JsonPath path_there = path_of(*this, rule);
+    if (const SceneOverride *cause = find_override(*this, path_there))
+        return cause->blame;
+    return is_of_command(*this, rule, path_there) ? ExitCode::usage : ExitCode::scene;
 }
 
-SceneFile parse_scene(std::string_view text, const std::string &path) {
-    return parse_scene(text, path, {});
+ExitCode SceneFile::blame(const LibraryError &error) const {
+    const bool is_usage =
+        std::ranges::any_of(error.rules, [&](const BrokenRule &rule) { return blame(rule) == ExitCode::usage; });
+    return is_usage ? ExitCode::usage : ExitCode::scene;
 }
 
-SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides) {
-    SceneFile scene{};
+SceneFile parse_scene(std::string_view text, const std::string &path, std::vector<SceneOverride> overrides) {
+    SceneFile scene;
     scene.path = path;
-    scene.text_hash = hash_of(text);
+    scene.overrides = std::move(overrides);
     SceneReader reader(scene);
-    for (const SceneOverride &each : overrides)
-        scene.overridden.push_back({each.path, each.source, each.blame});
-    OverridingHandler handler(reader, overrides);
-    const std::string_view checked = require_text(text, path);
     try {
-        parse_json_sections(checked, path, handler);
-        handler.finish();
+        parse_json_items(require_text(text, path), path, scene.lines, reader);
         reader.finish();
     } catch (const JsonRefusal &refusal) {
-        const auto line = find_line(checked, refusal.path, refusal.occurrence);
-        throw Failure(ExitCode::scene, place_text(path, line, path_text(refusal.path)) + ": " + refusal.what());
+        const auto line = scene.lines.find(refusal.path);
+        const std::string name = path_text(refusal.path);
+        throw Failure(ExitCode::scene, path + (line ? ":" + std::to_string(*line) : "") +
+                                           (name.empty() ? "" : ": " + name) + ": " + refusal.what());
     }
     return scene;
+}
+
+Display display_of(const std::vector<SceneOverride> &overrides) {
+    return parse_scene("{}", "", overrides).display;
 }
 
 SceneFile read_scene_file(const std::string &path) {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "cli/base/exit_code.h"
-#include "cli/base/json_path.h"
 #include "cli/base/library_error.h"
 #include "cli/image/exposure.h"
-#include "cli/image/tone_map.h"
 #include "cli/scene/animation.h"
+#include "cli/scene/json_items.h"
+#include "cli/scene/scene_override.h"
 #include "cli/scene/sphere_columns.h"
 
 #include <pt/pt.h>
@@ -22,43 +22,50 @@
 
 namespace cli {
 
-struct SceneOverride;
+// The camera of files without one: it looks from (0, 0, 1) at the origin.
+constexpr pt_camera default_camera() {
+    pt_camera camera{};
+    camera.struct_size = sizeof(pt_camera);
+    camera.position[2] = 1.0;
+    return camera;
+}
 
-// A value that is not the file's own, and where it comes from.
-struct OverriddenValue {
-    JsonPath path;
-    std::string source;
-    ExitCode blame;
-};
+// When its shutter opens and closes: 0 and 0 are pt.h's default, the whole of [0, 1].
+constexpr std::array<double, 2> shutter_of(const pt_camera &camera) {
+    const bool is_default = camera.shutter_open == 0.0 && camera.shutter_close == 0.0;
+    return {camera.shutter_open, is_default ? 1.0 : camera.shutter_close};
+}
+
+constexpr pt_render default_render() {
+    pt_render render{};
+    render.struct_size = sizeof(pt_render);
+    render.width = 512;
+    render.height = 512;
+    render.max_path_length = PT_DEFAULT_MAX_PATH_LENGTH;
+    return render;
+}
 
 struct SceneFile {
     std::string path;
-    std::size_t text_hash; // of what was read
-    std::vector<OverriddenValue> overridden;
-    std::vector<std::string> material_names; // like all these arrays in the order of the file
+    JsonLines lines;
+    std::vector<SceneOverride> overrides;    // that have taken the place of its values
+    std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
+    std::vector<std::string> material_names; // like all arrays from here on in the order of the file
     std::vector<pt_material> materials;
     std::vector<std::uint32_t> hidden_materials; // indices of those that are hidden from the camera
     std::vector<pt_sphere> spheres;
-    std::vector<std::array<float, 3>> sphere_colours; // of each sphere where any has one, else empty
+    std::vector<std::array<float, 3>> sphere_colors; // of each sphere where any has one, else empty
     std::vector<pt_plane> planes;
     std::vector<SphereColumns> sphere_columns; // without what their files have, before load_columns
-    pt_camera camera;
     std::vector<AnimatedValue> animation;
+    pt_camera camera = default_camera();
+    pt_render render = default_render();       // the sections `film` and `render`, with these two
+    std::optional<std::uint32_t> sample_count; // of a pixel
+    Display display;
 
-    std::optional<std::uint32_t> width;
-    std::optional<std::uint32_t> height;
-    std::optional<Exposure> exposure;
-    std::optional<ToneCurve> tone_curve;
-    std::optional<double> gamma;
-    std::optional<std::uint32_t> max_path_length;
-    std::optional<std::uint32_t> sample_count;
-    std::optional<std::uint64_t> seed;
-    std::optional<std::uint32_t> sampler;
-    std::optional<std::uint32_t> estimator;
+    void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &color);
 
-    void add_sphere(const pt_sphere &sphere, const std::optional<std::array<float, 3>> &colour);
-
-    // Both point into this object. Spheres are in the first array if any of them has a colour; each item that is many
+    // Both point into this object. Spheres are in the first array if any of them has a color; each item that is many
     // spheres is another.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
@@ -66,18 +73,24 @@ struct SceneFile {
     bool is_hidden(std::uint32_t material) const;      // from the camera
     std::size_t item_of(std::size_t sphere) const;     // index in the file's section of spheres[sphere]
 
-    // What the library says of materials[1].glossiness in the file's words, with the line of the file where that can be
-    // read again: "scene.json:7: materials.gold.glossiness = -1: must be >= 0".
+    bool gives(const JsonPath &key) const;
+
+    // What the library says of materials[1].glossiness in the words of whoever gave the value: of the file, with its
+    // line, "scene.json:7: materials.gold.glossiness = -1: must be >= 0", or of an option.
     std::string explain(const BrokenRule &rule) const;
     std::string explain(const LibraryError &error) const;
 
-    // Where the fault is if that rule is broken: in the file, or in the source of a value in place of its own.
+    // Where the fault is if that rule is broken: in the file (ExitCode::scene), or in what gave a value in place of it.
     ExitCode blame(const BrokenRule &rule) const;
+    ExitCode blame(const LibraryError &error) const;
 };
 
-// Throw Failure(ExitCode::scene) if the text is not a scene file.
-SceneFile parse_scene(std::string_view text, const std::string &path);
-SceneFile parse_scene(std::string_view text, const std::string &path, const std::vector<SceneOverride> &overrides);
+// overrides: what takes the place of its values; a later one counts more. Throws Failure(ExitCode::scene) if the text
+// is not a scene file, and blames an override that does not fit.
+SceneFile parse_scene(std::string_view text, const std::string &path, std::vector<SceneOverride> overrides = {});
+
+// What overrides of the section `film` say, where there is no scene file.
+Display display_of(const std::vector<SceneOverride> &overrides);
 
 // The path - is standard input. Reads the files of columns too. Throws Failure: ExitCode::file if a file cannot be
 // read, ExitCode::scene if it is not what it has to be.

@@ -1,55 +1,36 @@
-// Values that take the place of a scene file's, or are added to it: of --set, and of the frames of an animation.
+// Values that take the place of a scene file's, or are added to it: of --set, of options that say the same as a key,
+// and of the frames of an animation.
 #pragma once
 
 #include "cli/base/exit_code.h"
 #include "cli/base/json_path.h"
-#include "cli/scene/json_sections.h"
 
 #include <nlohmann/json.hpp>
 
-#include <set>
-#include <span>
+#include <cstddef>
 #include <string>
-#include <vector>
 
 namespace cli {
+
+inline constexpr std::size_t item_depth = 2; // steps from the root to an item of a section
 
 struct SceneOverride {
     JsonPath path; // of a value within a section
     nlohmann::json value;
-    std::string source; // for messages: "--set camera.vertical_fov=30"
-    ExitCode blame;     // where the source is wrong
+    std::string source;       // for messages: "--set camera.vertical_fov=30", "--spp"
+    ExitCode blame;           // where the source is wrong
+    bool is_its_name = false; // whether the source is what the value is called: "--spp"
+
+    // Puts the value into an item of a section. Members that an object lacks are added; elements of arrays have to be
+    // there. Throws Failure.
+    void apply_to(nlohmann::json &item) const;
+
+    // What it is called in messages.
+    std::string name_of(const JsonPath &part) const { return is_its_name ? source : source + ": " + path_text(part); }
 };
 
 // "camera.vertical_fov=30". The value is JSON; what is none is a text, so that names need no quotes. Throws
 // Failure(ExitCode::usage).
 SceneOverride parse_override(const std::string &text);
-
-// Stands between the parser and the reader of a scene file: items with values to be replaced are handed on with these.
-// Members that an object of the file lacks are added; elements of arrays have to be there.
-class OverridingHandler : public JsonSectionHandler {
-public:
-    // Refers to both.
-    OverridingHandler(JsonSectionHandler &reader, std::span<const SceneOverride> overrides) :
-        reader_(reader),
-        overrides_(overrides) {}
-
-    // All throw Failure for an override that does not fit, or whose value the reader refuses, and blame its source.
-    void begin_section(const JsonPlace &place, nlohmann::json::value_t kind) override {
-        reader_.begin_section(place, kind);
-    }
-    void item(const JsonPlace &place, const nlohmann::json &value) override;
-
-    // At the end of the file: adds the items that it does not have.
-    void finish();
-
-private:
-    std::vector<std::size_t> overrides_of(const JsonPath &item) const;
-    void hand_on(const JsonPlace &place, nlohmann::json value, std::span<const std::size_t> chosen);
-
-    JsonSectionHandler &reader_;
-    std::span<const SceneOverride> overrides_;
-    std::set<std::size_t> used_; // indices of overrides
-};
 
 } // namespace cli

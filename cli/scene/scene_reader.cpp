@@ -1,50 +1,222 @@
 #include "cli/scene/scene_reader.h"
 
+#include "cli/base/suggestion.h"
+#include "cli/scene/animation.h"
+
 #include <algorithm>
-#include <array>
 #include <string_view>
+#include <utility>
 
 namespace cli {
+namespace {
 
 using nlohmann::json;
 
-void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
-    struct Section {
-        std::string_view name;
-        json::value_t kind;
-        ItemReader read_item;
-    };
-    static constexpr std::array<Section, 7> sections{{
-        {"camera", json::value_t::object, &SceneReader::camera_item},
-        {"film", json::value_t::object, &SceneReader::film_item},
-        {"render", json::value_t::object, &SceneReader::render_item},
-        {"materials", json::value_t::object, &SceneReader::material_item},
-        {"spheres", json::value_t::array, &SceneReader::sphere_item},
-        {"planes", json::value_t::array, &SceneReader::plane_item},
-        {"animation", json::value_t::object, &SceneReader::animation_item},
-    }};
-    const auto section = std::find_if(sections.begin(), sections.end(),
-                                      [&](const Section &candidate) { return candidate.name == place.key; });
+void refuse_unknown_section(const JsonPlace &place) {
     if (place.key == "particles" || place.key == "figure") {
         refuse(place,
                "is no longer read: `pt figure DATA --write-scene SCENE` writes a scene whose spheres have columns, "
                "{\"center\": \"a.npy\", ...}");
     }
-    if (section == sections.end()) {
-        std::array<std::string_view, sections.size()> known;
-        std::transform(sections.begin(), sections.end(), known.begin(), [](const Section &each) { return each.name; });
-        refuse_unknown_key(*place.parent, place.key, known);
+    std::vector<std::string_view> known;
+    for (const SceneSection &section : scene_sections())
+        known.push_back(section.name);
+    known.push_back("animation");
+    refuse_unknown_key(*place.parent, place.key, known);
+}
+
+void check_projection(const pt_camera &camera, const JsonPlace &place) {
+    const bool orthographic = camera.projection == PT_PROJECTION_ORTHOGRAPHIC;
+    if (orthographic && camera.vertical_fov != 0.0)
+        refuse(place, "\"vertical_fov\" is of a perspective projection, an orthographic one has a \"vertical_extent\"");
+    if (orthographic && camera.vertical_extent == 0.0)
+        refuse(place, "\"vertical_extent\" is missing, the height of an orthographic view");
+    if (!orthographic && camera.vertical_extent != 0.0)
+        refuse(place, "\"vertical_extent\" is of an orthographic projection, a perspective one has a \"vertical_fov\"");
+}
+
+} // namespace
+
+void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
+    section_ = find_section(place.key);
+    if (section_ == nullptr && place.key != "animation")
+        refuse_unknown_section(place);
+    const bool is_array = section_ != nullptr && section_->form == SectionForm::array;
+    const json::value_t wanted = is_array ? json::value_t::array : json::value_t::object;
+    if (kind != wanted)
+        refuse(place, "must be " + json_kind(wanted) + ", is " + json_kind(kind));
+    begun_.insert(section_);
+}
+
+std::vector<std::size_t> SceneReader::overrides_of(const JsonPath &item) const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < scene_.overrides.size(); ++i)
+        if (is_within(scene_.overrides[i].path, item))
+            chosen.push_back(i);
+    return chosen;
+}
+
+// A scene may have millions of items: most of them are looked up and read as they are.
+void SceneReader::item(const JsonPlace &place, const json &value) {
+    const std::vector<std::size_t> changes =
+        scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
+    if (changes.empty())
+        read(place, value);
+    else
+        read_changed(place, value, changes);
+}
+
+void SceneReader::read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
+    for (const std::size_t index : changes) {
+        scene_.overrides[index].apply_to(value);
+        used_overrides_.insert(index);
     }
-    if (kind != section->kind)
-        refuse(place, "must be " + json_kind(section->kind) + ", is " + json_kind(kind));
-    read_item_ = section->read_item;
-    if (place.key == "camera")
-        camera_.begin();
+    try {
+        read(place, value);
+    } catch (const JsonRefusal &refusal) {
+        for (const std::size_t index : changes) {
+            const SceneOverride &cause = scene_.overrides[index];
+            if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path))
+                throw Failure(cause.blame, cause.name_of(refusal.path) + ": " + refusal.what());
+        }
+        throw;
+    }
+}
+
+void SceneReader::read(const JsonPlace &place, const json &value) {
+    if (section_ == nullptr)
+        read_animation_item(scene_, place, value);
+    else if (section_->form == SectionForm::members)
+        read_member(place, value);
+    else
+        read_element(place, value);
+}
+
+void SceneReader::read_member(const JsonPlace &place, const json &value) {
+    const SceneKey *key = find_key(*section_, place.key);
+    if (key == nullptr)
+        refuse_unknown_key(*place.parent, place.key, key_names(*section_));
+    check(key->rule, value, place);
+    SceneItem item{scene_};
+    key->store(item, value);
+    scene_.given.push_back(place.path());
+}
+
+void SceneReader::read_element(const JsonPlace &place, const json &value) {
+    if (!value.is_object())
+        refuse(place, "must be an object, is " + shown(value));
+    for (const auto &member : value.items())
+        if (find_key(*section_, member.key()) == nullptr)
+            refuse_unknown_key(place, member.key(), key_names(*section_));
+    for (const SceneKey &key : section_->keys)
+        if (key.is_required && !value.contains(key.name))
+            refuse(place, "\"" + std::string(key.name) + "\" is missing");
+    SceneItem item{scene_};
+    const bool is_many = section_->name == "spheres" && value.at("center").is_string();
+    SphereColumns columns{place.index};
+    for (const SceneKey &key : section_->keys) {
+        const auto found = value.find(key.name);
+        if (found == value.end())
+            continue;
+        const JsonPlace member = place.member(key.name);
+        if (is_many && key.column != nullptr && found->is_string()) {
+            columns.add_file(key, found->get_ref<const std::string &>(), member);
+            continue;
+        }
+        check(key.rule, *found, member);
+        key.store(item, *found);
+        if (is_many && key.column != nullptr)
+            columns.add_value(key, *found);
+    }
+    if (is_many) {
+        columns.material = number_of_material(item.material_name, place.member("material"));
+        scene_.sphere_columns.push_back(std::move(columns));
+    } else {
+        add(item, place);
+    }
+}
+
+void SceneReader::add(SceneItem &item, const JsonPlace &place) {
+    if (section_->name == "materials") {
+        if (item.is_hidden)
+            scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
+        scene_.materials.push_back(item.material);
+        scene_.material_names.emplace_back(place.key);
+        return;
+    }
+    const std::uint32_t material = number_of_material(item.material_name, place.member("material"));
+    item.sphere.material = material;
+    item.plane.material = material;
+    if (section_->name == "spheres")
+        scene_.add_sphere(item.sphere, item.color);
+    else
+        scene_.planes.push_back(item.plane);
+}
+
+std::uint32_t SceneReader::number_of_material(const std::string &name, const JsonPlace &place) {
+    const auto [entry, fresh] = material_numbers_.try_emplace(name, static_cast<std::uint32_t>(used_materials_.size()));
+    if (fresh)
+        used_materials_.push_back({name, place.path()});
+    return entry->second;
+}
+
+void SceneReader::resolve_materials() {
+    std::unordered_map<std::string_view, std::uint32_t> defined;
+    for (const std::string &name : scene_.material_names)
+        defined.emplace(name, static_cast<std::uint32_t>(defined.size()));
+    std::vector<std::uint32_t> indices;
+    for (const UsedName &used : used_materials_) {
+        const auto found = defined.find(used.name);
+        if (found == defined.end()) {
+            const std::vector<std::string_view> known(scene_.material_names.begin(), scene_.material_names.end());
+            throw JsonRefusal(used.first_place, unknown_name("material", used.name, known));
+        }
+        indices.push_back(found->second);
+    }
+    for (pt_sphere &sphere : scene_.spheres)
+        sphere.material = indices[sphere.material];
+    for (SphereColumns &each : scene_.sphere_columns)
+        each.material = indices[each.material];
+    for (pt_plane &plane : scene_.planes)
+        plane.material = indices[plane.material];
+}
+
+void SceneReader::add_items_of_overrides() {
+    for (std::size_t i = 0; i < scene_.overrides.size(); ++i) {
+        if (used_overrides_.contains(i))
+            continue;
+        const SceneOverride &first = scene_.overrides[i];
+        const JsonPath item(first.path.begin(), first.path.begin() + item_depth);
+        if (item[0].in_array || item[1].in_array)
+            throw Failure(first.blame, first.source + ": the scene has no " + path_text(item));
+        const JsonPlace root;
+        const JsonPlace section = root.member(item[0].key);
+        try {
+            begin_section(section, json::value_t::object);
+        } catch (const JsonRefusal &refusal) {
+            throw Failure(first.blame, first.source + ": " + refusal.what());
+        }
+        read_changed(section.member(item[1].key), nullptr, overrides_of(item));
+    }
+}
+
+void SceneReader::require_members() const {
+    const JsonPlace root;
+    for (const SceneSection *section : begun_) {
+        if (section == nullptr || section->form != SectionForm::members)
+            continue;
+        const JsonPlace place = root.member(section->name);
+        for (const SceneKey &key : section->keys)
+            if (key.is_required && !scene_.gives(place.member(key.name).path()))
+                refuse(place, "\"" + std::string(key.name) + "\" is missing");
+    }
+    check_projection(scene_.camera, root.member("camera"));
 }
 
 void SceneReader::finish() {
-    camera_.require_complete();
-    surfaces_.resolve_materials();
+    add_items_of_overrides();
+    require_members();
+    resolve_materials();
 }
 
 } // namespace cli

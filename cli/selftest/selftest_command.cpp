@@ -4,7 +4,7 @@
 #include "cli/base/context.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
-#include "cli/base/report_file.h"
+#include "cli/base/output_file.h"
 #include "cli/base/vector_width.h"
 #include "cli/selftest/selftest_report.h"
 #include "cli/selftest/selftest_run.h"
@@ -20,16 +20,11 @@ const char *const selftest_help =
 
 void add_selftest_options(CLI::App &command, SelftestOptions &options) {
     add_device(command, options.device);
-    command
-        .add_option("--json", options.json,
-                    "Write the same as JSON; - is standard output, the text then goes to stderr")
-        ->type_name("JSON");
+    add_text(command, "--json", options.json, "JSON",
+             "Write the same as JSON; - is standard output, the text then goes to stderr");
     command.add_flag("--directions", options.directions,
                      "Check the directions that kernels sample alone: means, second moments and sides");
-    command
-        .add_option("--shader-dir", options.shader_dir,
-                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/")
-        ->type_name("DIR");
+    add_shader_dir(command, options.shader_dir);
 }
 
 int run_selftest(const SelftestOptions &options) {

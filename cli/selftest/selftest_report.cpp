@@ -1,8 +1,7 @@
 #include "cli/selftest/selftest_report.h"
 
 #include "cli/base/device_text.h"
-#include "cli/base/json_number.h"
-#include "cli/render/render_report.h"
+#include "cli/base/json_text.h"
 
 #include <algorithm>
 #include <array>

@@ -1,18 +1,17 @@
 #include "cli/tonemap/tonemap_command.h"
 
+#include "cli/base/device_text.h"
 #include "cli/base/distinct_files.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/report_file.h"
+#include "cli/base/output_file.h"
 #include "cli/image/display_image.h"
 #include "cli/image/image_attribute_text.h"
 #include "cli/image/image_reader.h"
 #include "cli/image/image_target.h"
-#include "cli/render/render_report.h"
+#include "cli/scene/scene_file.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 namespace cli {
@@ -87,12 +86,6 @@ void describe(ImageAttributes &attributes, const DecodedImage &image, const Tone
     add_tone_map(attributes, tone_map);
 }
 
-std::string exposure_line(double stops) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "exposure %.2f EV (auto)\n", stops);
-    return text.data();
-}
-
 } // namespace
 
 int run_tonemap(const TonemapOptions &options) {
@@ -103,18 +96,16 @@ int run_tonemap(const TonemapOptions &options) {
     const ImageTarget target = image_target(options.output, options.format);
     check_image_target(target, window);
 
-    const DisplayOptions &display = options.display;
-    const std::optional<double> stops = display.exposure.value_or(Exposure{}).stops;
-    const ToneMap tone_map{stops ? *stops : automatic_exposure(radiance), display.tone_curve.value_or(ToneCurve::none),
-                           display.gamma};
+    const Display display = display_of(options.display);
+    const ToneMap tone_map = display.tone_map(radiance);
     ImageAttributes attributes;
     describe(attributes, image, tone_map);
     ImageWriter writer;
-    write_display_image(writer, target, window, radiance, tone_map, display.png_bits, attributes.attributes(),
+    write_display_image(writer, target, window, radiance, tone_map, options.png_bits, attributes.attributes(),
                         alpha_of(image, target.format));
     if (!options.quiet) {
         print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
-                             window_text(window) + "\n" + (stops ? "" : exposure_line(tone_map.exposure)),
+                             window_text(window) + "\n" + (display.exposure ? "" : automatic_exposure_line(tone_map)),
                          options.output == standard_stream);
     }
     return static_cast<int>(ExitCode::done);

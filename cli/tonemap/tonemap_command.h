@@ -1,17 +1,26 @@
 // The command `pt tonemap`: the display side of a file of radiance once more, without rendering.
 #pragma once
 
-#include "cli/image/display_options.h"
+#include "cli/image/image_file.h"
+#include "cli/scene/scene_override.h"
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace cli {
 
 struct TonemapOptions {
     std::string input;
     std::string output;
-    std::optional<ImageFormat> format; // of an output that is standard output
-    DisplayOptions display;
+    std::optional<ImageFormat> format;  // of an output that is standard output
+    std::vector<SceneOverride> display; // how the image is shown
+    std::uint32_t png_bits = 8;
     bool quiet = false;
 };
 

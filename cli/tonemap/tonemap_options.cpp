@@ -1,6 +1,8 @@
 #include "cli/tonemap/tonemap_command.h"
 
-#include <CLI/CLI.hpp>
+#include "cli/base/common_options.h"
+#include "cli/render/output_options.h"
+#include "cli/scene/scene_options.h"
 
 namespace cli {
 
@@ -11,13 +13,12 @@ const char *const tonemap_help = "IN is an OpenEXR file, of `pt render` or anoth
                                  "is not finite is an error. --exposure auto is explained in `pt render --help`.\n";
 
 void add_tonemap_options(CLI::App &command, TonemapOptions &options) {
-    command.add_option("IN", options.input, "Linear radiance (.exr)")->required()->type_name("IN");
-    command.add_option("OUT", options.output, "Image to write (.png, .jpg); - is standard output")
-        ->required()
-        ->type_name("OUT");
+    add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
+    add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
     add_format(command, options.format, picture_format_names);
-    add_display_options(command, options.display, "");
-    command.add_flag("-q,--quiet", options.quiet, "Print errors only");
+    add_scene_options(command, options.display, false);
+    add_png_bits(command, options.png_bits);
+    add_quiet(command, options.quiet);
 }
 
 } // namespace cli

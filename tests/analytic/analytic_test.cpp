@@ -84,22 +84,22 @@ protected:
     // Of all rows, or of one piece of them, which has the same bits.
     Batches render(const cli::SceneFile &scene, const Crop &crop, std::uint32_t samples, std::uint32_t first_row = 0,
                    std::uint32_t row_count = 0) {
-        set_up(scene.scene(), cropped(scene.camera, *scene.height, crop.height));
-        pt_render settings = render_of(crop.width, crop.height, *scene.max_path_length);
+        set_up(scene.scene(), cropped(scene.camera, scene.render.height, crop.height));
+        pt_render settings = render_of(crop.width, crop.height, scene.render.max_path_length);
         settings.first_row = first_row;
         settings.row_count = row_count;
         return render_batches(settings, batch_count, samples);
     }
 
     Measurement measure(const cli::SceneFile &scene, const Pixel &pixel) {
-        const Crop crop = crop_around(*scene.width, *scene.height, pixel.x, pixel.y);
+        const Crop crop = crop_around(scene.render.width, scene.render.height, pixel.x, pixel.y);
         const std::uint32_t samples = samples_for(crop, scene);
         return {batch_count * samples, estimate_of_pixel(render(scene, crop, samples, crop.y, 1), crop.x)};
     }
 
     // The image around a pixel, as a file.
     void keep_surroundings(const cli::SceneFile &scene, const Pixel &pixel, const std::string &name) {
-        const Crop crop = crop_around(*scene.width, *scene.height, pixel.x, pixel.y);
+        const Crop crop = crop_around(scene.render.width, scene.render.height, pixel.x, pixel.y);
         keep(mean_image(render(scene, crop, samples_for(crop, scene)), crop),
              name + "-" + std::to_string(pixel.x) + "-" + std::to_string(pixel.y));
     }
@@ -156,7 +156,7 @@ class WholeImage : public PixelFixture, public testing::WithParamInterface<std::
 
 TEST_P(WholeImage, PixelsAreInTheirPlaces) {
     const cli::SceneFile scene = read_scene(GetParam());
-    const Crop whole{*scene.width, *scene.height, 0, 0};
+    const Crop whole{scene.render.width, scene.render.height, 0, 0};
     const std::uint32_t paths = (1U << 22) / samples_for_one;
     const std::uint32_t samples = paths / (whole.width * whole.height * batch_count) + 1;
     const Batches batches = render(scene, whole, samples);

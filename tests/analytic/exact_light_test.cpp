@@ -18,7 +18,7 @@ using namespace analytic;
 class ExactLight : public AnalyticFixture {
 protected:
     Image render(const cli::SceneFile &scene, std::uint32_t max_path_length, std::uint32_t estimator) {
-        pt_render settings = render_of(*scene.width, *scene.height, max_path_length);
+        pt_render settings = render_of(scene.render.width, scene.render.height, max_path_length);
         settings.estimator = estimator;
         return image_of(scene.scene(), scene.camera, settings, 64);
     }

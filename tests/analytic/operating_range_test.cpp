@@ -42,7 +42,7 @@ protected:
     void measure(double value, const cli::SceneFile &scene, const pt_camera &camera, const Crop &crop, double expected,
                  std::uint32_t samples) {
         const pt_scene library_scene = scene.scene();
-        pt_render render = render_of(crop.width, crop.height, *scene.max_path_length);
+        pt_render render = render_of(crop.width, crop.height, scene.render.max_path_length);
         if (pt_set_scene(context(), &library_scene) != PT_OK || pt_set_camera(context(), &camera) != PT_OK) {
             std::printf("  %8.1e refused: %s\n", value, pt_last_error(context()));
             return;
@@ -69,8 +69,8 @@ protected:
 
     // Of a tabulated pixel.
     void measure(double value, const cli::SceneFile &scene, std::uint32_t x, std::uint32_t y, double expected) {
-        const Crop crop = crop_around(*scene.width, *scene.height, x, y);
-        measure(value, scene, cropped(scene.camera, *scene.height, crop.height), crop, expected, 1024);
+        const Crop crop = crop_around(scene.render.width, scene.render.height, x, y);
+        measure(value, scene, cropped(scene.camera, scene.render.height, crop.height), crop, expected, 1024);
     }
 
     // Mean over the picture, of many samples.
@@ -78,7 +78,7 @@ protected:
         set_up(scene.scene(), scene.camera);
         double sum = 0.0;
         for (const std::vector<double> &image :
-             render_batches(render_of(1, 1, *scene.max_path_length), range_batch_count, 1 << 18))
+             render_batches(render_of(1, 1, scene.render.max_path_length), range_batch_count, 1 << 18))
             sum += image[0] / range_batch_count;
         return sum;
     }
@@ -254,7 +254,7 @@ TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
             store({0, 0, 0}, scene.camera.position);
             store(look.direction, scene.camera.target);
             scene.camera.vertical_fov = 2.0 * std::atan(1.7 / distance);
-            scene.max_path_length = 4;
+            scene.render.max_path_length = 4;
             if (exponent == 4) // from where perspective is less than a thousandth
                 expected = light_of(scene);
             measure(distance, scene, scene.camera, {1, 1, 0, 0}, expected, 65536);

@@ -1,5 +1,5 @@
-// Tests of cli/scene/animation and animation_section, and of the names of frames.
-#include "cli/scene/animation_section.h"
+// Tests of cli/scene/animation, and of the names of frames.
+#include "cli/scene/animation.h"
 
 #include "cli/base/exit_code.h"
 #include "cli/render/frame_range.h"

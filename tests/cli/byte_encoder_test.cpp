@@ -49,7 +49,7 @@ void expect_exact(const Encode &encode, const std::string &name) {
 
 TEST(ByteEncoder, IsExact) {
     expect_exact(&cli::encode_srgb, "sRGB");
-    for (const double gamma : {cli::least_gamma, 1.0, 2.2, cli::largest_gamma}) {
+    for (const double gamma : {0.1, 1.0, 2.2, 10.0}) {
         expect_exact([gamma](double light) { return std::pow(light, 1.0 / gamma); }, std::to_string(gamma));
     }
 }

@@ -352,15 +352,15 @@ class RealDevice(CommandLineTest):
 
     def test_the_librarys_rules(self):
         self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "0x0",
-                    error="pt: --size: width = 0: must be >= 1\npt: --size: height = 0: must be >= 1\n")
+                    error="pt: --size: width: must be a whole number from 1 to 4294967295, is 0\n")
         # The memory of this machine, or a rule of the library.
         self.expect(2, "render", COURSEWORK, "-o", "a.png", "--size", "65536x65536", error="pt: --size")
         self.expect(2, "render", COURSEWORK, "-o", "a.png", "--max-path-length", "1025",
-                    error="pt: --max-path-length = 1025: must be <= 1024\n")
+                    error="pt: --max-path-length: must be a whole number from 1 to 1024, is 1025 (see pt render")
         self.expect(2, "render", COURSEWORK, "-o", "a.png", "--submit-ms", "1001",
                     error="pt: --submit-ms = 1001: must be <= 1000\n")
         self.write("s.json", '{"film": {\n"width": 0}}')
-        self.expect(3, "render", "s.json", "-o", "a.png", error="pt: s.json:2: film.width = 0: must be >= 1\n")
+        self.expect(3, "render", "s.json", "-o", "a.png", error="pt: s.json:2: film.width: must be a whole number from 1 to 4294967295, is 0\n")
         self.write("s.json", '{"materials": {"gold": {"glossiness": -1}},\n'
                              ' "spheres": [\n{"center": [0, 0, 0], "radius": -1, "material": "gold"}]}')
         self.expect(3, "render", "s.json", "-o", "a.png", error="pt: s.json:3: spheres[0].radius = -1: must be > 0\n")

@@ -32,7 +32,7 @@ CASES = [
     (2, ["rendr"], {}, 'pt: unknown command "rendr", did you mean "render"? (see pt --help)', []),
     (2, ["render"], {}, "pt: SCENE is required (see pt render --help)", []),
     (2, ["render", COURSEWORK], {}, "pt: -o or --film is missing: there is nothing to write", []),
-    (2, [*RENDER, "--gamma", "0"], {}, 'pt: --gamma: must be a number from 0.1 to 10, is "0" (see pt render', []),
+    (2, [*RENDER, "--gamma", "0"], {}, 'pt: --gamma: must be a number from 0.1 to 10, is 0 (see pt render', []),
     (2, [*RENDER, "--skip-existing"], {}, "pt: --skip-existing requires --frames", []),
     (3, [*RENDER[:3], "a-#.png", "--frames", "1-2"], {}, f"pt: {COURSEWORK}: has no animation", []),
     (3, ["render", "broken.json", "-o", "a.png"], {}, "pt: broken.json:", []),

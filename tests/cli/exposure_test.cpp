@@ -19,16 +19,6 @@ std::vector<float> grey(std::initializer_list<float> pixels) {
     return radiance;
 }
 
-TEST(Exposure, Text) {
-    EXPECT_EQ(cli::parse_exposure("-1.5").value().stops, -1.5);
-    EXPECT_EQ(cli::parse_exposure("0").value().stops, 0.0);
-    EXPECT_EQ(cli::parse_exposure("64").value().stops, 64.0);
-    EXPECT_FALSE(cli::parse_exposure("auto").value().stops);
-    for (const char *text : {"", "64.1", "-65", "nan", "inf", "Auto", "auto ", "1x"}) {
-        EXPECT_FALSE(cli::parse_exposure(text)) << text;
-    }
-}
-
 TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0.18F})), 0.0);
     EXPECT_EQ(automatic_exposure(grey({0.72F})), -2.0);

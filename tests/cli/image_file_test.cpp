@@ -97,9 +97,9 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     const std::array<float, 6> error{0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F};
     const std::array<float, 2> count{16.0F, 32.0F};
     const std::array<std::uint32_t, 2> objects{0, 0xffffffff};
-    const std::array<pt_image_layer, 5> layers{{{"", 3, PT_LAYER_COLOUR, main.data()},
-                                                {"error", 3, PT_LAYER_COLOUR, error.data()},
-                                                {"count", 1, PT_LAYER_COLOUR, count.data()},
+    const std::array<pt_image_layer, 5> layers{{{"", 3, PT_LAYER_COLOR, main.data()},
+                                                {"error", 3, PT_LAYER_COLOR, error.data()},
+                                                {"count", 1, PT_LAYER_COLOR, count.data()},
                                                 {"N", 3, PT_LAYER_VECTOR, error.data()},
                                                 {"id", 1, PT_LAYER_NUMBERS, nullptr, objects.data()}}};
     const cli::ImageWindow window{{3, 4, 1, 2}, 10, 20};
@@ -177,7 +177,7 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
     EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
 }
 
-TEST(ImageFile, PngTellsItsColourSpace) {
+TEST(ImageFile, PngTellsItsColorSpace) {
     const TemporaryFolder folder;
     const std::array<std::uint8_t, 3> bytes{1, 2, 3};
     ImageWriter().write_signal(target(folder.file("srgb.png")), cli::whole_window(1, 1), bytes, attributes);
@@ -207,7 +207,7 @@ TEST(ImageFile, JpegIsClose) {
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
     for (const std::uint8_t value : read) {
-        EXPECT_NEAR(value, 100, 1); // one colour: only the rounding of its coefficient is lost
+        EXPECT_NEAR(value, 100, 1); // one color: only the rounding of its coefficient is lost
     }
 }
 

@@ -237,7 +237,7 @@ class Tonemap(ImagesTest):
         for code, arguments, error in ((2, ("a.exr", "b.exr"), "b.exr: a tone-mapped image is a .png or .jpg"),
                                        (2, ("a.exr", "b.tiff"), "b.tiff: the name must end in"),
                                        (2, ("a.exr", "-"), "needs --format"),
-                                       (2, ("a.exr", "-", "--format", "exr"), "is a .png or .jpg"),
+                                       (2, ("a.exr", "-", "--format", "exr"), "known: png, jpg, jpeg"),
                                        (2, ("a.png", "./a.png"), "is the same file as the image a.png"),
                                        (2, ("a.exr",), "OUT is required"),
                                        (6, ("a.png", "b.png"), "a.png: holds whole numbers"),

@@ -73,7 +73,7 @@ TEST(RenderReport, ToneMapAndWarningsInJson) {
     const auto json = cli::stats_json(report);
     EXPECT_EQ(json.at("tone_map").dump(), R"({"curve":"agx","exposure":-3.13,"automatic_exposure":true,"gamma":null})");
     EXPECT_EQ(json.at("warnings"), (std::vector<std::string>{"one", "two"}));
-    EXPECT_EQ(cli::exposure_text(report), "exposure -3.13 EV (auto)");
+    EXPECT_EQ(cli::automatic_exposure_line(report), "exposure -3.13 EV (auto)\n");
     report.tone_map->gamma = 2.2;
     EXPECT_EQ(cli::stats_json(report).at("tone_map").at("gamma"), 2.2);
 }

@@ -1,6 +1,6 @@
-// Tests of cli/sample_forecast and cli/step_length.
-#include "cli/render/sample_forecast.h"
-#include "cli/render/step_length.h"
+// Tests of the forecast of samples and of the lengths of steps.
+#include "cli/render/progress_observer.h"
+#include "cli/render/render_loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Tests of cli/scene_file, with json_sections and json_value behind it.
+// Tests of cli/scene_file, with json_items, scene_reader and the table of keys behind it.
 #include "cli/scene/scene_file.h"
 
 #include "cli/base/exit_code.h"
@@ -48,8 +48,8 @@ constexpr const char *small = R"({
               "estimator": "uniform" }
 })";
 
-// All spheres are in an array as soon as one has a colour, so that they keep their order.
-TEST(SceneFile, SpheresMayHaveColours) {
+// All spheres are in an array as soon as one has a color, so that they keep their order.
+TEST(SceneFile, SpheresMayHaveColors) {
     const auto sphere = [](const std::string &rest) {
         return R"({"center": [1, 2, 3], "radius": 1, "material": "a")" + rest + "}";
     };
@@ -64,10 +64,10 @@ TEST(SceneFile, SpheresMayHaveColours) {
     EXPECT_EQ(scene.scene().sphere_count, 0U);
     ASSERT_EQ(scene.sphere_arrays().size(), 1U);
     EXPECT_EQ(scene.sphere_arrays()[0].count, 4U);
-    EXPECT_EQ(scene.sphere_colours,
+    EXPECT_EQ(scene.sphere_colors,
               (std::vector<std::array<float, 3>>{{1, 1, 1}, {0.5F, 0, 1}, {1, 1, 1}, {0.25F, 0.25F, 0.25F}}));
     cli::BrokenRule rule{"sphere_arrays", 0, "color", 3, "", "2", "must lie in [0, 1]"};
-    EXPECT_EQ(scene.explain(rule), "s.json: spheres[3].color = 2: must lie in [0, 1]");
+    EXPECT_EQ(scene.explain(rule), "s.json:4: spheres[3].color = 2: must lie in [0, 1]");
 }
 
 TEST(SceneFile, ReadsEverything) {
@@ -102,16 +102,16 @@ TEST(SceneFile, ReadsCameraAndSettings) {
     EXPECT_DOUBLE_EQ(scene.camera.vertical_fov, std::numbers::pi / 2.0);
     EXPECT_EQ(scene.camera.shutter_open, 0.25);
     EXPECT_EQ(scene.camera.shutter_close, 0.5);
-    EXPECT_EQ(scene.width, 320U);
-    EXPECT_EQ(scene.height, 200U); // 2e2 is a whole number
-    EXPECT_EQ(scene.exposure.value().stops, -1.5);
-    EXPECT_EQ(scene.tone_curve, cli::ToneCurve::agx);
-    EXPECT_EQ(scene.gamma, 2.2);
-    EXPECT_EQ(scene.max_path_length, 3U);
+    EXPECT_EQ(scene.render.width, 320U);
+    EXPECT_EQ(scene.render.height, 200U); // 2e2 is a whole number
+    EXPECT_EQ(scene.display.exposure, -1.5);
+    EXPECT_EQ(scene.display.curve, cli::ToneCurve::agx);
+    EXPECT_EQ(scene.display.gamma, 2.2);
+    EXPECT_EQ(scene.render.max_path_length, 3U);
     EXPECT_EQ(scene.sample_count, 16U);
-    EXPECT_EQ(scene.seed, 18446744073709551615U);
-    EXPECT_EQ(scene.sampler, static_cast<std::uint32_t>(PT_SAMPLER_HALTON_CP));
-    EXPECT_EQ(scene.estimator, static_cast<std::uint32_t>(PT_ESTIMATOR_UNIFORM));
+    EXPECT_EQ(scene.render.seed, 18446744073709551615U);
+    EXPECT_EQ(scene.render.sampler, static_cast<std::uint32_t>(PT_SAMPLER_HALTON_CP));
+    EXPECT_EQ(scene.render.estimator, static_cast<std::uint32_t>(PT_ESTIMATOR_UNIFORM));
 }
 
 TEST(SceneFile, EmptySceneHasDefaults) {
@@ -120,7 +120,12 @@ TEST(SceneFile, EmptySceneHasDefaults) {
     EXPECT_EQ(list(scene.camera.target), (std::vector<double>{0, 0, 0}));
     EXPECT_EQ(scene.camera.vertical_fov, 0.0); // pt.h's default
     EXPECT_EQ(scene.camera.shutter_close, 0.0);
-    EXPECT_FALSE(scene.width || scene.height || scene.max_path_length || scene.sample_count || scene.seed);
+    EXPECT_EQ(scene.render.struct_size, sizeof(pt_render));
+    EXPECT_EQ(scene.render.width, 512U);
+    EXPECT_EQ(scene.render.height, 512U);
+    EXPECT_EQ(scene.render.max_path_length, 6U);
+    EXPECT_EQ(scene.render.seed, 0U);
+    EXPECT_FALSE(scene.sample_count || scene.display.exposure || scene.display.gamma);
     const pt_scene view = scene.scene();
     EXPECT_EQ(view.struct_size, sizeof(pt_scene));
     EXPECT_EQ(view.sphere_count, 0U);
@@ -147,12 +152,11 @@ TEST(SceneFile, ShutterAtTheInstantZero) {
 }
 
 TEST(SceneFile, ToneMapping) {
-    EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").exposure.value().stops);
-    EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").exposure.value().stops, 3.0);
-    EXPECT_FALSE(parse_scene("{}", "").exposure);
-    for (const char *exposure : {"65", "\"1\"", "\"bright\"", "null", "[1]"}) {
+    EXPECT_FALSE(parse_scene(R"({"film":{"exposure":"auto"}})", "").display.exposure);
+    EXPECT_EQ(parse_scene(R"({"film":{"exposure":3}})", "").display.exposure, 3.0);
+    for (const char *exposure : {"65", "\"1\"", "\"bright\"", "null"}) {
         EXPECT_EQ(refusal(std::string(R"({"film":{"exposure":)") + exposure + "}}"),
-                  std::string("1: film.exposure: must be a number from -64 to 64, or \"auto\", is ") + exposure);
+                  std::string("1: film.exposure: must be a number from -64 to 64 stops, or \"auto\", is ") + exposure);
     }
     EXPECT_EQ(refusal(R"({"film":{"tonemap":"agxx"}})"),
               "1: film.tonemap: unknown tone map \"agxx\", did you mean \"agx\"?");
@@ -267,7 +271,7 @@ TEST(SceneFile, NumbersHaveLimits) {
               "1: materials.a.emission: must lie in the range of 32-bit floating point numbers, is 1e+39");
     for (const char *width : {"-1", "1.5", "4294967296", "1e20", "\"1\""}) {
         EXPECT_TRUE(refusal(std::string(R"({"film":{"width":)") + width + "}}")
-                        .starts_with("1: film.width: must be a whole number from 0 to 4294967295, is "))
+                        .starts_with("1: film.width: must be a whole number from 1 to 4294967295, is "))
             << width;
     }
     EXPECT_NE(refusal(R"({"render":{"seed":18446744073709551616}})"), "");
@@ -280,7 +284,7 @@ TEST(SceneFile, ZerosAreNotDefaults) {
         return refusal(R"({"camera":{"position":[0,0,0],"look_at":[0,0,1],)" + member + "}}");
     };
     EXPECT_EQ(camera(R"("vertical_fov":0)"),
-              "1: camera.vertical_fov: must be at least 6e-7 and less than 180 degrees, is 0");
+              "1: camera.vertical_fov: must be a number from 6e-07 to below 180 degrees, is 0");
     EXPECT_NE(camera(R"("vertical_fov":180)"), "");
     EXPECT_NE(camera(R"("vertical_fov":5e-7)"), ""); // 8.7e-9 radians, below the library's bound
     EXPECT_EQ(camera(R"("vertical_fov":6e-7)"), "");
@@ -294,23 +298,23 @@ using cli::BrokenRule;
 constexpr std::nullopt_t none = std::nullopt;
 
 TEST(SceneFile, ExplainsWhatTheLibraryRefuses) {
-    const SceneFile scene = parse_scene(small, "s.json"); // no such file: the line is not known
+    const SceneFile scene = parse_scene(small, "s.json");
     const auto explained = [&](const BrokenRule &rule) { return scene.explain(rule); };
     EXPECT_EQ(explained({"spheres", 3, "radius", none, "", "-1", "must be > 0"}),
-              "s.json: spheres[3].radius = -1: must be > 0");
+              "s.json:3: spheres[3].radius = -1: must be > 0"); // of which there are two
     EXPECT_EQ(explained({"materials", 1, "glossiness", none, "", "-1", "must be >= 0"}),
-              "s.json: materials.b.glossiness = -1: must be >= 0");
+              "s.json:6: materials.b.glossiness = -1: must be >= 0");
     EXPECT_EQ(explained({"camera", none, "target", 1, "", "inf", "must be finite"}),
-              "s.json: camera.look_at[1] = inf: must be finite");
-    EXPECT_EQ(explained({"camera", none, "position", 2, "", "inf", "x"}), "s.json: camera.position[2] = inf: x");
+              "s.json:8: camera.look_at[1] = inf: must be finite");
+    EXPECT_EQ(explained({"camera", none, "position", 2, "", "inf", "x"}), "s.json:8: camera.position[2] = inf: x");
     EXPECT_EQ(explained({"render", none, "width", none, "* height", "5", "must be <= 4"}),
-              "s.json: film.width * height = 5: must be <= 4");
+              "s.json:9: film.width * height = 5: must be <= 4");
     EXPECT_EQ(explained({"camera", none, "shutter_close", none, "", "2", "must be <= 1"}),
-              "s.json: camera.shutter[1] = 2: must be <= 1");
-    EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json: render.spp = 0: y");
-    EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json: materials[99].x = 0: y");
-    // None of the file's: as the library calls it.
-    EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "s.json: create.device = 7: y");
+              "s.json:8: camera.shutter[1] = 2: must be <= 1");
+    EXPECT_EQ(explained({"accumulate", none, "sample_count", none, "", "0", "y"}), "s.json:10: render.spp = 0: y");
+    EXPECT_EQ(explained({"materials", 99, "x", none, "", "0", "y"}), "s.json:6: materials[99].x = 0: y");
+    // None of the file's: an option's, or as the library calls it.
+    EXPECT_EQ(explained({"create", none, "device", none, "", "7", "y"}), "--device = 7: y");
     EXPECT_EQ(explained({"scene", none, "", none, "", "NULL", "y"}), "s.json: scene = NULL: y");
 }
 
@@ -321,8 +325,8 @@ TEST(SceneFile, ExplainsWholeErrors) {
                                   {{"spheres", 3, "radius", none, "", "-1", "must be > 0"},
                                    {"materials", 2, "diffuse", 0, "", "-1", "must be >= 0"}},
                                   3};
-    EXPECT_EQ(scene.explain(error), "s.json: spheres[3].radius = -1: must be > 0\n"
-                                    "s.json: materials.a.diffuse[0] = -1: must be >= 0\n"
+    EXPECT_EQ(scene.explain(error), "s.json:3: spheres[3].radius = -1: must be > 0\n"
+                                    "s.json:7: materials.a.diffuse[0] = -1: must be >= 0\n"
                                     "... and 3 more");
 }
 
@@ -342,8 +346,9 @@ TEST(SceneFile, WhatIsRefusedGetsTheLineOfTheValue) {
     EXPECT_EQ(explained({"render", none, "max_path_length", none, "", "0", "x"}),
               path + ":10: render.max_path_length = 0: x");
     EXPECT_EQ(explained({"render", none, "estimator", none, "", "9", "x"}), path + ":11: render.estimator = 9: x");
-    folder.write("s.json", std::string("\n").append(small)); // edited meanwhile: the lines would be others
-    EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "x"}), path + ": spheres[1].radius = -1: x");
+    folder.write("s.json",
+                 std::string("\n").append(small)); // edited meanwhile: the line is that of the text that was read
+    EXPECT_EQ(explained({"spheres", 1, "radius", none, "", "-1", "x"}), path + ":4: spheres[1].radius = -1: x");
 }
 
 // In two bytes a character, with the lower or the upper one first.

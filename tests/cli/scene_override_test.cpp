@@ -59,7 +59,7 @@ TEST(SceneOverride, TakesThePlaceOfAValue) {
 
 TEST(SceneOverride, AddsMembers) {
     EXPECT_DOUBLE_EQ(changed({"camera.vertical_fov=90"}).camera.vertical_fov, std::numbers::pi / 2.0);
-    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).height, 32U); // in a section that is not there
+    EXPECT_EQ(changed({"film.width=64", "film.height=32"}).render.height, 32U); // in a section that is not there
     EXPECT_EQ(changed({"spheres[1].motion=[1,0,0]"}).spheres[1].motion[0], 1.0);
     const SceneFile scene = changed({"materials.new.emission=5", "spheres[0].material=new"});
     EXPECT_EQ(scene.materials.at(3).emission[0], 5.0F);
@@ -68,8 +68,8 @@ TEST(SceneOverride, AddsMembers) {
 }
 
 TEST(SceneOverride, TextsNeedNoQuotes) {
-    EXPECT_EQ(changed({"film.tonemap=agx"}).tone_curve, cli::ToneCurve::agx);
-    EXPECT_EQ(changed({"film.tonemap=\"agx\""}).tone_curve, cli::ToneCurve::agx);
+    EXPECT_EQ(changed({"film.tonemap=agx"}).display.curve, cli::ToneCurve::agx);
+    EXPECT_EQ(changed({"film.tonemap=\"agx\""}).display.curve, cli::ToneCurve::agx);
     EXPECT_EQ(changed({R"(materials["blue = \"c\"]"].diffuse=0.5)"}).materials[2].diffuse[0], 0.5F);
 }
 
@@ -100,7 +100,7 @@ TEST(SceneOverride, WhatDoesNotFitIsRefused) {
     expect("spheres.a=1", "must be an array, is an object");
     expect("spheres[0].radius=\"two\"", "spheres[0].radius: must be a number, is \"two\"");
     expect("spheres[0].radius=[1", "spheres[0].radius: must be a number, is \"[1\""); // which is no JSON
-    expect("film.width=-1", "film.width: must be a whole number from 0 to 4294967295, is -1");
+    expect("film.width=-1", "film.width: must be a whole number from 1 to 4294967295, is -1");
     expect("camera.up=[0,0]", "camera.up: must be an array of 3 numbers, has 2");
 }
 
@@ -117,7 +117,7 @@ TEST(SceneOverride, TheLibrarysRulesLeadBackToIt) {
     const cli::BrokenRule of_file{"spheres", 0, "radius", std::nullopt, "", "-1", "must be > 0"};
     EXPECT_EQ(scene.explain(of_option), "--set spheres[1].radius=-1: spheres[1].radius = -1: must be > 0");
     EXPECT_EQ(scene.blame(of_option), cli::ExitCode::usage);
-    EXPECT_EQ(scene.explain(of_file), "s.json: spheres[0].radius = -1: must be > 0");
+    EXPECT_EQ(scene.explain(of_file), "s.json:3: spheres[0].radius = -1: must be > 0");
     EXPECT_EQ(scene.blame(of_file), cli::ExitCode::scene);
 }
 

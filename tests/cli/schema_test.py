@@ -92,6 +92,20 @@ class Schema(CommandLineTest):
             element = element.get("anyOf", [element])[0]
             self.assertEqual(list(element["properties"]), [row[0].strip("`") for row in section_rows(section)])
 
+    def test_its_words_and_defaults_are_those_of_the_manual(self):
+        def plain(text):
+            return (text[:1].lower() + text[1:]).replace("`", "").replace('"', "")
+
+        for section in SECTIONS:
+            schema = self.schema["properties"][section]
+            element = schema.get("items") or schema["additionalProperties"] or schema
+            element = element.get("anyOf", [element])[0]
+            for key, words, _, initial, _ in section_rows(section):
+                name = key.strip("`")
+                told = element["properties"][name].get("description", "")
+                default = "" if name in element.get("required", ()) or not initial else f"; default: {initial}"
+                self.assertEqual(plain(told), plain(words + default), name)
+
     def refused_by(self, program, scene, *options):
         self.program = program
         self.write("s.json", json.dumps(scene))

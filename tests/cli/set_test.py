@@ -28,10 +28,10 @@ class Set(CommandLineTest):
                         FAKE_PT_FAIL=function + str(RESULT["INVALID_SCENE"]),
                         FAKE_PT_RULE="spheres,0,radius,-1,,-1,must be > 0",
                         error="pt: --set spheres[0].radius=-1: spheres[0].radius = -1: must be > 0")
-        self.expect(2, "render", COURSEWORK, "-o", "a.png", "--set", "film.width=0",
+        self.expect(2, "render", COURSEWORK, "-o", "a.png", "--set", "film.width=5",
                     FAKE_PT_FAIL=f"set_render:{RESULT['INVALID_ARGUMENT']}",
                     FAKE_PT_RULE="render,-1,width,-1,,0,must be >= 1",
-                    error="pt: --set film.width=0: film.width = 0: must be >= 1")
+                    error="pt: --set film.width=5: film.width = 0: must be >= 1")
         self.assertEqual(self.files(), [])
 
 

@@ -1,4 +1,4 @@
-// Which files a picture is made of, and when they count as changed: by notifications and by polling alike.
+// Which files a picture is made of, and when they count as changed.
 #include "cli/render/source_watch.h"
 #include "tests/cli/temporary_folder.h"
 
@@ -14,14 +14,14 @@ namespace cli {
 namespace {
 
 using std::chrono::milliseconds;
-using Method = DirectoryEvents::Method;
 
 constexpr milliseconds long_enough = std::chrono::minutes{10}; // for what comes at once, or never
 
 TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
     const TemporaryFolder folder;
     folder.write("scene", "{}");
-    EXPECT_EQ(read_source_files(folder.file("scene"), "", {}), (SourceFiles{{folder.file("scene"), "{}"}}));
+    EXPECT_EQ(read_shader_files(""), SourceFiles());
+    EXPECT_EQ(SourceWatch(folder.file("scene"), "").scene(), (SourceFiles{{folder.file("scene"), "{}"}}));
 
     folder.write("pathtrace.comp",
                  "#include \"a\"\n  #  include \"sub/b\" // remark\n#include <none>\n#included \"no\"\n"
@@ -29,7 +29,7 @@ TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
     std::filesystem::create_directory(folder.file("sub"));
     folder.write("sub/b", "#include \"a\"\n#include \"../c\"");
     folder.write("c", "#include \"pathtrace.comp\"\n");
-    const SourceFiles files = read_source_files(folder.file("scene"), folder.file("."), {});
+    const SourceFiles files = read_shader_files(folder.file("."));
     std::vector<std::pair<std::string, bool>> found;
     for (const auto &[path, contents] : files) {
         found.emplace_back(path.lexically_relative(folder.file("")).string(), contents.has_value());
@@ -46,14 +46,13 @@ TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
                                                              {"fold.comp", false},
                                                              {"pathtrace.comp", true},
                                                              {"resolve.comp", false},
-                                                             {"scene", true},
                                                              {"sub/a", false},
                                                              {"sub/b", true}};
     EXPECT_EQ(found, expected);
     EXPECT_EQ(files.at(folder.file("c")), "#include \"pathtrace.comp\"\n");
 }
 
-class SourceWatchTest : public testing::TestWithParam<Method> {
+class SourceWatchTest : public testing::Test {
 protected:
     void SetUp() override {
         std::filesystem::create_directory(folder.file("shaders"));
@@ -61,7 +60,7 @@ protected:
         folder.write("shaders/pathtrace.comp", "#include \"part\"\n");
     }
 
-    SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders"), GetParam()}; }
+    SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders")}; }
 
     // Waits for a change, which takes several calls.
     static void expect_change(SourceWatch &watch, const std::vector<std::string> &names) {
@@ -85,9 +84,7 @@ protected:
     TemporaryFolder folder;
 };
 
-INSTANTIATE_TEST_SUITE_P(Methods, SourceWatchTest, testing::Values(Method::notified, Method::polled));
-
-TEST_P(SourceWatchTest, SeesEachWayToSave) {
+TEST_F(SourceWatchTest, SeesEachWayToSave) {
     SourceWatch sources = watch();
     folder.write("scene", "2");
     expect_change(sources, {folder.file("scene")});
@@ -103,7 +100,7 @@ TEST_P(SourceWatchTest, SeesEachWayToSave) {
     expect_change(sources, {folder.file("scene"), folder.file("shaders/part")});
 }
 
-TEST_P(SourceWatchTest, SeesAFolderThatIsReplaced) {
+TEST_F(SourceWatchTest, SeesAFolderThatIsReplaced) {
     SourceWatch sources = watch();
     std::filesystem::rename(folder.file("shaders"), folder.file("aside"));
     expect_change(sources, {folder.file("shaders/pathtrace.comp")});
@@ -113,7 +110,7 @@ TEST_P(SourceWatchTest, SeesAFolderThatIsReplaced) {
     expect_change(sources, {folder.file("shaders/part")});
 }
 
-TEST_P(SourceWatchTest, SeesBehindALink) {
+TEST_F(SourceWatchTest, SeesBehindALink) {
     folder.write("shaders/target", "1");
     std::filesystem::remove(folder.file("scene"));
     std::filesystem::create_symlink(folder.file("shaders/target"), folder.file("scene"));
@@ -123,7 +120,7 @@ TEST_P(SourceWatchTest, SeesBehindALink) {
 }
 
 // Data are known when the scene has been read: what is written from then on counts.
-TEST_P(SourceWatchTest, FollowsTheData) {
+TEST_F(SourceWatchTest, FollowsTheData) {
     std::filesystem::create_directory(folder.file("data"));
     folder.write("data/melt", "1");
     SourceWatch sources = watch();
@@ -141,7 +138,7 @@ TEST_P(SourceWatchTest, FollowsTheData) {
     expect_nothing(sources);
 }
 
-TEST_P(SourceWatchTest, PassesOverWhatIsNoChange) {
+TEST_F(SourceWatchTest, PassesOverWhatIsNoChange) {
     SourceWatch sources = watch();
     folder.write("scene", "1");
     folder.write("shaders/other", "text");
@@ -152,7 +149,7 @@ TEST_P(SourceWatchTest, PassesOverWhatIsNoChange) {
 }
 
 // Between two looks the files are as before: nothing is told. begin() takes a change for known.
-TEST_P(SourceWatchTest, ComparesWithTheBeginning) {
+TEST_F(SourceWatchTest, ComparesWithTheBeginning) {
     SourceWatch sources = watch();
     folder.write("scene", "2");
     folder.write("scene", "1");
@@ -160,18 +157,6 @@ TEST_P(SourceWatchTest, ComparesWithTheBeginning) {
     folder.write("scene", "2");
     sources.begin();
     expect_nothing(sources);
-}
-
-TEST(DirectoryEvents, AreNotifiedOnThisSystem) {
-    DirectoryEvents notified(Method::notified, std::chrono::hours{1}); // by when nothing is told but by notification
-    ASSERT_EQ(notified.method(), Method::notified);
-    const TemporaryFolder folder;
-    notified.watch(folder.file("none/deeper")); // what exists of it is watched
-    notified.wait(milliseconds{0});
-    EXPECT_FALSE(notified.wait(milliseconds{50}));
-    folder.write("none", "");
-    EXPECT_TRUE(notified.wait(long_enough));
-    EXPECT_EQ(DirectoryEvents(Method::polled).method(), Method::polled);
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 namespace {
 
 using cli::apply_curve;
-using cli::Colour;
+using cli::Color;
 using cli::ToneCurve;
 using cli::ToneMap;
 
@@ -20,9 +20,9 @@ constexpr ToneCurve all_curves[] = {ToneCurve::none, ToneCurve::reinhard, ToneCu
 // A handful of operations in double on numbers near 1, one of them a power: 1e-12 is thousands of roundings.
 constexpr double rounding = 1e-12;
 
-void expect_colour(const Colour &colour, const Colour &expected, double tolerance) {
+void expect_color(const Color &color, const Color &expected, double tolerance) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        EXPECT_NEAR(colour[channel], expected[channel], tolerance) << "channel " << channel;
+        EXPECT_NEAR(color[channel], expected[channel], tolerance) << "channel " << channel;
     }
 }
 
@@ -72,9 +72,9 @@ TEST(ToneMap, CurvesNeverFall) {
 TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
     constexpr double brightest = std::numeric_limits<float>::max();
     for (const ToneCurve curve : all_curves) {
-        expect_colour(apply_curve(curve, {0.0, 0.0, 0.0}), {0.0, 0.0, 0.0}, 0.0);
-        for (const Colour &colour : {Colour{brightest, 0.0, 0.0}, Colour{brightest, brightest, brightest}}) {
-            for (const double component : apply_curve(curve, colour)) {
+        expect_color(apply_curve(curve, {0.0, 0.0, 0.0}), {0.0, 0.0, 0.0}, 0.0);
+        for (const Color &color : {Color{brightest, 0.0, 0.0}, Color{brightest, brightest, brightest}}) {
+            for (const double component : apply_curve(curve, color)) {
                 EXPECT_TRUE(component >= 0.0 && component <= 1.0) << component;
             }
         }
@@ -82,25 +82,25 @@ TEST(ToneMap, CurvesStayInTheDisplayAndKeepBlack) {
 }
 
 TEST(ToneMap, NoneClamps) {
-    expect_colour(apply_curve(ToneCurve::none, {0.25, 1.0, 1.5}), {0.25, 1.0, 1.0}, 0.0);
+    expect_color(apply_curve(ToneCurve::none, {0.25, 1.0, 1.5}), {0.25, 1.0, 1.0}, 0.0);
 }
 
 TEST(ToneMap, ReinhardIsOnTheLuminance) {
-    expect_colour(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
-    const Colour colour = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
-    EXPECT_NEAR(colour[0] / colour[1], 2.0, rounding); // per channel it would be 0.5 / 0.333
-    EXPECT_NEAR(colour[1] / colour[2], 2.0, rounding);
+    expect_color(apply_curve(ToneCurve::reinhard, {1.0, 1.0, 1.0}), {0.5, 0.5, 0.5}, rounding);
+    const Color color = apply_curve(ToneCurve::reinhard, {1.0, 0.5, 0.25});
+    EXPECT_NEAR(color[0] / color[1], 2.0, rounding); // per channel it would be 0.5 / 0.333
+    EXPECT_NEAR(color[1] / color[2], 2.0, rounding);
 }
 
 TEST(ToneMap, AcesAnchors) {
-    expect_colour(apply_curve(ToneCurve::aces, {1.0, 0.18, 0.0}), {2.54 / 3.16, 0.2668989203894968, 0.0}, rounding);
+    expect_color(apply_curve(ToneCurve::aces, {1.0, 0.18, 0.0}), {2.54 / 3.16, 0.2668989203894968, 0.0}, rounding);
 }
 
 TEST(ToneMap, AgxAnchors) {
-    expect_colour(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18}),
-                  {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
-    expect_colour(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
-                  {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
+    expect_color(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18}),
+                 {0.21446743070720334, 0.21453266862054834, 0.21453672826813272}, rounding);
+    expect_color(apply_curve(ToneCurve::agx, {1.0, 0.2, 0.05}),
+                 {0.6533598827094625, 0.2536195947288043, 0.107880509867948}, rounding);
     // Sobotka's sigmoid has its pivot at middle grey, with half the signal; the polynomial's root mean square error
     // against it is published: sqrt(3.67e-6) = 0.0019.
     EXPECT_NEAR(std::pow(apply_curve(ToneCurve::agx, {0.18, 0.18, 0.18})[1], 1.0 / 2.2), 0.5, 3 * 0.0019);
@@ -108,12 +108,12 @@ TEST(ToneMap, AgxAnchors) {
 
 TEST(ToneMap, NeutralAnchors) {
     // Below the compression only the 4 % of the Fresnel reflection are taken off, and near black a share of them.
-    expect_colour(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
-    expect_colour(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
-    expect_colour(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
-                  {0.8690909090909091, 0.8690909090909091, 0.8690909090909091}, rounding);
-    expect_colour(apply_curve(ToneCurve::neutral, {2.0, 0.5, 0.1}), {0.96, 0.3211357586512865, 0.15077196095829626},
-                  rounding);
+    expect_color(apply_curve(ToneCurve::neutral, {0.5, 0.3, 0.2}), {0.46, 0.26, 0.16}, rounding);
+    expect_color(apply_curve(ToneCurve::neutral, {0.05, 0.05, 0.05}), {0.015625, 0.015625, 0.015625}, rounding);
+    expect_color(apply_curve(ToneCurve::neutral, {1.0, 1.0, 1.0}),
+                 {0.8690909090909091, 0.8690909090909091, 0.8690909090909091}, rounding);
+    expect_color(apply_curve(ToneCurve::neutral, {2.0, 0.5, 0.1}), {0.96, 0.3211357586512865, 0.15077196095829626},
+                 rounding);
 }
 
 TEST(ToneMap, NamesMatchCurves) {
@@ -125,23 +125,23 @@ TEST(ToneMap, NamesMatchCurves) {
 
 TEST(ToneMap, EightBits) {
     ToneMap map;
-    const float colour[] = {0.0F, 0.5F, 2.0F};
+    const float color[] = {0.0F, 0.5F, 2.0F};
     // 0.7353569830524495 * 255 = 187.5
-    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 188, 255}));
+    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 188, 255}));
     map.gamma = 1.0;
-    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 128, 255})); // 127.5 rounds up
-    map.gamma = 2.2; // 255 * 0.5^(1 / 2.2) = 186.08
-    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{0, 186, 255}));
+    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 128, 255})); // 127.5 rounds up
+    map.gamma = 2.2;                                                                     // 255 * 0.5^(1 / 2.2) = 186.08
+    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{0, 186, 255}));
 }
 
 TEST(ToneMap, ExposureIsInStops) {
     ToneMap map;
     map.gamma = 1.0;
     map.exposure = 2.0;
-    const float colour[] = {0.125F, 0.25F, 0.0F};
-    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{128, 255, 0}));
+    const float color[] = {0.125F, 0.25F, 0.0F};
+    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{128, 255, 0}));
     map.exposure = -1.0;
-    EXPECT_EQ(cli::map_to_8_bits(colour, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
+    EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Tests of cli/warnings: each rule, on both sides of its bound.
-#include "cli/scene/warnings.h"
+#include "cli/render/warnings.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ const std::string materials =
 Texts warnings_of(const std::string &members, const std::string &camera_members = camera) {
     const cli::SceneFile scene =
         cli::parse_scene(std::string("{").append(camera_members).append(members).append("}"), "s.json");
-    return input_warnings(scene, cli::merge_settings({}, scene));
+    return input_warnings(scene, 0.0);
 }
 
 std::string scene_of(const std::string &spheres, const std::string &planes = "") {
@@ -102,14 +102,9 @@ TEST(Warnings, ManyMaterialsAreOneWarning) {
 TEST(Warnings, TargetsThatSayNothing) {
     const cli::SceneFile scene =
         cli::parse_scene(std::string("{").append(scene_of(sphere(9, 1, "lamp"))).append("}"), "s.json");
-    cli::RenderOptions options;
-    options.target_error = 0.999;
-    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)), Texts());
-    options.target_error = 1.0;
-    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)).size(), 1U);
-    options.target_error = 2.0;
-    EXPECT_EQ(input_warnings(scene, cli::merge_settings(options, scene)),
-              Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
+    EXPECT_EQ(input_warnings(scene, 0.999), Texts());
+    EXPECT_EQ(input_warnings(scene, 1.0).size(), 1U);
+    EXPECT_EQ(input_warnings(scene, 2.0), Texts{"--error: the target is 200%; two percent are written 2% or 0.02"});
 }
 
 TEST(Warnings, SamplesLeftOut) {

@@ -3,7 +3,6 @@
 #include "tests/fuzz/mutation.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/scene/render_settings.h"
 #include "cli/scene/scene_file.h"
 
 #include <algorithm>
@@ -15,24 +14,16 @@ namespace {
 constexpr const char *path = "scene.json";
 
 // The rendered image stays small, whatever the file says.
-cli::RenderSettings small_settings(const cli::SceneFile &scene) {
-    constexpr std::uint32_t width = 8;
-    constexpr std::uint32_t height = 4;
-    cli::RenderOptions options;
-    options.size = {std::min(scene.width.value_or(width), width), std::min(scene.height.value_or(height), height)};
-    options.sample_count = std::min(scene.sample_count.value_or(4), 4U);
-    return cli::merge_settings(options, scene);
-}
-
 void examine_scene(const cli::SceneFile &scene, std::span<const std::uint8_t> bytes) {
-    const cli::RenderSettings settings = small_settings(scene);
     fuzz::Input input;
     input.materials = scene.materials;
     input.spheres = scene.spheres;
     input.planes = scene.planes;
     input.camera = scene.camera;
-    input.render = settings.render;
-    input.sample_count = settings.sample_count;
+    input.render = scene.render;
+    input.render.width = std::min(scene.render.width, 8U);
+    input.render.height = std::min(scene.render.height, 4U);
+    input.sample_count = std::min(scene.sample_count.value_or(4), 4U);
     fuzz::examine_neighbourhood(input, bytes);
 }
 

@@ -1,0 +1,154 @@
+#include "cli/base/value_rule.h"
+
+#include "cli/base/suggestion.h"
+#include "cli/base/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cli {
+namespace {
+
+using nlohmann::json;
+using Form = ValueRule::Form;
+
+std::string range_text(const ValueRule &rule) {
+    if (rule.is_of_library || std::isinf(rule.largest))
+        return "";
+    if (rule.form == Form::whole_number)
+        return concat(" from ", rule.least, " to ", largest_whole_number(rule));
+    return concat(" from ", rule.least, rule.excludes_largest ? " to below " : " to ", rule.largest,
+                  rule.unit.empty() ? "" : " ", rule.unit);
+}
+
+std::string text_of(const ValueRule &rule) {
+    switch (rule.form) {
+    case Form::number:
+        return "a number" + range_text(rule);
+    case Form::whole_number:
+        return "a whole number" + range_text(rule);
+    case Form::number_or_auto:
+        return "a number" + range_text(rule) + ", or \"auto\"";
+    case Form::boolean:
+        return "true or false";
+    case Form::numbers:
+        return "an array of " + std::to_string(rule.count) + " numbers";
+    case Form::color:
+        return "a number or an array of 3 numbers";
+    default:
+        return "a string";
+    }
+}
+
+[[noreturn]] void refuse_value(const ValueRule &rule, const json &value, const JsonPlace &place) {
+    refuse(place, "must be " + text_of(rule) + ", is " + shown(value));
+}
+
+bool is_in_range(const ValueRule &rule, double number) {
+    return rule.is_of_library ||
+           (number >= rule.least && number <= rule.largest && !(rule.excludes_largest && number == rule.largest));
+}
+
+// Numbers beyond 2^64 are not unsigned in JSON, and have no such conversion.
+bool is_whole_number(const json &value) {
+    const double number = value.is_number() ? value.get<double>() : -1.0;
+    return value.is_number_integer() || (value.is_number_float() && number < 0x1p64 && number == std::floor(number));
+}
+
+void check_number(const ValueRule &rule, const json &value, const JsonPlace &place) {
+    if (!value.is_number())
+        refuse(place, "must be a number, is " + shown(value));
+    const double number = value.get<double>();
+    const bool is_float = rule.is_float || rule.form == Form::color;
+    if (is_float && std::abs(number) > static_cast<double>(std::numeric_limits<float>::max()))
+        refuse(place, "must lie in the range of 32-bit floating point numbers, is " + shown(value));
+}
+
+void check_array(const ValueRule &rule, std::size_t count, const json &value, const JsonPlace &place) {
+    if (!value.is_array())
+        refuse_value(rule, value, place);
+    if (value.size() != count)
+        refuse(place, "must be " + text_of(rule) + ", has " + std::to_string(value.size()));
+    for (std::size_t i = 0; i < count; ++i)
+        check_number(rule, value[i], place.element(i));
+    if (rule.excludes_zeros && std::all_of(value.begin(), value.end(), [](const json &each) { return each == 0.0; }))
+        refuse(place, "must not be [0, 0, 0]");
+}
+
+} // namespace
+
+void check(const ValueRule &rule, const json &value, const JsonPlace &place) {
+    switch (rule.form) {
+    case Form::number_or_auto:
+        if (value == "auto")
+            return;
+        [[fallthrough]];
+    case Form::number:
+        if (!value.is_number())
+            refuse_value(rule, value, place);
+        check_number(rule, value, place);
+        break;
+    case Form::whole_number:
+        if (!is_whole_number(value))
+            refuse_value(rule, value, place);
+        break;
+    case Form::boolean:
+        if (!value.is_boolean())
+            refuse_value(rule, value, place);
+        return;
+    case Form::text:
+    case Form::name:
+        if (!value.is_string())
+            refuse_value(rule, value, place);
+        if (const auto &name = value.get_ref<const std::string &>();
+            rule.form == Form::name && std::ranges::find(rule.names, name) == rule.names.end())
+            refuse(place, unknown_name(rule.kind, name, rule.names));
+        return;
+    case Form::color:
+        if (value.is_number())
+            check_number(rule, value, place);
+        else
+            check_array(rule, 3, value, place);
+        return;
+    case Form::numbers:
+        check_array(rule, rule.count, value, place);
+        return;
+    }
+    if (!is_in_range(rule, value.get<double>()))
+        refuse_value(rule, value, place);
+}
+
+std::string json_kind(json::value_t kind) {
+    switch (kind) {
+    case json::value_t::null:
+        return "null";
+    case json::value_t::object:
+        return "an object";
+    case json::value_t::array:
+        return "an array";
+    case json::value_t::string:
+        return "a string";
+    case json::value_t::boolean:
+        return "a boolean";
+    default:
+        return "a number";
+    }
+}
+
+std::string shown(const json &value) {
+    constexpr std::size_t longest = 40;
+    if (value.is_structured() || value.is_null())
+        return json_kind(value.type());
+    const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    return text.size() > longest ? json_kind(value.type()) : text;
+}
+
+std::uint64_t largest_whole_number(const ValueRule &rule) {
+    return rule.largest < 0x1p64 ? static_cast<std::uint64_t>(rule.largest) : std::numeric_limits<std::uint64_t>::max();
+}
+
+void refuse_unknown_key(const JsonPlace &object, std::string_view key, std::span<const std::string_view> known) {
+    refuse(object, unknown_name("key", key, known));
+}
+
+} // namespace cli

@@ -1,0 +1,149 @@
+#include "cli/render/render_task.h"
+
+#include "cli/base/device_text.h"
+#include "cli/base/text.h"
+#include "cli/render/render_output.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+#include <utility>
+
+namespace cli {
+namespace {
+
+// Indices of samples end at 2^32 - 1.
+std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
+    const std::uint64_t left = (std::uint64_t{1} << 32) - first;
+    if (count > left && !is_upper_limit) {
+        throw Failure(ExitCode::usage, concat("--first-sample ", first, ": ", count,
+                                              " samples from there on would pass the last index, 4294967295"));
+    }
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, left));
+}
+
+ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render &render) {
+    ImageWindow window = whole_window(render.width, render.height);
+    if (!crop)
+        return window;
+    const bool is_inside = crop->x < render.width && crop->width <= render.width - crop->x && crop->y < render.height &&
+                           crop->height <= render.height - crop->y;
+    if (!is_inside || crop->pixel_count() == 0) {
+        throw Failure(ExitCode::usage, concat("--crop ", crop->x, ",", crop->y, ",", crop->width, ",", crop->height,
+                                              ": must be a part of the picture, of ", window_text(window),
+                                              " pixels, with at least one"));
+    }
+    window.part = *crop;
+    return window;
+}
+
+constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
+
+// The memory limit of a container, as seen from inside of it (Linux, cgroup v2). The file says "max" where there is no
+// limit, and does not exist outside of containers.
+std::uint64_t container_limit() {
+    std::uint64_t bytes = 0;
+    return std::ifstream("/sys/fs/cgroup/memory.max") >> bytes ? bytes : unlimited;
+}
+
+std::uint64_t address_space_limit() {
+    rlimit limit{};
+    return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : unlimited;
+}
+
+// The most that this process could ever have: memory and swap space, within its limits. What others use is not counted.
+std::uint64_t most_bytes() {
+    struct sysinfo system {};
+    if (sysinfo(&system) != 0)
+        return address_space_limit();
+    const std::uint64_t memory = std::min(std::uint64_t{system.totalram} * system.mem_unit, container_limit());
+    return std::min(memory + std::uint64_t{system.totalswap} * system.mem_unit, address_space_limit());
+}
+
+std::uint32_t image_count(const RenderOptions &options) {
+    return 1 + (options.output.standard_error.empty() ? 0 : 1) +
+           static_cast<std::uint32_t>(options.wanted_layers().size());
+}
+
+// What the library's progress callback needs.
+std::int32_t receive_share(void *user, double share) {
+    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
+}
+
+// What the library says of a scene is about it even where it is about no field.
+void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
+    if (result < 0) {
+        const LibraryError error = context.last_error();
+        throw Failure(error.rules.empty() ? exit_code_of(result) : scene.blame(error), scene.explain(error));
+    }
+}
+
+} // namespace
+
+RenderTask::RenderTask(RenderOptions chosen, SceneFile file) :
+    options(std::move(chosen)),
+    scene(std::move(file)),
+    render(scene.render) {
+    constexpr std::uint32_t usual_samples = 64;
+    constexpr std::uint32_t most_samples = 65536; // where a target error or a time says when to stop
+    render.first_sample = options.first_sample;
+    const bool stops_otherwise = has_target() || options.time_limit;
+    sample_count = limited_samples(scene.sample_count.value_or(stops_otherwise ? most_samples : usual_samples),
+                                   render.first_sample, stops_otherwise);
+    window = chosen_window(options.crop, render);
+}
+
+void RenderTask::load() {
+    std::vector<NamedFile> sources;
+    for (const std::string &path : column_paths(scene))
+        sources.push_back({"a column of spheres", path});
+    require_distinct_files(sources, outputs_of(options.output, options.checkpoint));
+    load_columns(scene);
+}
+
+std::uint64_t image_bytes(const RenderTask &task) {
+    constexpr std::uint64_t pixel_bytes = 3 * sizeof(float);
+    return pixel_bytes * task.window.part.width * task.window.part.height * image_count(task.options);
+}
+
+void require_host_memory(const RenderTask &task) {
+    const std::uint64_t needed = image_bytes(task);
+    const std::uint64_t most = most_bytes();
+    if (needed <= most)
+        return;
+    const ExitCode blame = task.scene.blame(BrokenRule{.subject = "render", .member = "width"});
+    const std::uint32_t count = image_count(task.options);
+    throw Failure(blame, concat(blame == ExitCode::scene ? task.options.scene + ": film of " : "--size ",
+                                window_text(task.window), ": ",
+                                count == 1 ? "the image takes " : concat(count, " images take "), memory_text(needed),
+                                " of memory, more than the ", memory_text(most), " that this process can have"));
+}
+
+void require(const Context &context, const RenderTask &task, pt_result result) {
+    const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
+    if (!error.rules.empty())
+        throw Failure(task.scene.blame(error), task.scene.explain(error));
+    context.require(result);
+}
+
+bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on) {
+    std::function<bool(double)> listener = goes_on; // the library's pointer is to what may change
+    pt_scene scene = file.scene();
+    const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
+    scene.sphere_arrays = arrays.data();
+    scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
+    const std::vector<std::uint32_t> flags = file.material_flags();
+    scene.material_flags = flags.empty() ? nullptr : flags.data();
+    scene.progress = &receive_share;
+    scene.progress_user = &listener;
+    const pt_result result = pt_set_scene(context.get(), &scene);
+    require_scene(context, file, result);
+    if (result == PT_CANCELLED)
+        return false;
+    require_scene(context, file, pt_set_camera(context.get(), &file.camera));
+    return true;
+}
+
+} // namespace cli

@@ -1,0 +1,178 @@
+// The option --watch of `pt render`.
+#include "cli/base/interrupt.h"
+#include "cli/base/message.h"
+#include "cli/base/output_file.h"
+#include "cli/base/text.h"
+#include "cli/base/vector_width.h"
+#include "cli/render/render_command.h"
+#include "cli/render/render_output.h"
+#include "cli/render/render_picture.h"
+#include "cli/render/source_watch.h"
+
+#include <pt/shaders.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace cli {
+namespace {
+
+// How long a signal that comes just before the wait begins may go unnoticed.
+constexpr std::chrono::milliseconds patience{200};
+
+// A pipe can be read once, and its reader waits for its writer.
+void require_files(const RenderOptions &options) {
+    if (options.frames)
+        throw Failure(ExitCode::usage, "--watch: shows one picture, not --frames");
+    if (std::ranges::find(options.output.images, standard_stream) != options.output.images.end())
+        throw Failure(ExitCode::usage, "-o -: --watch needs a file, not standard output");
+    if (options.scene == standard_stream)
+        throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
+    std::error_code ignored;
+    if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored))
+        throw Failure(ExitCode::usage, options.scene + ": not a regular file, which --watch needs");
+}
+
+class WatchedRender {
+public:
+    WatchedRender(const RenderOptions &options, ValidationLog &log) :
+        options_(options),
+        log_(log),
+        sources_(options.scene, options.shader_dir) {}
+
+    // Returns the exit code.
+    int run() {
+        for (;;) {
+            sources_.begin();
+            render_or_tell();
+            tell_once_what_is_watched();
+            do {
+                if (interrupt_signal() != 0)
+                    return exit_code();
+            } while (!sources_.changed(patience));
+            tell_changes();
+        }
+    }
+
+private:
+    // A watch that is ended while it waits has done its work.
+    int exit_code() const {
+        const bool stopped = outcome_ == Outcome::interrupted || outcome_ == Outcome::superseded;
+        return exit_code_of(outcome_.value_or(Outcome::written), stopped ? interrupt_signal() : 0);
+    }
+
+    // Where an edit can help, a failure is told and waited out; so it can where the shaders are edited, and lose
+    // samples or the device, which then wants another context.
+    void render_or_tell() {
+        outcome_.reset();
+        try {
+            render();
+        } catch (const Failure &failure) {
+            const bool loses_work = failure.code() == ExitCode::device_lost || failure.code() == ExitCode::internal;
+            const bool is_source = failure.code() == ExitCode::scene || (loses_work && !options_.shader_dir.empty());
+            if (!is_source && (loses_work || is_first_))
+                throw;
+            print_message(failure.what());
+            if (loses_work) {
+                tell_suspects();
+                context_.reset();
+            }
+        }
+        is_first_ = false;
+    }
+
+    void render() {
+        RenderTimes times;
+        check_names(options_);
+        const SceneText text = read_scene_text(options_.scene);
+        RenderTask task(options_, parse_scene(text.text, text.path, options_.overrides));
+        const std::vector<std::string> columns = column_paths(task.scene);
+        sources_.follow({columns.begin(), columns.end()}); // before they are read
+        task.load();
+        check_outputs(task);
+        times.create_start = std::chrono::steady_clock::now();
+        refresh_context();
+        if (is_up_to_date()) {
+            print_unless_quiet("the same kernels and the same scene: nothing to render");
+            outcome_ = rendered_outcome_;
+            return;
+        }
+        const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
+        rendered_scene_.reset();
+        outcome_ = render_picture(*context_, task, times, superseded);
+        if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
+            edited_.clear();
+            rendered_outcome_ = *outcome_;
+            rendered_scene_ = sources_.scene();
+        }
+    }
+
+    // One context for all pictures: another start would take longer than most edits are worth.
+    void refresh_context() {
+        if (!context_) {
+            choose_vector_width();
+            context_.emplace(render_create_info(options_, log_));
+        } else if (!options_.shader_dir.empty()) {
+            context_->require(pt_reload_shaders(context_->get()));
+        }
+    }
+
+    // Kernels that differ have discarded the samples of the picture.
+    bool is_up_to_date() const {
+        return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->sample_count() > 0;
+    }
+
+    void print_unless_quiet(const std::string &message) const {
+        if (!options_.output.quiet)
+            print_message(message);
+    }
+
+    void tell_once_what_is_watched() {
+        if (!std::exchange(is_told_, true) && !options_.output.quiet) {
+            const std::string data = sources_.has_data() ? " and its columns" : "";
+            const std::string shaders = options_.shader_dir.empty() ? "" : " and the shaders in " + options_.shader_dir;
+            print_for_people("watching " + options_.scene + data + shaders + "; Ctrl-C ends\n",
+                             options_.output.stats == standard_stream);
+        }
+    }
+
+    void tell_changes() {
+        const std::vector<std::string> names = sources_.changed_names();
+        edited_.insert(names.begin(), names.end());
+        print_unless_quiet("changed: " + listed(names));
+    }
+
+    // What was edited since a picture was right.
+    void tell_suspects() const {
+        if (!edited_.empty())
+            print_message("the likely cause: " + listed(edited_) + ", edited since the last picture");
+    }
+
+    const RenderOptions &options_;
+    ValidationLog &log_;
+    SourceWatch sources_;
+    std::optional<Context> context_;
+    std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
+    Outcome rendered_outcome_ = Outcome::written;
+    std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
+    std::set<std::string> edited_;   // files, since the last picture
+    bool is_first_ = true;
+    bool is_told_ = false;
+};
+
+} // namespace
+
+int render_watched(const RenderOptions &options, ValidationLog &log) {
+    require_files(options);
+    catch_interrupts();
+    catch_picture_requests();
+    return WatchedRender(options, log).run();
+}
+
+} // namespace cli

@@ -1,0 +1,229 @@
+#include "cli/scene/scene_keys.h"
+
+#include "cli/base/method_names.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+namespace cli {
+namespace {
+
+using nlohmann::json;
+using Item = SceneItem &;
+using Value = const json &;
+using Form = ValueRule::Form;
+
+constexpr double least_length = 1e-18; // of which float32 has the square
+constexpr double largest_length = 1e18;
+constexpr std::array<std::string_view, 2> projection_names{"perspective", "orthographic"};
+
+constexpr ValueRule lengths{.form = Form::numbers,
+                            .least = least_length,
+                            .largest = largest_length,
+                            .may_be_negative = true,
+                            .is_of_library = true,
+                            .count = 3};
+constexpr ValueRule direction{.form = Form::numbers, .excludes_zeros = true, .count = 3};
+constexpr ValueRule times{.form = Form::numbers, .least = 0.0, .largest = 1.0, .is_of_library = true, .count = 2};
+constexpr ValueRule radiance{.form = Form::color, .least = 0.0, .largest = largest_length, .is_of_library = true};
+constexpr ValueRule share{.form = Form::color, .least = 0.0, .largest = 1.0, .is_of_library = true};
+constexpr ValueRule radius{.least = least_length, .largest = largest_length, .is_of_library = true};
+constexpr ValueRule boolean{.form = Form::boolean};
+constexpr ValueRule material_name{.form = Form::text};
+
+constexpr ValueRule number(double least, double largest) {
+    return {.least = least, .largest = largest};
+}
+
+constexpr ValueRule whole_number(double least, double largest) {
+    return {.form = Form::whole_number, .least = least, .largest = largest};
+}
+
+constexpr ValueRule one_of(std::string_view kind, std::span<const std::string_view> names) {
+    return {.form = Form::name, .kind = kind, .names = names};
+}
+
+constexpr double largest_uint32 = std::numeric_limits<std::uint32_t>::max();
+constexpr double largest_uint64 = 0x1p64; // less 1
+
+template <typename Number, std::size_t Count>
+void put(Value value, Number (&target)[Count]) {
+    for (std::size_t i = 0; i < Count; ++i)
+        target[i] = (value.is_array() ? value[i] : value).template get<Number>();
+}
+
+// pt.h takes [0, 0] as its default, the whole of [0, 1]. Here it is the instant 0, and the smallest number after 0
+// makes an interval in which nothing moves.
+void put_shutter(pt_camera &camera, double open, double close) {
+    camera.shutter_open = open;
+    camera.shutter_close = open == 0.0 && close == 0.0 ? std::numeric_limits<double>::denorm_min() : close;
+}
+
+constexpr bool required = true;
+constexpr bool optional = false;
+
+constexpr std::array camera_keys{
+    SceneKey{"position", lengths, "Where it is", "", required,
+             [](Item item, Value value) { put(value, item.scene.camera.position); }},
+    SceneKey{"look_at", lengths, "The point in the middle of the picture", "", required,
+             [](Item item, Value value) { put(value, item.scene.camera.target); }},
+    SceneKey{"up", direction, "What is up in the picture, as far as it is perpendicular to the view", "[0, 1, 0]",
+             optional, [](Item item, Value value) { put(value, item.scene.camera.up); }},
+    SceneKey{"projection", one_of("projection", projection_names),
+             "What rays have in common: the point position, or the direction to look_at", "perspective", optional,
+             [](Item item, Value value) {
+                 item.scene.camera.projection =
+                     value == "orthographic" ? PT_PROJECTION_ORTHOGRAPHIC : PT_PROJECTION_PERSPECTIVE;
+             }},
+    // The library's rule, [1e-8, pi), in the file's unit; 0 would be pt.h's default, here and for the extent.
+    SceneKey{"vertical_fov",
+             {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
+             "Of a perspective: the angle that the picture's height is seen at",
+             "45",
+             optional,
+             [](Item item, Value value) {
+                 item.scene.camera.vertical_fov = value.get<double>() * (std::numbers::pi / 180.0);
+             }},
+    SceneKey{"vertical_extent", number(least_length, largest_length),
+             "Of an orthographic projection: the height of what is seen. Its rays start on the plane through position "
+             "across the view, and what is behind is not seen",
+             "", optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
+    SceneKey{
+        "shutter", times, "When it opens and closes; light is gathered evenly in between", "[0, 1]", optional,
+        [](Item item, Value value) { put_shutter(item.scene.camera, value[0].get<double>(), value[1].get<double>()); }},
+};
+
+constexpr std::array film_keys{
+    SceneKey{"width", whole_number(1, largest_uint32), "Its width", "512", optional,
+             [](Item item, Value value) { item.scene.render.width = value.get<std::uint32_t>(); }},
+    SceneKey{"height", whole_number(1, largest_uint32), "Its height", "512", optional,
+             [](Item item, Value value) { item.scene.render.height = value.get<std::uint32_t>(); }},
+    SceneKey{"exposure",
+             {.form = Form::number_or_auto, .least = -largest_exposure, .largest = largest_exposure, .unit = "stops"},
+             "How much brighter than the radiance",
+             "auto",
+             optional,
+             [](Item item, Value value) {
+                 item.scene.display.exposure = value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+             },
+             "--exposure"},
+    SceneKey{"tonemap", one_of("tone map", tone_curve_names), "Curve from radiance to light", "none", optional,
+             [](Item item, Value value) {
+                 item.scene.display.curve = find_tone_curve(value.get_ref<const std::string &>()).value();
+             },
+             "--tonemap"},
+    SceneKey{"gamma", number(0.1, 10.0), "Encode with the power 1 / gamma, in place of the sRGB curve",
+             "the sRGB curve", optional, [](Item item, Value value) { item.scene.display.gamma = value.get<double>(); },
+             "--gamma"},
+};
+
+constexpr std::array render_keys{
+    SceneKey{"max_path_length", whole_number(1, 1024),
+             "Surfaces that light meets on its way to the camera; 1 shows lamps alone, 2 direct light", "6", optional,
+             [](Item item, Value value) { item.scene.render.max_path_length = value.get<std::uint32_t>(); },
+             "--max-path-length"},
+    SceneKey{"spp", whole_number(1, largest_uint32), "Samples per pixel", "64", optional,
+             [](Item item, Value value) { item.scene.sample_count = value.get<std::uint32_t>(); }, "--spp"},
+    SceneKey{"seed", whole_number(0, largest_uint64), "Chooses the random numbers", "0", optional,
+             [](Item item, Value value) { item.scene.render.seed = value.get<std::uint64_t>(); }, "--seed"},
+    SceneKey{"sampler", one_of("sampler", samplers.names()), "Where the points of samples come from", "best", optional,
+             [](Item item, Value value) {
+                 item.scene.render.sampler = samplers.find(value.get_ref<const std::string &>()).value();
+             },
+             "--sampler"},
+    SceneKey{"estimator", one_of("estimator", estimators.names()), "How light is looked for", "best", optional,
+             [](Item item, Value value) {
+                 item.scene.render.estimator = estimators.find(value.get_ref<const std::string &>()).value();
+             },
+             "--estimator"},
+};
+
+constexpr std::array material_keys{
+    SceneKey{"diffuse", radiance, "Share of the light that is scattered evenly", "0", optional,
+             [](Item item, Value value) { put(value, item.material.diffuse); }},
+    SceneKey{"specular", radiance,
+             "Weight of the lobe about the mirror direction; with diffuse, above 1 gives off more than it receives",
+             "0", optional, [](Item item, Value value) { put(value, item.material.specular); }},
+    SceneKey{"glossiness",
+             {.least = 0.0, .largest = 1e9, .is_of_library = true, .is_float = true},
+             "The lobe's exponent: the larger, the sharper",
+             "0",
+             optional,
+             [](Item item, Value value) { item.material.glossiness = value.get<float>(); }},
+    SceneKey{"emission", radiance, "Light of its own, the same in all directions", "0", optional,
+             [](Item item, Value value) { put(value, item.material.emission); }},
+    SceneKey{
+        "hidden_from_camera", boolean,
+        "The camera looks through the surface, while for all else it is there: a lamp that lights and is mirrored, "
+        "but is not in the picture; a wall, to look into a room",
+        "false", optional, [](Item item, Value value) { item.is_hidden = value.get<bool>(); }},
+};
+
+constexpr std::array sphere_keys{
+    SceneKey{"center", lengths, "At time 0", "", required,
+             [](Item item, Value value) { put(value, item.sphere.center); }, "", &pt_sphere_array::center},
+    SceneKey{"radius", radius, "", "", required,
+             [](Item item, Value value) { item.sphere.radius = value.get<double>(); }, "", &pt_sphere_array::radius},
+    SceneKey{"material", material_name, "Its name", "", required,
+             [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }},
+    SceneKey{"motion", lengths, "Way from time 0 to time 1; the camera's shutter says which part is seen", "[0, 0, 0]",
+             optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "", &pt_sphere_array::motion},
+    SceneKey{"color", share,
+             "Multiplies the material's diffuse, so that spheres of one material can each have their own", "1",
+             optional,
+             [](Item item, Value value) {
+                 float color[3];
+                 put(value, color);
+                 item.color = std::to_array(color);
+             },
+             "", &pt_sphere_array::color},
+};
+
+constexpr std::array plane_keys{
+    SceneKey{"normal", direction, "Of any length", "", required,
+             [](Item item, Value value) { put(value, item.plane.normal); }},
+    SceneKey{"offset", ValueRule{}, "Minus the distance from the origin along the normal, times its length", "",
+             required, [](Item item, Value value) { item.plane.offset = value.get<double>(); }},
+    SceneKey{"material", material_name, "Its name", "", required,
+             [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }},
+};
+
+constexpr std::array<SceneSection, 6> sections{{
+    {"camera", SectionForm::members,
+     "A pinhole, or parallel rays, under which a thing is as large in the picture wherever it is", camera_keys},
+    {"film", SectionForm::members, "The picture", film_keys},
+    {"render", SectionForm::members, "How it is made", render_keys},
+    {"materials", SectionForm::objects, "By their names", material_keys},
+    {"spheres", SectionForm::array, "Hollow: they are seen, lit and shine inside as outside", sphere_keys},
+    {"planes", SectionForm::array, "Where dot(normal, x) + offset = 0", plane_keys},
+}};
+
+template <typename Named>
+const Named *find_named(std::span<const Named> all, std::string_view name) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Named &each) { return each.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+std::span<const SceneSection> scene_sections() {
+    return sections;
+}
+
+const SceneSection *find_section(std::string_view name) {
+    return find_named<SceneSection>(sections, name);
+}
+
+const SceneKey *find_key(const SceneSection &section, std::string_view name) {
+    return find_named(section.keys, name);
+}
+
+std::vector<std::string_view> key_names(const SceneSection &section) {
+    std::vector<std::string_view> names;
+    for (const SceneKey &key : section.keys)
+        names.push_back(key.name);
+    return names;
+}
+
+} // namespace cli

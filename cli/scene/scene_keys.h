@@ -1,0 +1,61 @@
+// The table of all that a scene file can say: each key with its values, its words and where it goes. The reader, the
+// JSON Schema, the options of `pt render` that give the same, and the manual's rows follow from it.
+#pragma once
+
+#include "cli/base/value_rule.h"
+#include "cli/scene/scene_file.h"
+
+#include <pt/pt.h>
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cli {
+
+// What is being read: the scene, and the element of it that is not complete yet.
+struct SceneItem {
+    SceneFile &scene;
+    pt_material material{};
+    bool is_hidden = false;
+    pt_sphere sphere{};
+    std::optional<std::array<float, 3>> color = std::nullopt;
+    pt_plane plane{};
+    std::string material_name{}; // of the sphere or plane
+};
+
+struct SceneKey {
+    std::string_view name;
+    ValueRule rule;
+    std::string_view words;   // what it is
+    std::string_view initial; // the default, as it is written in a file; empty: none
+    bool is_required;
+    void (*store)(SceneItem &item, const nlohmann::json &value); // one that keeps the rule
+    std::string_view option = {};                                // of `pt render`, which counts before the file
+    pt_column pt_sphere_array::*column = nullptr; // where the values of many spheres go, if a file may have them
+};
+
+enum class SectionForm {
+    members, // its members are the keys
+    objects, // an object of named objects with these keys
+    array    // an array of objects with these keys
+};
+
+struct SceneSection {
+    std::string_view name;
+    SectionForm form;
+    std::string_view words;
+    std::span<const SceneKey> keys;
+};
+
+// All but `animation`, whose keys are paths.
+std::span<const SceneSection> scene_sections();
+
+const SceneSection *find_section(std::string_view name); // nullptr: there is none
+const SceneKey *find_key(const SceneSection &section, std::string_view name);
+
+std::vector<std::string_view> key_names(const SceneSection &section);
+
+} // namespace cli

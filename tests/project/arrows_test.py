@@ -1,0 +1,47 @@
+"""Whether includes run one way: a room of the library or the program includes rooms before it alone. Called by CTest as
+arrows_test.py ROOT."""
+
+import pathlib
+import re
+import sys
+
+# Rooms in order: each may include itself and those before it.
+ORDERS = {"cli": ("base", "image", "film", "scene", "render", "merge", "tonemap", "compare", "selftest"),
+          "lib": ("base", "scene", "tree", "film", "vulkan", "glsl_module", "kernel", "render", "api")}
+
+# Those that turn back, and are to go.
+TO_GO = {"cli": set(), "lib": {("kernel", "render"), ("render", "api"), ("film", "vulkan")}}
+
+
+def arrows(part, includes):
+    """Pairs of rooms, of the includes as pairs (room, text of a file), that turn back."""
+    order = ORDERS[part]
+    found = set()
+    for room, text in includes:
+        for target in re.findall(rf'^#include "{part}/(\w+)/', text, re.MULTILINE):
+            if order.index(target) > order.index(room):
+                found.add((room, target))
+    return found
+
+
+def check_the_check():
+    text = '#include "cli/base/a.h"\n#include "cli/render/b.h"\n#include "cli/scene/c.h"\n'
+    if arrows("cli", [("scene", text)]) != {("scene", "render")} or arrows("cli", [("render", text)]):
+        sys.exit("an arrow that turns back is not told from one that does not")
+
+
+def main():
+    root = pathlib.Path(sys.argv[1])
+    check_the_check()
+    for part, order in ORDERS.items():
+        files = [path for path in sorted((root / part).glob("*/*"))
+                 if path.suffix in (".h", ".cpp") and path.parent.name != "examples"]
+        rooms = {path.parent.name for path in files}
+        if rooms != set(order):
+            sys.exit(f"{part}: the rooms are {sorted(rooms)}, the order has {sorted(order)}")
+        found = arrows(part, [(path.parent.name, path.read_text(encoding="utf-8")) for path in files])
+        if found - TO_GO[part]:
+            sys.exit(f"{part}: includes turn back: {sorted(found - TO_GO[part])}")
+
+
+main()
