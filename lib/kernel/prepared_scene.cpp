@@ -165,6 +165,15 @@ void PreparedScene::note_materials(const std::vector<bool> &used) {
     gloss = std::ranges::any_of(used_materials, is_glossy);
 }
 
+std::vector<Sphere> PreparedScene::lamps() const {
+    std::vector<Sphere> lamps;
+    const auto is_lamp = [this](const Sphere &sphere) { return emits(scene.materials[sphere.material]); };
+    std::ranges::copy_if(scene.spheres, std::back_inserter(lamps), is_lamp);
+    for (std::uint32_t lamp = 0; tree && lamp < tree->lamp_materials().size(); ++lamp)
+        lamps.push_back(tree->lamp(lamp));
+    return lamps;
+}
+
 const std::string &PreparedScene::digest() const {
     if (digest_.empty())
         digest_ = tree ? digest_with_tree(*this) : digest_of(scene);

@@ -37,6 +37,9 @@ struct PreparedScene {
     // The same, with the shape that the tree had before, if there was one and it will do. before may be NULL.
     PreparedScene(CheckedScene checked, std::uint32_t tree_from, const PreparedScene *before, WorkProgress &progress);
 
+    // The spheres that emit, those in the tree too.
+    std::vector<Sphere> lamps() const;
+
     // Of the scene (scene_digest.h), and of the tree. Computed when it is first asked for, and kept: most scenes are
     // never in a film.
     const std::string &digest() const;

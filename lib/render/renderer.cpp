@@ -80,6 +80,7 @@ void Renderer::discard_samples() noexcept {
     samples_.clear();
     view_.forget_samples();
     forget_error();
+    small_lamps_.reset();
 }
 
 void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {

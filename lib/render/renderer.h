@@ -19,6 +19,7 @@
 #include "lib/render/tile_accumulation.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
+#include "lib/render/small_lamps.h"
 #include "lib/vulkan/caller_vulkan.h"
 #include "lib/vulkan/instance.h"
 #include "lib/vulkan/kept_kernels.h"
@@ -163,6 +164,7 @@ private:
     FilmIdentity identity() const;
     Rectangle pixels() const;
     const ErrorEstimate &error();
+    ErrorEstimate error_with_lamps();
     std::span<const double> tile_squares();
     bool is_on_target(double target_error);
     bool is_adaptive(const SamplesWanted &wanted) const;
@@ -200,6 +202,7 @@ private:
     std::optional<std::uint64_t> rejected_samples_; // likewise
     std::vector<double> tile_squares_;    // likewise, if they are uneven or may come to be, and a kernel finds them
     std::vector<std::byte> mapped_image_; // as far as the host makes images that are mapped
+    std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
     DeviceWork work_;
     Cancellation cancellation_; // of what job_ is, or is about to be
     std::optional<Job> job_;    // while samples are under way

@@ -33,7 +33,7 @@ const ErrorEstimate &Renderer::error() {
         const KernelsKept kept(devices_);
         const std::uint64_t samples = samples_.total();
         ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                                  may_miss_lamps(scene_->scene, ray_start(), *settings_, samples),
+                                  may_miss_lamps(*scene_, ray_start(), *settings_, samples),
                                   finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
         if (!samples_.even() || (job_ && job_->uneven))
             view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
@@ -43,6 +43,22 @@ const ErrorEstimate &Renderer::error() {
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
     return *error_;
+}
+
+// Said, but no bound that ends a rendering: films that are added elsewhere do not know of lamps.
+ErrorEstimate Renderer::error_with_lamps() {
+    ErrorEstimate known = error();
+    if (samples_.least() < min_estimate_samples)
+        return known;
+    if (!small_lamps_)
+        small_lamps_ = small_lamps_in_view(*scene_, ray_start(), settings_->width, settings_->height,
+                                           settings_->first_row, settings_->row_count);
+    const UnmetSquares sums = unmet_squares(*small_lamps_, relative_offset, [this](const LampPiece &piece) {
+        return samples_.of(samples_.grid().tile_at(piece.x, piece.y)).count();
+    });
+    const double values = 3.0 * settings_->width * settings_->row_count;
+    take_in_unmet_lamps(known, {sums.square / values, sums.relative_square / values});
+    return known;
 }
 
 // Of samples that are uneven, or may come to be.
@@ -188,7 +204,7 @@ void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
 pt_stats Renderer::stats(bool with_error) {
     const bool alive = std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
     const bool readable = settings_ && alive;
-    const ErrorEstimate error = with_error && readable ? this->error() : unknown_error();
+    const ErrorEstimate error = with_error && readable ? error_with_lamps() : unknown_error();
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(samples_.least());
     stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
@@ -206,9 +222,6 @@ pt_stats Renderer::stats(bool with_error) {
     stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
     set_error(stats, error);
-    if (with_error && readable && samples_.least() >= min_estimate_samples &&
-        may_miss_lamps_in_view(scene_->scene, ray_start(), *settings_, samples_.least()))
-        stats.uncertain |= PT_UNCERTAIN_UNMET; // said, but no bound that ends a rendering: films do not know of lamps
     return stats;
 }
 

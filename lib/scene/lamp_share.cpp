@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace pt {
@@ -15,7 +14,6 @@ namespace {
 constexpr double least_light = 0.01;
 
 struct Lamp {
-    SeenSphere sphere;
     double share; // of all directions
     double light;
 };
@@ -27,11 +25,12 @@ double share_of(const SeenSphere &sphere) {
     return sine * sine / (2.0 * (1.0 + cosine));
 }
 
-std::vector<Lamp> lamps_that_matter(const Scene &scene, const Camera &camera) {
+std::vector<Lamp> lamps_that_matter(std::span<const Sphere> spheres, std::span<const Material> materials,
+                                    const Camera &camera) {
     std::vector<Lamp> lamps;
     double light = 0.0;
-    for (const Sphere &sphere : scene.spheres) {
-        const Material &material = scene.materials[sphere.material];
+    for (const Sphere &sphere : spheres) {
+        const Material &material = materials[sphere.material];
         const double emission = std::max({material.emission.r, material.emission.g, material.emission.b});
         if (!(emission > 0.0))
             continue;
@@ -39,7 +38,7 @@ std::vector<Lamp> lamps_that_matter(const Scene &scene, const Camera &camera) {
         if (seen.height() <= 0.0)
             continue;
         const double share = share_of(seen);
-        lamps.push_back({seen, share, share * emission});
+        lamps.push_back({share, share * emission});
         light += lamps.back().light;
     }
     std::erase_if(lamps, [light](const Lamp &lamp) { return lamp.light < least_light * light; });
@@ -48,26 +47,11 @@ std::vector<Lamp> lamps_that_matter(const Scene &scene, const Camera &camera) {
 
 } // namespace
 
-std::optional<double> smallest_lamp_share(const Scene &scene, const Camera &camera) {
+std::optional<double> smallest_lamp_share(std::span<const Sphere> lamps, std::span<const Material> materials,
+                                          const Camera &camera) {
     std::optional<double> smallest;
-    for (const Lamp &lamp : lamps_that_matter(scene, camera))
+    for (const Lamp &lamp : lamps_that_matter(lamps, materials, camera))
         smallest = std::min(smallest.value_or(lamp.share), lamp.share);
-    return smallest;
-}
-
-std::optional<double> pixels_of_smallest_lamp_in_view(const Scene &scene, const Camera &camera, std::uint32_t width,
-                                                      std::uint32_t height) {
-    std::optional<double> smallest;
-    for (const auto &[sphere, share, light] : lamps_that_matter(scene, camera)) {
-        const double depth = glm::dot(sphere.open, camera.forward);
-        const double half_height =
-            camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
-        const bool in_view = depth > 0.0 && std::abs(glm::dot(sphere.open, camera.up)) <= half_height &&
-                             std::abs(glm::dot(sphere.open, camera.right)) * height <= half_height * width;
-        const double radius = 0.5 * height * sphere.radius / half_height; // pixels
-        if (in_view && !sphere.hidden)
-            smallest = std::min(smallest.value_or(INFINITY), std::numbers::pi * radius * radius);
-    }
     return smallest;
 }
 

@@ -1,15 +1,18 @@
 """Prints the tables in shaders/README.md of the error that is stated of an image, as stated / true error.
 
     python3 tests/render/error_calibration.py [--before OLD.so] [--methods ESTIMATOR/SAMPLER ...] [--scenes NAME ...]
+                                              [--sizes WIDTHxHEIGHT ...] [--jobs N]
 
 PT_LIBRARY names the library; --before another one to compare with. Scenes are those of cli/scenes and of
-calibration_scenes.py, in 64 x 32 pixels. The true error is the root of the mean, over 12 seeds, of the squared relative
+calibration_scenes.py, by default in 64 x 32, 128 x 64, 256 x 128 and 512 x 256 pixels. The true error is the root of the mean, over 24 or, in pictures of at most 8192 pixels, 96 seeds, of the squared relative
 error against an image of many samples of another seed. The stated ones are those of the first six seeds. On a GPU it
 takes minutes.
 """
 
 import argparse
+import concurrent.futures
 import math
+import multiprocessing
 import os
 import pathlib
 import statistics
@@ -23,10 +26,12 @@ from relative_error import relative_square  # noqa: E402
 from scene_file import FOLDER, read_scene  # noqa: E402
 from scene_renderer import ESTIMATORS, SAMPLERS, SceneRenderer  # noqa: E402
 
-WIDTH, HEIGHT = 64, 32
+SIZES = ["64x32", "128x64", "256x128", "512x256"]
 COUNTS = [16, 64, 256, 1024]
-TRUTH_SAMPLES = 1 << 17
-TRUTH_SEEDS, STATED_SEEDS = 12, 6
+TRUTH_WORK = 1 << 28  # pixels times samples
+LEAST_TRUTH, MOST_TRUTH = 1 << 15, 1 << 17  # samples
+MANY_SEEDS, FEW_SEEDS, STATED_SEEDS = 96, 24, 6
+SMALL_PICTURE = 1 << 13  # pixels, whose error scatters most from seed to seed
 MOST_SAMPLES = 4096
 RELATIVE_BITS = 2 + 4 + 8  # of PT_UNCERTAIN_*, those of relative_rmse
 
@@ -34,6 +39,7 @@ RELATIVE_BITS = 2 + 4 + 8  # of PT_UNCERTAIN_*, those of relative_rmse
 @dataclass
 class Case:
     scene: str
+    size: str
     estimator: str
     sampler: str
     count: int
@@ -43,18 +49,21 @@ class Case:
 
 
 class Calibration:
-    """A scene with its limit, as far as many samples tell."""
+    """A scene in one size with its limit, as far as many samples tell."""
 
-    def __init__(self, name, scene):
+    def __init__(self, name, scene, size):
         self.name = name
+        self.size = size
         self.length = scene.get("render", {}).get("max_path_length", 6)
         self.renderer = SceneRenderer(scene)
         self.start(99)
-        self.renderer.accumulate(TRUTH_SAMPLES)
-        self.truth = list(self.renderer.image())
+        pixels = self.renderer.value_count // 3
+        self.renderer.accumulate(min(max(TRUTH_WORK // pixels, LEAST_TRUTH), MOST_TRUTH))
+        self.truth = self.renderer.image()
 
     def start(self, seed, **fields):
-        self.renderer.set_render(WIDTH, HEIGHT, max_path_length=self.length, seed=seed, **fields)
+        width, height = map(int, self.size.split("x"))
+        self.renderer.set_render(width, height, max_path_length=self.length, seed=seed, **fields)
 
     def square(self):
         return relative_square(self.renderer.image(), self.truth)
@@ -62,7 +71,8 @@ class Calibration:
     def cases(self, estimator, sampler):
         squares = {count: [] for count in COUNTS}
         stated = {count: [] for count in COUNTS}
-        for seed in range(100, 100 + TRUTH_SEEDS):
+        is_small = self.renderer.value_count // 3 <= SMALL_PICTURE
+        for seed in range(100, 100 + (MANY_SEEDS if is_small else FEW_SEEDS)):
             self.start(seed, sampler=SAMPLERS[sampler], estimator=ESTIMATORS[estimator])
             done = 0
             for count in COUNTS:
@@ -74,7 +84,7 @@ class Calibration:
         for count in COUNTS:
             error = math.sqrt(statistics.fmean(squares[count]))
             for stats in stated[count]:
-                yield Case(self.name, estimator, sampler, count, stats.relative_rmse / error,
+                yield Case(self.name, self.size, estimator, sampler, count, stats.relative_rmse / error,
                            stats.uncertain & RELATIVE_BITS != 0,
                            stats.relative_rmse_low <= error <= stats.relative_rmse_high)
 
@@ -90,21 +100,27 @@ def all_scenes():
     return {path.stem: read_scene(path) for path in sorted(FOLDER.glob("*.json"))} | scenes()
 
 
-def measure(options, library):
-    if library:
-        os.environ["PT_LIBRARY"] = library
+def measure_scene(name, scene, options):
     cases, stopped = [], {target: [] for target in options.targets}
-    for name, scene in all_scenes().items():
-        if options.scenes and name not in options.scenes:
-            continue
-        calibration = Calibration(name, scene)
+    for size in options.sizes:
+        calibration = Calibration(name, scene, size)
         with calibration.renderer:
             for method in options.methods:
                 cases += calibration.cases(*method.split("/"))
             for target in options.targets:
                 stopped[target] += calibration.stopped(target)
-        print(name, file=sys.stderr, flush=True)
+    print(name, file=sys.stderr, flush=True)
     return cases, stopped
+
+
+def measure(options, library):
+    if library:
+        os.environ["PT_LIBRARY"] = library
+    chosen = {name: scene for name, scene in all_scenes().items() if not options.scenes or name in options.scenes}
+    with concurrent.futures.ProcessPoolExecutor(options.jobs, multiprocessing.get_context("spawn")) as pool:
+        parts = list(pool.map(measure_scene, chosen, chosen.values(), [options] * len(chosen)))
+    return ([case for cases, _ in parts for case in cases],
+            {target: [ratio for _, stopped in parts for ratio in stopped[target]] for target in options.targets})
 
 
 def share(cases, holds):
@@ -159,11 +175,14 @@ def main():
     parser.add_argument("--before", metavar="LIBRARY")
     parser.add_argument("--methods", metavar="ESTIMATOR/SAMPLER", nargs="+", default=["mis/sobol"])
     parser.add_argument("--scenes", metavar="NAME", nargs="+")
+    parser.add_argument("--sizes", metavar="WIDTHxHEIGHT", nargs="+", default=SIZES)
+    parser.add_argument("--jobs", type=int, default=1, help="scenes at once")
     parser.add_argument("--targets", type=float, nargs="*", default=[0.1, 0.03])
     options = parser.parse_args()
     cases, stopped = measure(options, None)
     before = measure(options, options.before)[0] if options.before else []
     print_table("estimator, sampler", cases, before, lambda case: f"`{case.estimator}`, `{case.sampler}`")
+    print_table("size", cases, before, lambda case: case.size)
     print_table("samples", cases, before, lambda case: case.count)
     print_table("scene", cases, before, lambda case: case.scene)
     print_stopped(stopped)

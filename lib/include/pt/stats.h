@@ -31,8 +31,9 @@ enum {
     /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
      * pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
-    /** A lamp that matters is in view, and a pixel's samples are expected to meet it fewer than 8 times; or uniform,
-     * cosine and bsdf, which find lamps by chance, have met one less than a thousand times in all pixels. */
+    /** Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times: what they
+     * add, as their sizes tell, is more than samples show; or uniform, cosine and bsdf, which find lamps by chance, have
+     * met one that matters less than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 
@@ -40,7 +41,8 @@ enum {
  *
  * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
  * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
- * of 95% confidence. Light that no sample has met yet is not in it. Nothing is known with fewer than 16 samples, nor
+ * of 95% confidence. Light that no sample has met yet is not in it, but that of small lamps in view: a target error
+ * leaves these out. Nothing is known with fewer than 16 samples, nor
  * where more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower
  * bounds are 0, the others INFINITY. These fields take a read-out of the image, which a struct_size that ends before
  * them avoids. */

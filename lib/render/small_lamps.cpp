@@ -1,0 +1,141 @@
+#include "lib/render/small_lamps.h"
+
+#include "lib/scene/seen_sphere.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace pt {
+
+namespace {
+
+constexpr double largest_size = 0.5; // pixels
+
+// A lamp's disc on the image, in pixels from its top left corner.
+struct Disc {
+    double x;
+    double y;
+    double radius;
+    glm::dvec3 emission;
+
+    double size() const { return std::numbers::pi * radius * radius; }
+    bool meets(std::uint32_t width, std::uint32_t height) const {
+        return x + radius > 0.0 && x - radius < width && y + radius > 0.0 && y - radius < height;
+    }
+};
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// How far from the origin a ray along a unit vector enters a ball, or leaves it if it begins inside; infinity if it
+// does not meet it.
+double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
+    const double along = glm::dot(ball.open, direction);
+    const double beside = glm::length(ball.open - along * direction);
+    if (beside >= ball.radius)
+        return never;
+    const double half_chord = std::sqrt((ball.radius - beside) * (ball.radius + beside));
+    const double way = glm::length(ball.open) > ball.radius ? along - half_chord : along + half_chord;
+    return way > 0.0 ? way : never;
+}
+
+double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direction) {
+    const double height = glm::dot(plane.normal, camera.position) + plane.offset;
+    const double way = -height / glm::dot(plane.normal, direction);
+    return way > 0.0 ? way : never;
+}
+
+// To the first surface that the camera sees. start: the camera, or of parallel rays where one begins.
+double way_to_first(const PreparedScene &prepared, const Camera &start, const glm::dvec3 &direction) {
+    const Scene &scene = prepared.scene;
+    double first = never;
+    for (const Plane &plane : scene.planes)
+        if (!scene.materials[plane.material].hidden)
+            first = std::min(first, way_to(plane, start, direction));
+    for (const Sphere &sphere : scene.spheres)
+        if (const Material &material = scene.materials[sphere.material]; !material.hidden)
+            first = std::min(first, way_to(SeenSphere(sphere, material, start), direction));
+    if (!prepared.tree)
+        return first;
+    const auto to_ball = [&](const MovingBall &ball) { return way_to(ball, direction); };
+    const auto to_region = [&](const MovingBall &region) {
+        return glm::length(region.open) > region.radius ? to_ball(region) : 0.0;
+    };
+    return std::min(first, prepared.tree->least_depth(start, to_region, to_ball));
+}
+
+bool is_hidden(const SeenSphere &lamp, const PreparedScene &scene, const Camera &camera) {
+    Camera start = camera;
+    if (camera.is_orthographic())
+        start.position += lamp.open - glm::dot(lamp.open, camera.forward) * camera.forward;
+    const glm::dvec3 way = lamp.open + camera.position - start.position;
+    return way_to_first(scene, start, glm::normalize(way)) < glm::length(way) - 2.0 * lamp.radius;
+}
+
+// Adds the pixels of a disc: of each of its thin lines what lies in each pixel.
+void add_pieces(std::vector<LampPiece> &pieces, const Disc &disc, std::uint32_t width, std::uint32_t row_count) {
+    constexpr int lines = 256;
+    const std::size_t first = pieces.size();
+    for (int i = 0; i < lines; ++i) {
+        const double across = (2.0 * i + 1.0) / lines - 1.0;
+        const double half = disc.radius * std::sqrt((1.0 - across) * (1.0 + across));
+        const double row = std::floor(disc.y + disc.radius * across);
+        for (double column = std::floor(disc.x - half); column < disc.x + half; ++column) {
+            if (row < 0.0 || row >= row_count || column < 0.0 || column >= width)
+                continue;
+            const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, column);
+            const auto x = static_cast<std::uint32_t>(column);
+            const auto y = static_cast<std::uint32_t>(row);
+            const auto is_there = [x, y](const LampPiece &piece) { return piece.x == x && piece.y == y; };
+            auto piece = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), is_there);
+            if (piece == pieces.end())
+                piece = pieces.insert(piece, {x, y, 0.0, disc.size(), disc.emission});
+            piece->share += length * 2.0 * disc.radius / lines;
+        }
+    }
+}
+
+} // namespace
+
+std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
+                                           std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count) {
+    std::vector<LampPiece> pieces;
+    for (const Sphere &sphere : scene.lamps()) {
+        const Material &material = scene.scene.materials[sphere.material];
+        const SeenSphere seen(sphere, material, camera);
+        const double depth = glm::dot(seen.open, camera.forward);
+        if (material.hidden || depth <= seen.radius || seen.way != glm::dvec3(0.0))
+            continue;
+        const double half_height =
+            camera.is_orthographic() ? 0.5 * camera.vertical_extent : depth * camera.tan_half_fov;
+        const double scale = 0.5 * height / half_height;
+        const Disc disc{0.5 * width + scale * glm::dot(seen.open, camera.right),
+                        0.5 * height - scale * glm::dot(seen.open, camera.up) - first_row, scale * seen.radius,
+                        material.emission};
+        if (disc.size() < largest_size && disc.meets(width, row_count) && !is_hidden(seen, scene, camera))
+            add_pieces(pieces, disc, width, row_count);
+    }
+    return pieces;
+}
+
+UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset,
+                           const std::function<std::uint64_t(const LampPiece &)> &samples) {
+    constexpr double enough_meetings = 8.0; // of which a root is off by a third: calibrated
+    UnmetSquares all{0.0, 0.0};
+    for (const LampPiece &piece : pieces) {
+        const auto count = static_cast<double>(samples(piece));
+        if (count * piece.lamp_size >= enough_meetings)
+            continue;
+        for (int channel = 0; channel < 3; ++channel) {
+            const double emission = piece.emission[channel];
+            const double square = emission * emission * piece.share * (1.0 - piece.share) / count;
+            const double limit = piece.share * emission;
+            all.square += square;
+            all.relative_square += square / (limit * limit + offset);
+        }
+    }
+    return all;
+}
+
+} // namespace pt

@@ -1,0 +1,42 @@
+// Lamps in view that are smaller than a pixel: how their light is spread over pixels, which tells what samples that
+// have not met them yet are expected to do.
+#pragma once
+
+#include "lib/kernel/prepared_scene.h"
+#include "lib/scene/camera.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace pt {
+
+// What one pixel has of a lamp.
+struct LampPiece {
+    std::uint32_t x; // among the rows
+    std::uint32_t y;
+    double share;     // of the pixel that it covers
+    double lamp_size; // of the whole lamp, in pixels
+    glm::dvec3 emission;
+};
+
+// In so many rows of an image: of the spheres that emit, lie in view, cover less than largest_small_lamp, do not move,
+// and whose centres nothing hides.
+std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Camera &camera, std::uint32_t width,
+                                           std::uint32_t height, std::uint32_t first_row, std::uint32_t row_count);
+
+// Sums of squares of errors over an image's values.
+struct UnmetSquares {
+    double square;
+    double relative_square;
+};
+
+// Those expected of lamps that the samples of a pixel, whose number is asked for, should have met less than 8 times. A
+// sample meets a piece that covers a share p with that probability, so that the mean of n samples, whose limit is p E,
+// errs by E sqrt(p (1 - p) / n). offset: that of a relative error (x - r)^2 / (r^2 + offset).
+UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset,
+                           const std::function<std::uint64_t(const LampPiece &)> &samples);
+
+} // namespace pt

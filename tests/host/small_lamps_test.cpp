@@ -1,0 +1,134 @@
+// How small lamps are spread over pixels, and what they add to an error that no sample shows.
+#include "lib/render/small_lamps.h"
+#include "lib/scene/checked_scene.h"
+#include "tests/support/scene_of.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+namespace small_lamps {
+
+namespace {
+
+constexpr std::uint32_t dark = 0;
+constexpr std::uint32_t lamp = 1;
+constexpr std::uint32_t hidden = 2;
+
+// With a view of 90 degrees and 200 rows a pixel at the depth 100 is as wide as 1.
+constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
+                            .right = {1, 0, 0},
+                            .up = {0, 1, 0},
+                            .forward = {0, 0, -1},
+                            .tan_half_fov = 1.0,
+                            .shutter_open = 0.0,
+                            .shutter_close = 0.0};
+
+pt::Camera parallel_camera() {
+    pt::Camera parallel = camera;
+    parallel.vertical_extent = 200.0;
+    return parallel;
+}
+
+pt_sphere sphere_at(double x, double y, double depth, double radius, std::uint32_t material) {
+    return {{1.0 + x, 2.0 + y, 3.0 - depth}, radius, {}, material, 0};
+}
+
+// Of a list, or of a tree.
+std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {},
+                                     const pt::Camera &seen_by = camera, bool has_tree = false) {
+    const pt_material materials[] = {
+        {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {1.0F, 2.0F, 40.0F}, 0.0F}, {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}};
+    const std::uint32_t flags[] = {0, 0, PT_MATERIAL_HIDDEN_FROM_CAMERA};
+    pt_scene scene = scene_of(materials, spheres, planes);
+    scene.material_flags = flags;
+    const pt::PreparedScene prepared(pt::checked_scene(scene), has_tree ? 1 : 1000);
+    EXPECT_EQ(prepared.tree != nullptr, has_tree);
+    return pt::small_lamps_in_view(prepared, seen_by, 400, 200, 0, 200);
+}
+
+double share_of(const std::vector<pt::LampPiece> &pieces, std::uint32_t x, std::uint32_t y) {
+    const auto piece = std::ranges::find_if(pieces, [&](const auto &other) { return other.x == x && other.y == y; });
+    return piece == pieces.end() ? 0.0 : piece->share;
+}
+
+constexpr double radius = 0.25;
+constexpr double size = std::numbers::pi * radius * radius;
+constexpr double thin = 2e-4; // of 256 lines: the error of each is at most the square of its height
+
+TEST(SmallLamps, AreSpreadOverPixels) {
+    for (const pt::Camera &seen_by : {camera, parallel_camera()})
+        for (const bool has_tree : {false, true}) {
+            const auto middle = pieces_of({sphere_at(0.5, 0.5, 100, radius, lamp)}, {}, seen_by, has_tree);
+            ASSERT_EQ(middle.size(), 1U);
+            EXPECT_NEAR(share_of(middle, 200, 99), size, thin);
+            EXPECT_DOUBLE_EQ(middle[0].lamp_size, size);
+            EXPECT_EQ(middle[0].emission, glm::dvec3(1, 2, 40));
+            const auto corner = pieces_of({sphere_at(0, 0, 100, radius, lamp)}, {}, seen_by, has_tree);
+            ASSERT_EQ(corner.size(), 4U);
+            for (const std::uint32_t x : {199U, 200U})
+                for (const std::uint32_t y : {99U, 100U})
+                    EXPECT_NEAR(share_of(corner, x, y), 0.25 * size, thin);
+        }
+    // The segment of a disc beyond a line at half its radius.
+    const double segment = radius * radius * (std::numbers::pi / 3.0 - std::sqrt(3.0) / 4.0);
+    const auto aside = pieces_of({sphere_at(0.5 * radius, 0.5, 100, radius, lamp)});
+    EXPECT_NEAR(share_of(aside, 199, 99), segment, thin);
+    EXPECT_NEAR(share_of(aside, 200, 99), size - segment, thin);
+    const auto at_the_edge = pieces_of({sphere_at(200, 99.5, 100, radius, lamp)});
+    ASSERT_EQ(at_the_edge.size(), 1U);
+    EXPECT_NEAR(share_of(at_the_edge, 399, 0), 0.5 * size, thin);
+}
+
+TEST(SmallLamps, AreThoseThatTheCameraSees) {
+    const pt_sphere seen = sphere_at(10, 10, 100, radius, lamp);
+    const auto count_of = [](const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {}) {
+        std::vector<std::size_t> counts;
+        for (const pt::Camera &seen_by : {camera, parallel_camera()})
+            for (const bool has_tree : {false, true})
+                counts.push_back(pieces_of(spheres, planes, seen_by, has_tree).size());
+        EXPECT_EQ(std::ranges::count(counts, counts[0]), 4);
+        return counts[0];
+    };
+    const std::size_t alone = count_of({seen});
+    EXPECT_EQ(alone, 4U);
+    EXPECT_EQ(count_of({sphere_at(10, 10, -100, radius, lamp)}), 0U) << "behind the camera";
+    EXPECT_EQ(count_of({sphere_at(201, 10, 100, radius, lamp)}), 0U) << "beside the view";
+    EXPECT_EQ(count_of({sphere_at(10, 10, 100, 0.5, lamp)}), 0U) << "large";
+    EXPECT_EQ(count_of({seen, sphere_at(10, 10, 99, 0.4, dark)}), 0U) << "behind a ball";
+    EXPECT_EQ(count_of({seen, sphere_at(10, 10, 101, 0.4, dark)}), alone) << "before a ball";
+    EXPECT_EQ(count_of({seen, sphere_at(10.5, 10, 99, 0.4, dark)}), alone) << "beside a ball";
+    EXPECT_EQ(count_of({seen, sphere_at(10, 10, 99, 0.4, hidden)}), alone) << "behind one that is not seen";
+    EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 50, dark)}), 0U) << "beyond a ball about the camera";
+    EXPECT_EQ(count_of({seen, sphere_at(0, 0, 0, 500, dark)}), alone) << "in a ball about both";
+    const pt_plane wall{{0.0, 0.0, 1.0}, 47.0, dark, 0}; // at the depth 50
+    EXPECT_EQ(count_of({seen}, {wall}), 0U) << "behind a plane";
+    pt_sphere moving = seen;
+    moving.motion[0] = 1.0;
+    pt::Camera open = camera;
+    open.shutter_close = 1.0;
+    EXPECT_TRUE(pieces_of({moving}, {}, open).empty());
+}
+
+// The variance of a lamp that a sample meets with the probability p: E^2 p (1 - p).
+TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
+    const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
+                                            {5, 6, 0.25, 0.5, glm::dvec3(4)}};
+    const auto with = [&](std::uint64_t first, std::uint64_t second) {
+        return pt::unmet_squares(pieces, 0.01, [=](const auto &piece) { return piece.x == 3 ? first : second; });
+    };
+    const double variance = 0.125 * 0.875;
+    const pt::UnmetSquares found = with(16, 16); // of the second lamp they should have met 8
+    EXPECT_DOUBLE_EQ(found.square, variance * (64.0 + 256.0) / 16.0);
+    EXPECT_DOUBLE_EQ(found.relative_square, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
+    EXPECT_EQ(with(32, 16).square, 0.0);
+    EXPECT_DOUBLE_EQ(with(32, 8).square, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
+}
+
+} // namespace
+
+} // namespace small_lamps
