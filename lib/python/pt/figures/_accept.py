@@ -10,7 +10,7 @@ import numpy as np
 
 from pt.figures._errors import DataError
 from pt.figures._options import Columns
-from pt.figures._particles import Particles
+from pt.figures._particles import Particles, assembled
 from pt.figures.readers import open_frames
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._numpy import frames_of_array, frames_of_arrays
@@ -36,14 +36,12 @@ def load(data: Any, *, frame: int | None = None, columns: Columns = None, format
     """
     if isinstance(data, Particles):
         return data
-    source = _opened(data, columns, format, drop_nonfinite)
+    mapping = _mapping(columns)
+    source = _opened(data, format, mapping)
     if frame is None and isinstance(source, Listed) and source.current is not None:
-        return source.read(source.current)
-    return source.read(_index(source, -1 if frame is None else frame))
-
-
-def frame_count(data: Any, *, format: str | None = None) -> int:
-    return 1 if isinstance(data, Particles) else _opened(data, None, format, False).count()
+        frame = source.current
+    table = source.read(_index(source, -1 if frame is None else frame))
+    return assembled(source.name, table, mapping, drop_nonfinite)
 
 
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
@@ -52,13 +50,13 @@ def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None
     if isinstance(data, Particles):
         yield data
         return
-    source = _opened(data, columns, format, drop_nonfinite)
-    begin = _index(source, first)
-    end = _index(source, last)
+    mapping = _mapping(columns)
+    source = _opened(data, format, mapping)
+    begin, end = _index(source, first), _index(source, last)
     if end < begin:
         raise DataError(f"{source.name}: frames {first} to {last}: the last one comes before the first one")
     for index in range(begin, end + 1):
-        yield source.read(index)
+        yield assembled(source.name, source.read(index), mapping, drop_nonfinite)
 
 
 def _index(source: Frames, frame: int) -> int:
@@ -82,23 +80,19 @@ def _mapping(columns: Columns) -> dict[str, str]:
     return dict(columns or {})
 
 
-def _opened(data: Any, columns: Columns, format: str | None, drop_nonfinite: bool) -> Frames:
-    mapping = _mapping(columns)
+def _opened(data: Any, format: str | None, mapping: Mapping[str, str]) -> Frames:
     if isinstance(data, (str, os.PathLike)):
-        return open_frames(os.fspath(data), format, mapping, drop_nonfinite)
-    options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
+        return open_frames(os.fspath(data), format, mapping)
     package = type(data).__module__.partition(".")[0]
     name = f"{package}.{type(data).__name__}" if package not in ("builtins", "numpy") else "array"
     if package == "MDAnalysis":
-        return of_mdanalysis(data, name, options)
-    if package == "ovito":
-        return one_frame(name, lambda: of_ovito(data, name, options))
-    if package == "ase":
-        return one_frame(name, lambda: of_ase(data, name, options))
+        return of_mdanalysis(data, name)
+    if package in ("ase", "ovito"):
+        return one_frame(name, lambda: (of_ase if package == "ase" else of_ovito)(data))
     if package in ("pandas", "polars") and hasattr(data, "columns"):
-        return frames_of_arrays(name, {str(key): data[key].to_numpy() for key in data.columns}, mapping, drop_nonfinite)
+        return frames_of_arrays(name, {str(key): data[key].to_numpy() for key in data.columns})
     if isinstance(data, Mapping):
-        return frames_of_arrays("data", data, mapping, drop_nonfinite)
+        return frames_of_arrays("data", data)
     if isinstance(data, Sequence) and data and type(data[0]).__module__.startswith("ase."):
-        return Listed(name, len(data), lambda index: of_ase(data[index], f"{name}[{index}]", options))
-    return frames_of_array(name, np.asarray(data), mapping, drop_nonfinite)
+        return Listed(name, len(data), lambda index: of_ase(data[index]))
+    return frames_of_array(name, np.asarray(data))

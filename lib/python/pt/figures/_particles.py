@@ -125,23 +125,30 @@ class Particles:
         return dataclasses.replace(self, positions=positions, columns=columns, notes=list(self.notes), **changed)
 
 
-def assembled(name: str, columns: Mapping[str, npt.ArrayLike], *, mapping: Mapping[str, str] | None = None,
-              cell: Cell | None = None, is_text: bool = False, drop_nonfinite: bool = False,
-              notes: list[str] | None = None) -> Particles:
-    """Particles of columns, found by their names.
+@dataclass
+class Table:
+    """What a file or an object holds, before it is known what its columns mean.
 
     columns  one or two dimensions each; of positions also as one column of two or three components
-    mapping  names of columns in place of those that are looked for: {"x": "pos_x", "radius": "r"}
     is_text  numbers have no type that says the scale of colors
     """
-    notes = list(notes or [])
-    parts, table = _split(name, columns)
-    chosen = {role: _found(parts, source, name) for role, source in (mapping or {}).items()}
-    positions = _positions(name, parts, table, chosen, cell, notes)
+
+    columns: Mapping[str, npt.ArrayLike]
+    cell: Cell | None = None
+    notes: list[str] = field(default_factory=list)
+    is_text: bool = False
+
+
+def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
+    """Particles of columns, found by their names, or by those of a mapping: {"x": "pos_x", "radius": "r"}."""
+    notes = list(given.notes)
+    parts, table = _split(name, given.columns)
+    chosen = {role: _found(parts, source, name) for role, source in mapping.items()}
+    positions = _positions(name, parts, table, chosen, given.cell, notes)
     if len(positions) == 0:
         raise DataError(f"{name}: has no particles")
-    found = Particles(positions, parts, cell=cell, name=name, notes=notes)
-    found.colors = _colors(parts, chosen, is_text, notes)
+    found = Particles(positions, parts, cell=given.cell, name=name, notes=notes)
+    found.colors = _colors(parts, chosen, given.is_text, notes)
     _put_radii(found, chosen)
     _put_labels(found, chosen)
     if len(parts) > MANY_COLUMNS:

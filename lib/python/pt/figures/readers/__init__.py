@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final
+from typing import Final
 
 from pt.figures._elements import listed
 from pt.figures._errors import DataError
-from pt.figures._particles import Particles
 from pt.figures.readers import _other
 from pt.figures.readers._frames import Frames, one_frame
 from pt.figures.readers._lammps import LammpsDump
@@ -18,18 +17,13 @@ from pt.figures.readers._ply import read_ply
 from pt.figures.readers._table import read_table
 from pt.figures.readers._xyz import Xyz
 
-Read = Callable[[Lines, Mapping[str, str], bool], Frames]
+FORMATS: Final[dict[str, Callable[[Lines], Frames]]] = {
+    "lammps": LammpsDump, "xyz": Xyz, "npy": read_npy, "npz": read_npz,
+    "ply": lambda lines: one_frame(lines.name, lambda: read_ply(lines)),
+    "pcd": lambda lines: one_frame(lines.name, lambda: read_pcd(lines))}
+"""Read by this package, by the name of their format, as "table" is."""
 
-
-def _single(read: Callable[[Lines, Mapping[str, str], bool], Particles]) -> Read:
-    return lambda lines, mapping, drop: one_frame(lines.name, lambda: read(lines, mapping, drop))
-
-
-FORMATS: Final[dict[str, Read]] = {"lammps": LammpsDump, "xyz": Xyz, "table": _single(read_table), "npy": read_npy,
-                                   "npz": read_npz, "ply": _single(read_ply), "pcd": _single(read_pcd)}
-"""Read by this package, by the name of their format."""
-
-OTHERS: Final[dict[str, Callable[[str, Mapping[str, Any]], Frames]]] = {
+OTHERS: Final[dict[str, Callable[[str], Frames]]] = {
     "ase": _other.read_ase, "mdanalysis": _other.read_mdanalysis, "pyvista": _other.read_pyvista,
     "trimesh": _other.read_trimesh, "laspy": _other.read_laspy}
 """Other packages, by name, which read files by their own means."""
@@ -46,17 +40,21 @@ _ENDINGS: Final = {".dump": "lammps", ".lammpstrj": "lammps", ".xyz": "xyz", ".e
                    **dict.fromkeys((".mol2", ".pqr", ".pdbqt", ".mmtf", ".tpr", ".gsd"), "mdanalysis")}
 
 
-def open_frames(path: str, format: str | None, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+def open_frames(path: str, format: str | None, mapping: Mapping[str, str]) -> Frames:
+    """mapping: as of read_table."""
     lines = Lines(path)
     format = format or _format_of(lines)
+    if format == "table":
+        return one_frame(lines.name, lambda: read_table(lines, mapping))
     if format in FORMATS:
-        return FORMATS[format](lines, mapping, drop_nonfinite)
+        return FORMATS[format](lines)
+    ours = ["table", *FORMATS]
     if format not in OTHERS:
-        raise DataError(f"{lines.name}: format {format!r}: must be one of {listed([*FORMATS, *OTHERS], 20)}")
+        raise DataError(f"{lines.name}: format {format!r}: must be one of {listed([*ours, *OTHERS], 20)}")
     lines.close()
     if not lines.is_file:
-        raise DataError(f"{lines.name}: {format} reads files: standard input must be one of {listed(list(FORMATS))}")
-    return OTHERS[format](path, {"mapping": mapping, "drop_nonfinite": drop_nonfinite})
+        raise DataError(f"{lines.name}: {format} reads files: standard input must be one of {listed(ours)}")
+    return OTHERS[format](path)
 
 
 def _format_of(lines: Lines) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from pt.figures._errors import DataError
-from pt.figures._particles import Particles
+from pt.figures._particles import Table
 from pt.figures.readers._lines import Lines
 
 
@@ -20,14 +20,14 @@ class Frames(Protocol):
     def has(self, index: int) -> bool:
         """Whether there is that frame, index >= 0: for which a file need not be read to its end."""
 
-    def read(self, index: int) -> Particles:
+    def read(self, index: int) -> Table:
         """0 <= index < count()."""
 
 
 class Listed:
     """Frames that are all at hand, or are read by their number; the current one is that of a moving object."""
 
-    def __init__(self, name: str, count: int, read: Callable[[int], Particles], current: int | None = None) -> None:
+    def __init__(self, name: str, count: int, read: Callable[[int], Table], current: int | None = None) -> None:
         self.name = name
         self.current = current
         self.read = read
@@ -40,7 +40,7 @@ class Listed:
         return index < self._count
 
 
-def one_frame(name: str, read: Callable[[], Particles]) -> Listed:
+def one_frame(name: str, read: Callable[[], Table]) -> Listed:
     return Listed(name, 1, lambda index: read())
 
 
@@ -57,7 +57,7 @@ class TextFrames:
         """Reads the head of the next frame: how many particles it has; None at the end of the file."""
         raise NotImplementedError
 
-    def body(self, count: int) -> Particles:
+    def body(self, count: int) -> Table:
         """Reads the rows behind the head."""
         raise NotImplementedError
 
@@ -95,7 +95,7 @@ class TextFrames:
         self._places.append(lines.place())
         return True
 
-    def read(self, index: int) -> Particles:
+    def read(self, index: int) -> Table:
         self.lines.go_to(self._places[index])
         count = self.head()
         if count is None:
@@ -103,7 +103,7 @@ class TextFrames:
         if count == 0:
             before = f"; frame {index - 1} may have some" if index else ""
             raise self.lines.refuse(f"frame {index} has no particles{before}")
-        particles = self.body(count)
+        table = self.body(count)
         if len(self._places) == index + 1:
             self._places.append(self.lines.place())
-        return particles
+        return table

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from pt.figures._particles import Cell, Particles, assembled, coordinate_names
+from pt.figures._particles import Cell, Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, is_number, shown
@@ -17,9 +16,8 @@ _HEAD_ENDS = "the file ends within the head of a frame: it was cut short"
 
 
 class LammpsDump(TextFrames):
-    def __init__(self, lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> None:
+    def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
-        self._options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
         self._names: list[str] = []
         self._cell: Cell | None = None
 
@@ -58,10 +56,10 @@ class LammpsDump(TextFrames):
             return None
         raise lines.refuse(_HEAD_ENDS)
 
-    def body(self, count: int) -> Particles:
+    def body(self, count: int) -> Table:
         rows = Rows(self.lines, Layout(self._names, coordinate_names(self._names)[0]))
         rows.read(count)
-        return assembled(self.name, rows.columns(), cell=self._cell, is_text=True, notes=rows.notes, **self._options)
+        return Table(rows.columns(), self._cell, rows.notes, is_text=True)
 
     def _line(self) -> str:
         line = self.lines.line()

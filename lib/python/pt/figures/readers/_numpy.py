@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt.figures._errors import DataError
-from pt.figures._particles import Cell, assembled
+from pt.figures._particles import Cell, Table
 from pt.figures.readers._frames import Frames, Listed
 from pt.figures.readers._lines import Lines
 
@@ -23,12 +23,12 @@ Array = npt.NDArray[Any]
 _CELLS: Final = ("cell", "box", "lattice")
 
 
-def read_npy(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+def read_npy(lines: Lines) -> Frames:
     """Read in place where the file is not packed."""
-    return frames_of_array(lines.name, _array(lines), mapping, drop_nonfinite)
+    return frames_of_array(lines.name, _array(lines))
 
 
-def read_npz(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+def read_npz(lines: Lines) -> Frames:
     """Arrays of as many rows as there are positions become columns."""
     source: Any = lines.path if lines.is_file and not lines.is_packed else io.BytesIO(lines.take(sys.maxsize))
     try:
@@ -36,7 +36,7 @@ def read_npz(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> 
             arrays = {name: file[name] for name in file.files}
     except (OSError, ValueError, EOFError, KeyError, zlib.error, zipfile.BadZipFile, RuntimeError) as error:
         raise DataError(f"{lines.name}: {str(error)[:200]}: damaged, or no NPZ file of numbers") from None
-    return frames_of_arrays(lines.name, arrays, mapping, drop_nonfinite)
+    return frames_of_arrays(lines.name, arrays)
 
 
 def _array(lines: Lines) -> Array:
@@ -68,39 +68,31 @@ def _require_text(name: str, values: Array) -> None:
                 raise DataError(f"{name}: the column {field or 'of text'} has bytes that are no text: it is damaged")
 
 
-def frames_of_arrays(name: str, arrays: Mapping[str, Any], mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+def frames_of_arrays(name: str, arrays: Mapping[str, Any]) -> Frames:
     """Columns; positions and others may have a first dimension of frames."""
     columns = {key: np.asarray(values) for key, values in arrays.items() if np.ndim(values)}
     box = next((columns.pop(key) for key in list(columns) if key.lower() in _CELLS), None)
     cell = Cell.of(box) if box is not None and box.shape in ((3,), (3, 3)) else None
     frames = max((len(values) for values in columns.values() if values.ndim == 3), default=None)
-    if frames is not None:
-        def frame(index: int) -> dict[str, Array]:
-            return {key: values[index] if values.ndim == 3 else values for key, values in columns.items()}
-    else:
-        def frame(index: int) -> dict[str, Array]:
-            return columns
 
-    def read(index: int) -> Any:
-        rows = frame(index)
+    def read(index: int) -> Table:
+        rows = {key: values[index] if values.ndim == 3 else values for key, values in columns.items()}
         size = max((len(values) for values in rows.values() if values.ndim == 2), default=None)
-        if size is not None:
-            rows = {key: values for key, values in rows.items() if len(values) == size}
-        return assembled(name, rows, mapping=mapping, cell=cell, drop_nonfinite=drop_nonfinite)
+        return Table({key: values for key, values in rows.items() if size in (None, len(values))}, cell)
 
     return Listed(name, frames or 1, read)
 
 
-def frames_of_array(name: str, array: Array, mapping: Mapping[str, str], drop_nonfinite: bool) -> Frames:
+def frames_of_array(name: str, array: Array) -> Frames:
     """Shape (n, 3), (n, 2), (n, k) with columns x, y, z, 4, ..., or (t, n, 3); or a structured array."""
     if array.dtype.names:
-        return frames_of_arrays(name, {key: array[key] for key in array.dtype.names}, mapping, drop_nonfinite)
+        return frames_of_arrays(name, {key: array[key] for key in array.dtype.names})
     if array.dtype.kind not in "fiub" or array.ndim not in (2, 3) or not 2 <= array.shape[-1]:
         raise DataError(f"{name}: an array of {array.dtype} with the shape {array.shape}: must have numbers and the shape "
                         "(n, 3), (n, 2) or, of frames, (t, n, 3)")
     if array.ndim == 3 and array.shape[2] > 3:
         raise DataError(f"{name}: the shape {array.shape}: frames must have the shape (t, n, 3) or (t, n, 2)")
     if array.shape[-1] <= 3:
-        return frames_of_arrays(name, {"positions": array}, mapping, drop_nonfinite)
+        return frames_of_arrays(name, {"positions": array})
     names = ["x", "y", "z", *map(str, range(4, array.shape[1] + 1))]
-    return frames_of_arrays(name, dict(zip(names, array.T)), mapping, drop_nonfinite)
+    return frames_of_arrays(name, dict(zip(names, array.T)))

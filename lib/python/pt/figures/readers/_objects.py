@@ -2,29 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from pt.figures._elements import distinct
-from pt.figures._particles import Cell, Particles, assembled
+from pt.figures._particles import Cell, Table
 from pt.figures.readers._frames import Frames, Listed
 
-Options = Mapping[str, Any]
 
-
-def of_ase(atoms: Any, name: str, options: Options) -> Particles:
+def of_ase(atoms: Any) -> Table:
     columns = {"positions": atoms.positions, **{key: values for key, values in atoms.arrays.items() if key != "positions"}}
-    return assembled(name, columns, cell=Cell.of(atoms.cell.array, periodic=atoms.pbc), **options)
+    return Table(columns, Cell.of(atoms.cell.array, periodic=atoms.pbc))
 
 
-def of_mdanalysis(group: Any, name: str, options: Options) -> Frames:
+def of_mdanalysis(group: Any, name: str) -> Frames:
     """A universe or a group of atoms; lengths are in angstroms."""
     atoms = group.atoms
     trajectory = group.universe.trajectory
 
-    def read(index: int) -> Particles:
+    def read(index: int) -> Table:
         step = trajectory[index]
         columns = {"positions": atoms.positions}  # a copy
         for key, attribute in (("element", "elements"), ("name", "names"), ("type", "types"), ("radius", "radii"),
@@ -33,13 +30,12 @@ def of_mdanalysis(group: Any, name: str, options: Options) -> Frames:
             values = getattr(atoms, attribute, None)
             if values is not None and (key != "element" or any(values)):
                 columns[key] = values
-        cell = None if step.dimensions is None else Cell.of(step.triclinic_dimensions)
-        return assembled(name, columns, cell=cell, **options)
+        return Table(columns, None if step.dimensions is None else Cell.of(step.triclinic_dimensions))
 
     return Listed(name, len(trajectory), read, trajectory.frame)
 
 
-def of_ovito(data: Any, name: str, options: Options) -> Particles:
+def of_ovito(data: Any) -> Table:
     particles = data.particles
     columns = {"positions" if key == "Position" else key: np.asarray(particles[key]) for key in particles.keys()}
     kinds = particles.get("Particle Type")
@@ -53,4 +49,4 @@ def of_ovito(data: Any, name: str, options: Options) -> Particles:
     if data.cell is not None:
         matrix = np.asarray(data.cell[...])  # columns are the edges and the origin
         cell = Cell.of(matrix[:, :3].T, matrix[:, 3], data.cell.pbc)
-    return assembled(name, columns, cell=cell, **options)
+    return Table(columns, cell)

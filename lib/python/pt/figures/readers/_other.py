@@ -2,66 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
 
 from pt.figures._errors import DataError, module
-from pt.figures._particles import Particles, assembled
+from pt.figures._particles import Table
 from pt.figures.readers._frames import Frames, Listed, one_frame
 from pt.figures.readers._objects import of_ase, of_mdanalysis
-
-Options = Mapping[str, Any]
 
 _LAMMPS_DATA: Final = (".data", ".lmp")
 
 
-def read_ase(path: str, options: Options) -> Frames:
+def read_ase(path: str) -> Frames:
     read = module("ase.io", f"{path}: this format").read
     kind = "lammps-data" if path.lower().endswith(_LAMMPS_DATA) else None  # which ASE does not find out
     images = _tried(path, "ASE", lambda: read(path, index=":", format=kind))
-    return Listed(path, len(images), lambda index: of_ase(images[index], path, options))
+    return Listed(path, len(images), lambda index: of_ase(images[index]))
 
 
-def read_mdanalysis(path: str, options: Options) -> Frames:
+def read_mdanalysis(path: str) -> Frames:
     mdanalysis = module("MDAnalysis", f"{path}: this format")
-    return of_mdanalysis(_tried(path, "MDAnalysis", lambda: mdanalysis.Universe(path)), path, options)
+    return of_mdanalysis(_tried(path, "MDAnalysis", lambda: mdanalysis.Universe(path)), path)
 
 
-def read_pyvista(path: str, options: Options) -> Frames:
+def read_pyvista(path: str) -> Frames:
     pyvista = module("pyvista", f"{path}: this format")
     mesh = _tried(path, "pyvista", lambda: pyvista.read(path))
     while hasattr(mesh, "combine") and not hasattr(mesh, "points"):
         mesh = mesh.combine()
     columns = {key: np.asarray(mesh.point_data[key]) for key in mesh.point_data.keys()}
     faces = 0 if mesh.n_cells == mesh.n_points else mesh.n_cells
-    return one_frame(path, lambda: _points(path, mesh.points, columns, faces, options))
+    return one_frame(path, lambda: _points(mesh.points, columns, faces))
 
 
-def read_trimesh(path: str, options: Options) -> Frames:
+def read_trimesh(path: str) -> Frames:
     trimesh = module("trimesh", f"{path}: this format")
     mesh = _tried(path, "trimesh", lambda: trimesh.load(path, process=False))
     if hasattr(mesh, "to_mesh"):
         mesh = mesh.to_mesh()
     colors = getattr(getattr(mesh, "visual", None), "vertex_colors", getattr(mesh, "colors", None))
     columns = {} if colors is None or np.shape(colors)[:1] != np.shape(mesh.vertices)[:1] else {"colors": colors}
-    return one_frame(path, lambda: _points(path, mesh.vertices, columns, len(getattr(mesh, "faces", ())), options))
+    return one_frame(path, lambda: _points(mesh.vertices, columns, len(getattr(mesh, "faces", ()))))
 
 
-def read_laspy(path: str, options: Options) -> Frames:
+def read_laspy(path: str) -> Frames:
     laspy = module("laspy", f"{path}: this format")
     las = _tried(path, "laspy", lambda: laspy.read(path))
     names = [name for name in las.point_format.dimension_names if name not in ("X", "Y", "Z")]
     columns = {name: np.asarray(las[name]) for name in names}
     if "red" in columns and max(columns[key].max(initial=0) for key in ("red", "green", "blue")) <= 255:
         columns.update((key, columns[key].astype(np.uint8)) for key in ("red", "green", "blue"))
-    return one_frame(path, lambda: _points(path, np.asarray(las.xyz), columns, 0, options))
+    return one_frame(path, lambda: _points(las.xyz, columns, 0))
 
 
-def _points(path: str, positions: Any, columns: dict[str, Any], faces: int, options: Options) -> Particles:
+def _points(positions: Any, columns: dict[str, Any], faces: int) -> Table:
     notes = [f"the {faces:,} faces of the mesh are not drawn: only its vertices are"] if faces else []
-    return assembled(path, {"positions": np.asarray(positions), **columns}, notes=notes, **options)
+    return Table({"positions": np.asarray(positions), **columns}, notes=notes)
 
 
 def _tried(path: str, package: str, read: Callable[[], Any]) -> Any:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
-from pt.figures._particles import Particles, assembled
+from pt.figures._particles import Table
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._ply import binary_columns, text_columns
 from pt.figures.readers._rows import shown
@@ -16,7 +15,7 @@ from pt.figures.readers._rows import shown
 _PACKED_COLORS: Final = ("rgb", "rgba")
 
 
-def read_pcd(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
+def read_pcd(lines: Lines) -> Table:
     head: dict[str, list[str]] = {}
     while "DATA" not in head:
         line = lines.line()
@@ -40,7 +39,7 @@ def read_pcd(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> 
                            "writes these")
     notes: list[str] = []
     columns = (text_columns if head["DATA"] == ["ascii"] else binary_columns)(lines, kinds, count, notes)
-    return assembled(lines.name, _with_colors(columns), mapping=mapping, drop_nonfinite=drop_nonfinite, notes=notes)
+    return Table(_with_colors(columns), notes=notes)
 
 
 def _with_colors(columns: dict[str, npt.NDArray[Any]]) -> dict[str, npt.NDArray[Any]]:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt.figures._errors import DataError
-from pt.figures._particles import Particles, assembled
+from pt.figures._particles import Table
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, shown
 
@@ -29,7 +29,7 @@ class _Element:
     properties: list[tuple[str, str, str]]  # name, type, and of lists the type of their length
 
 
-def read_ply(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
+def read_ply(lines: Lines) -> Table:
     order, elements = _ply_head(lines)
     notes = [f"the {element.count:,} faces of the mesh are not drawn: only its vertices are" for element in elements
              if element.name == "face" and element.count]
@@ -40,7 +40,7 @@ def read_ply(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> 
             kinds = {name: order + kind for name, kind, _ in element.properties}
             columns = (binary_columns if order else text_columns)(lines, kinds, element.count, notes)
         if element.name == "vertex":
-            return assembled(lines.name, columns, mapping=mapping, drop_nonfinite=drop_nonfinite, notes=notes)
+            return Table(columns, notes=notes)
     raise lines.refuse('there is no element "vertex"')
 
 

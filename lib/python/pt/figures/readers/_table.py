@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy.typing as npt
 
-from pt.figures._particles import Particles, assembled, coordinate_names
+from pt.figures._particles import Table, coordinate_names
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, fields_of, is_comment, is_number, shown
 
@@ -17,7 +17,8 @@ _SEPARATORS: Final = ("\t", ";", ",")
 _MOST_BYTE: Final = 255
 
 
-def read_table(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> Particles:
+def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
+    """mapping: names of the columns that are positions, if they have others than usual."""
     comment = ""
     start = lines.place()
     while (line := lines.line()) is not None and (not line.strip() or is_comment(line)):
@@ -37,7 +38,7 @@ def read_table(lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -
     columns = rows.columns()
     if not has_names and "4" in columns:
         columns = _with_colors(columns, rows.notes)
-    return assembled(lines.name, columns, mapping=mapping, is_text=True, drop_nonfinite=drop_nonfinite, notes=rows.notes)
+    return Table(columns, notes=rows.notes, is_text=True)
 
 
 def _layout(line: str, comment: str, lines: Lines) -> tuple[Layout, bool]:

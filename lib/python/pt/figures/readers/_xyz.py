@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from typing import Any, Final
 
 import numpy as np
 
-from pt.figures._particles import Cell, Particles, assembled, coordinate_names
+from pt.figures._particles import Cell, Table, coordinate_names
 from pt.figures.readers._frames import TextFrames
 from pt.figures.readers._lines import Lines
 from pt.figures.readers._rows import Layout, Rows, is_number, shown
@@ -19,9 +18,8 @@ _LEAST: Final = 4  # fields of a plain row: a label and a position
 
 
 class Xyz(TextFrames):
-    def __init__(self, lines: Lines, mapping: Mapping[str, str], drop_nonfinite: bool) -> None:
+    def __init__(self, lines: Lines) -> None:
         super().__init__(lines)
-        self._options: dict[str, Any] = {"mapping": mapping, "drop_nonfinite": drop_nonfinite}
         self._pairs: dict[str, str] = {}
 
     def head(self) -> int | None:
@@ -38,13 +36,13 @@ class Xyz(TextFrames):
         self._pairs = {found[0]: "".join(found[1:]) for found in _PAIR.findall(comment)}
         return int(line)
 
-    def body(self, count: int) -> Particles:
+    def body(self, count: int) -> Table:
         cell = self._cell()
         names, least = self._names()
         positions = coordinate_names(names)[0]
         rows = Rows(self.lines, Layout(names, positions, least=least))
         rows.read(count)
-        return assembled(self.name, rows.columns(), cell=cell, is_text=True, notes=rows.notes, **self._options)
+        return Table(rows.columns(), cell, rows.notes, is_text=True)
 
     def _names(self) -> tuple[list[str], int | None]:
         """Of the columns; and how many a row must have at least, where more may follow."""
