@@ -92,11 +92,13 @@ class Command(unittest.TestCase):
 
     def test_what_is_refused(self):
         (self.folder / "bad.xyz").write_text("2\n\nO 0 0\n")
+        (self.folder / "data.png").write_text(WATER)
         for code, words, arguments in (
                 (2, "there is nothing to write", ("water.xyz",)),
-                (2, "must end in .png, .jpg, .jpeg, .exr", ("water.xyz", "-o", "a.gif")),
+                (2, "must end in .png or .jpg or .jpeg or .exr", ("water.xyz", "-o", "a.gif")),
                 (6, "its folder nowhere is not there", ("water.xyz", "-o", "nowhere/a.png")),
-                (2, "named twice, or is the data", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
+                (2, "named twice, or is water.xyz", ("water.xyz", "-o", "a.png", "-o", "./a.png")),
+                (2, "or is data.png", ("data.png", "-o", "./data.png")),
                 (2, "-o -: needs --format", ("water.xyz", "-o", "-")),
                 (2, "JPEG has no alpha", ("water.xyz", "-o", "a.jpg", "--background", "transparent")),
                 (2, "must have # signs", ("water.xyz", "-o", "a.png", "--turntable", "4")),

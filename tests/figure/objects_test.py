@@ -130,6 +130,13 @@ class Objects(unittest.TestCase):
             np.testing.assert_array_equal(found.positions, PLACES)
             self.assertEqual(found.columns["kind"].tolist(), ["a", "b", "a"])
 
+    def test_columns_of_one_array_are_read_in_place(self):
+        """But not those that are in another order there."""
+        array = np.repeat(PLACES, 2, axis=0)
+        self.assertTrue(np.shares_memory(load(dict(zip("xyz", array.T))).positions, array))
+        np.testing.assert_array_equal(load(dict(zip("zyx", array.T))).positions, array[:, ::-1])
+        np.testing.assert_array_equal(load(dict(zip("xyz", array[::2].T))).positions, PLACES)
+
 
 class Files(unittest.TestCase):
     def setUp(self):

@@ -175,13 +175,14 @@ class Rows(InAFolder):
         _rows.FEW_BYTES = 1 << 16
 
     def test_blocks_begin_and_end_anywhere(self):
-        rows = [(i, -0.5, i % 1000 + 0.25) for i in range(60000)]
-        for name, head, separator in (("a.csv", "x,y,z\n", ","), ("a.xyz", "60000\nProperties=pos:R:3\n", " "),
-                                      ("a.dump", "ITEM: NUMBER OF ATOMS\n60000\nITEM: ATOMS x y z\n", " ")):
-            text = (head + "".join(f"{i}{separator}{' ' * (i % 67)}{y}{separator}{z}\n" for i, y, z in rows)).encode()
+        rows = [(i, -0.5, i % 1000 + 0.25, i if i < 58000 else i + 0.5) for i in range(60000)]  # the last are whole at first
+        for name, head, separator in (("a.csv", "x,y,z,v\n", ","), ("a.xyz", "60000\nProperties=pos:R:3:v:R:1\n", " "),
+                                      ("a.dump", "ITEM: NUMBER OF ATOMS\n60000\nITEM: ATOMS x y z v\n", " ")):
+            text = (head + "".join(f"{i}{separator}{' ' * (i % 67)}{y}{separator}{z}{separator}{v}\n" for i, y, z, v in rows)).encode()
             for data in text, text.replace(b"\n", b"\r\n"), b"\xef\xbb\xbf" + text, gzip.compress(text[:99991]) + \
                     gzip.compress(text[99991:]):
-                np.testing.assert_array_equal(self.read(name, data).positions, rows)
+                found = self.read(name, data)
+                np.testing.assert_array_equal(np.column_stack([found.positions, found.column("v")]), rows)
 
 
 class Users(unittest.TestCase):
@@ -238,6 +239,8 @@ class Users(unittest.TestCase):
         for columns in "x=vel_x,y=pos_y,z=pos_x", {"x": "6", "y": "4", "z": "3"}:
             found = load(DATA / "trials/posx.csv", columns=columns)
             np.testing.assert_array_equal(found.positions, [[3, 0, 0], [4, 0, 1]])
+        twice = load(DATA / "trials/posx.csv", columns="x=vel_x,y=pos_y,z=pos_y")
+        np.testing.assert_array_equal(twice.positions, found.positions[:, [0, 1, 1]])
         for columns, said in (("x=speed", "no column 'speed': the columns are id, type, pos_x"), ("w=id", "for one of x, y")):
             with self.assertRaisesRegex(DataError, said):
                 load(DATA / "trials/posx.csv", columns=columns)

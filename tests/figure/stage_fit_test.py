@@ -11,6 +11,7 @@ from pt.figures._options import VIEWS, Options
 from pt.figures._particles import Cell, Particles
 from pt.figures._radii import typical_radius
 from pt.figures._series import frames, turntable
+from pt.figures._view import up_vector
 
 RANDOM = np.random.default_rng(3)
 
@@ -162,6 +163,7 @@ class Series(unittest.TestCase):
                             np.subtract(staged[20].layout.camera.position, staged[0].layout.camera.position))
             self.assertAlmostEqual(abs(axis @ staged[0].layout.stage.lamps[0].center - axis @ np.array(
                 staged[7].layout.stage.lamps[0].center)), 0.0)
+            self.assertGreater(axis @ up_vector(up), 0)  # counterclockwise, seen from above
             distances = [np.linalg.norm(np.subtract(each.layout.camera.position, each.layout.stage.lamps[0].center))
                          for each in staged]
             np.testing.assert_allclose(distances, distances[0])

@@ -1,10 +1,12 @@
-"""What the commands of the package share: exit codes, numbers of options, and names of series."""
+"""What the commands of the package share: exit codes, numbers of options, and names of files and series."""
 
 from __future__ import annotations
 
 import argparse
+import os
+import pathlib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from pt._enums import Result
@@ -29,6 +31,21 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
             raise argparse.ArgumentTypeError(f"must be a {whole}number of {least:g} or more, is {text!r}")
         return value
     return read
+
+
+def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
+    """What is wrong with the names of files that are to be written, each with the endings that it may have, and the exit
+    code for it. source: what is read."""
+    for name, endings in files:
+        place = pathlib.Path(name)
+        if endings and place.suffix.lower() not in endings:
+            return f"{name}: must end in {' or '.join(endings)}", USAGE
+        if not os.access(place.parent, os.W_OK | os.X_OK):
+            return f"{name}: its folder {place.parent} is not there or cannot be written to", FILES
+    names = [os.path.realpath(name) for name, _ in files]
+    if len(set(names)) < len(names) or os.path.realpath(source) in names:
+        return f"an output is named twice, or is {source}", USAGE
+    return None
 
 
 def numbered(pattern: str, number: int | None) -> str:

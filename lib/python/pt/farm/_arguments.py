@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 import pathlib
 import re
 import sys
 from typing import NoReturn
 
-from pt._command_line import FILES, USAGE, at_least, numbered
+from pt._command_line import USAGE, at_least, misnamed, numbered
 
 PICTURES = (".exr", ".png", ".jpg", ".jpeg")
 
@@ -84,15 +83,8 @@ def check_files(arguments: argparse.Namespace) -> None:
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
     wanted += [(arguments.standard_error, (".exr",))] if arguments.standard_error else []
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
-    for name, endings in wanted:
-        place = pathlib.Path(name)
-        if endings and place.suffix.lower() not in endings:
-            refuse(f"{name}: must end in {' or '.join(endings)}")
-        if not os.access(place.parent, os.W_OK | os.X_OK):
-            refuse(f"{name}: its folder {place.parent} is not there or cannot be written to", FILES)
-    names = [os.path.realpath(name) for name, _ in wanted]
-    if len(set(names)) < len(names) or os.path.realpath(arguments.scene) in names:
-        refuse("an output is named twice, or is the scene")
+    if wrong := misnamed(wanted, arguments.scene):
+        refuse(*wrong)
 
 
 def written(arguments: argparse.Namespace) -> list[str]:

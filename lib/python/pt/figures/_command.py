@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import pathlib
 import re
 import signal
 import sys
@@ -15,7 +14,7 @@ from dataclasses import Field, fields
 from typing import Any, NoReturn
 
 from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TARGET_MISSED, USAGE, at_least,
-                              numbered)
+                              misnamed, numbered)
 from pt._context import Context
 from pt._errors import Error
 from pt.figures._accept import frames as read_frames, load
@@ -96,10 +95,10 @@ def joined(words: list[str]) -> list[str]:
 def check(given: argparse.Namespace) -> None:
     """Names and what contradicts itself: now rather than after minutes."""
     series = given.turntable or given.frames
-    files: list[tuple[str, str, tuple[str, ...]]] = [("-o", path, PICTURES) for path in given.output]
-    files += [("--legend", given.legend, (".svg", ".pdf", ".png"))] if given.legend else []
-    files += [("--write-scene", given.write_scene, (".json",))] if given.write_scene else []
-    if not files:
+    pictures = [path for path in given.output if path != "-"]
+    files = [(path, PICTURES) for path in pictures] + [
+        (path, endings) for path, endings in ((given.legend, (".svg", ".pdf", ".png")), (given.write_scene, (".json",))) if path]
+    if not (given.output or files):
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
     if given.turntable and given.frames:
         refuse("--turntable: not with --frames")
@@ -109,20 +108,13 @@ def check(given: argparse.Namespace) -> None:
         refuse(f"{given.data}: is not there or cannot be read", FILES)
     if "-" in given.output and (series or not given.output_format):
         refuse("-o -: a series needs files" if series else "-o -: needs --format")
-    files = [each for each in files if each[:2] != ("-o", "-")]
-    for option, path, endings in files:
-        place = pathlib.Path(path)
-        if place.suffix.lower() not in endings:
-            refuse(f"{option} {path}: must end in {', '.join(endings)}")
-        if not os.access(place.parent, os.W_OK | os.X_OK):
-            refuse(f"{option} {path}: its folder {place.parent} is not there or cannot be written to", FILES)
-        if series and option == "-o" and "#" not in place.name:
+    for path in pictures:
+        if series and "#" not in os.path.basename(path):
             refuse(f"-o {path}: of a series the name must have # signs, for the number")
-        if given.background == "transparent" and place.suffix.lower() in (".jpg", ".jpeg"):
+        if given.background == "transparent" and path.lower().endswith((".jpg", ".jpeg")):
             refuse(f"--background transparent: -o {path}: JPEG has no alpha; .png has")
-    names = [os.path.realpath(path) for _, path, _ in files]
-    if len(set(names)) < len(names) or os.path.realpath(given.data) in names:
-        refuse("an output is named twice, or is the data")
+    if wrong := misnamed(files, given.data):
+        refuse(*wrong)
 
 
 class Shown:

@@ -139,7 +139,10 @@ class Staged:
     @staticmethod
     def of(particles: Particles, options: Options) -> Staged:
         drawn = prepare(particles, options)
-        view = view_of(drawn, options)
+        return Staged.seen(drawn, view_of(drawn, options), options)
+
+    @staticmethod
+    def seen(drawn: Drawn, view: View, options: Options) -> Staged:
         return Staged(drawn, Layout.of(view, view.reaches(drawn.balls), options.style, options.floor), options)
 
     @functools.cached_property

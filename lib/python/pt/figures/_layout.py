@@ -75,6 +75,11 @@ class View:
             size = _shape(Extents.of(balls.reach(axes, SIDES, spin)).size)
         return View(compass, axes, size, projection, spin)
 
+    def turned(self, angle: float) -> View:
+        """From where a turntable's camera is when it has gone so far round, radians."""
+        assert self.spin is not None
+        return replace(self, axes=self.axes @ _rotation(self.spin.axis, angle).T)
+
     @property
     def tangents(self) -> tuple[float, float]:
         vertical = (1.0 - 2.0 * MARGIN) * math.tan(0.5 * VERTICAL_FOV)
@@ -130,18 +135,6 @@ class Layout:
                 raise ValueError("floor: the camera is below it, by the view, and would see nothing else")
             plane = Plane(up, -height, FLOOR)
         return Layout(view.size, axes, camera, make_stage(style, axes, distance, center, radius, plane))
-
-    def turned(self, spin: Spin, angle: float) -> Layout:
-        """As the camera sees it that goes round the axis by an angle, radians, with its lamps."""
-        matrix = _rotation(spin.axis, angle)
-        axes = self.axes @ matrix.T
-        position, target = (spin.through + matrix @ (np.asarray(point) - spin.through)
-                            for point in (self.camera.position, self.camera.target))
-        camera = Camera(position, target, axes[1], vertical_fov=self.camera.vertical_fov,
-                        vertical_extent=self.camera.vertical_extent)
-        lamps = tuple(type(lamp)(spin.through + matrix @ (np.asarray(lamp.center) - spin.through), lamp.radius,
-                                 lamp.material) for lamp in self.stage.lamps)
-        return Layout(self.size, axes, camera, Stage(lamps, self.stage.floor, self.stage.material))
 
 
 def _rotation(axis: Doubles, angle: float) -> Doubles:

@@ -254,9 +254,8 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
         notes.append(f"positions have two coordinates, {axes[0]} and {axes[1]}: the third one is 0")
     kind = np.result_type(*(parts[axis].dtype for axis in axes))
     kind = np.dtype(np.float32 if kind.kind == "f" and kind.itemsize <= 4 else np.float64)
-    if table is not None and table.shape[1] == 3 and table.dtype == kind and table.dtype.isnative:
-        positions = table
-    else:
+    positions = _common_table([parts[axis] for axis in axes]) if table is None else table
+    if positions is None or positions.shape[1] != 3 or positions.dtype != kind or not positions.dtype.isnative:
         positions = np.zeros((len(parts[axes[0]]), 3), kind)
         for i, axis in enumerate(axes):
             positions[:, i] = parts[axis]
@@ -270,6 +269,16 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
             parts[axes[i]] = positions[:, i]
         parts.setdefault(axis, positions[:, i])
     return positions
+
+
+def _common_table(columns: list[Array]) -> Array | None:
+    """That of which these are the columns, one by one."""
+    table, count = columns[0].base, len(columns[0])
+    if table is None or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
+        return None
+    same = all(each.base is table and each.ctypes.data == table[:, i].ctypes.data and each.strides == table.strides[:1]
+               for i, each in enumerate(columns))
+    return table[:count] if same else None
 
 
 def _flushed(positions: Array) -> Array:

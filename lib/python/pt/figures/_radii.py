@@ -17,7 +17,7 @@ from pt.figures._particles import Particles
 PROBES: Final = 1000
 IN_CELL: Final = 8  # particles, where they fill their box evenly
 MOST_PAIRS: Final = 4_000_000
-TABLE_BITS: Final = 22
+TABLE_BITS: Final = 20
 STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 

@@ -57,10 +57,9 @@ def _rule(particles: Particles, drawn: Drawn, options: Options) -> Radius:
 
 
 def turntable(particles: Particles, count: int, options: Options) -> Iterator[Staged]:
-    """Once round the vertical axis, from the view on; lamps go with the camera."""
+    """Once round the vertical axis, from the view on, counterclockwise as seen from above; lamps go with the camera."""
     drawn = prepare(particles, options)
     view = view_of(drawn, options, turns=True)
-    layout = Layout.of(view, view.reaches(drawn.balls), options.style, options.floor)
-    assert view.spin is not None
     for k in range(count):
-        yield Staged(drawn, layout.turned(view.spin, 2.0 * math.pi * k / count), options)
+        turned = view.turned(2.0 * math.pi * k / count)
+        yield Staged.seen(drawn, turned, options)

@@ -20,7 +20,7 @@ from pt.figures._errors import DataError, module
 
 STANDARD_INPUT: Final = "-"
 PACKED_ENDINGS: Final = (".gz", ".zst", ".xz", ".bz2")
-BLOCK_BYTES: Final = 1 << 22  # as much text as is parsed at a time
+BLOCK_BYTES: Final = 1 << 20  # as much text as is parsed at a time
 
 
 def _open_zstd(file: IO[bytes]) -> Any:

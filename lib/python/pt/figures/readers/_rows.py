@@ -17,6 +17,7 @@ from pt.figures.readers._lines import Lines
 
 Array = npt.NDArray[Any]
 
+_TABLE: Final = ""  # the key of three columns of positions, which are a table of their own
 FEW_BYTES: Final = 1 << 16  # that are read before pandas has been imported
 MISSING: Final = ("", "nan", "NaN", "NAN", "-nan", "NA", "N/A", "n/a", "null", "None", "-")
 _FORTRAN: Final = re.compile(r"([\d.])[dD]([+-]?\d)")
@@ -81,7 +82,7 @@ class Rows:
         self.layout = layout
         self.count = 0
         self.notes: list[str] = []
-        self._pieces: list[list[Array]] = [[] for _ in layout.names]
+        self._columns: dict[str, Array] = {}
         self._are_words: list[bool] = []
 
     def read(self, count: int | None = None) -> None:
@@ -105,18 +106,28 @@ class Rows:
         columns = self._by_pandas(data, height) if len(data) > FEW_BYTES else None
         if columns is None:
             columns = self._one_by_one(data, first)
+        named = dict(zip(self.layout.names, columns))
+        if len(self.layout.positions) == 3:
+            named[_TABLE] = np.stack([named.pop(name) for name in self.layout.positions], axis=1)
+        for key, piece in named.items():
+            self._put(key, piece)
         self.count += len(columns[0])
-        for pieces, column in zip(self._pieces, columns):
-            pieces.append(column)
+
+    def _put(self, key: str, piece: Array) -> None:
+        """Behind what there is. Arrays grow twofold, and memory that is not written to is none."""
+        have, end = self._columns.get(key, piece[:0]), self.count + len(piece)
+        kind = np.result_type(have, piece)
+        if end > len(have) or kind != have.dtype:
+            grown = np.empty((max(end, 2 * len(have)), *piece.shape[1:]), kind)
+            grown[:self.count] = have[:self.count]
+            self._columns[key] = have = grown
+        have[self.count:end] = piece
 
     def columns(self) -> dict[str, Array]:
-        """All columns. Pieces are given up on the way, so that no more than one column is held twice."""
-        result = {}
-        for name, pieces in zip(self.layout.names, self._pieces):
-            if len({piece.dtype.kind == "U" for piece in pieces}) > 1:
-                pieces[:] = [piece.astype(str) for piece in pieces]
-            result[name] = np.concatenate(pieces) if len(pieces) > 1 else pieces[0] if pieces else np.empty(0)
-            pieces.clear()
+        """Of the names; three of positions are those of one table."""
+        result = {name: np.empty(0) for name in self.layout.names}
+        for key, values in self._columns.items():
+            result.update(zip(self.layout.positions, values[:self.count].T) if key == _TABLE else ((key, values[:self.count]),))
         return result
 
     def _find_words(self, data: bytes) -> None:

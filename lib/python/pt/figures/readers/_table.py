@@ -32,7 +32,8 @@ def read_table(lines: Lines, mapping: Mapping[str, str]) -> Table:
     layout, has_names = _layout(line, comment, lines)
     if not has_names:
         lines.go_to(start)
-    layout.positions = [mapping[axis] for axis in "xyz" if axis in mapping] or coordinate_names(layout.names)[0]
+    mapped = dict.fromkeys(mapping[axis] for axis in "xyz" if axis in mapping)
+    layout.positions = [name for name in mapped or coordinate_names(layout.names)[0] if name in layout.names]
     rows = Rows(lines, layout)
     rows.read()
     columns = rows.columns()
