@@ -10,9 +10,9 @@ namespace pt {
 
 namespace {
 
-// Found by trial on the scenes of cli/scenes (tests/bench/README.md). A glow is worth a ray where the lamp is nearer to
-// the plane than a fifth of its distance from the farthest one, yet does not cover what it lights, and the plane is not
-// dark.
+// Found by trial on the scenes of cli/scenes (tests/bench/NOTEBOOK.md). A glow is worth a ray where the lamp is nearer
+// to the plane than a fifth of its distance from the farthest one, yet does not cover what it lights, and the plane is
+// not dark.
 constexpr double largest_glow_height = 0.2; // over the lamp's height above the farthest plane
 constexpr double least_glow_height = 1.5;   // over the lamp's radius
 constexpr double least_glow_diffuse = 0.35; // mean of R, G and B

@@ -8,7 +8,7 @@ import unittest
 
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
-PAGES += [*(ROOT / "tests").glob("*/README.md"), *(ROOT / "lib").glob("*/README.md")]
+PAGES += [*(ROOT / "tests").glob("*/*.md"), *(ROOT / "lib").glob("*/*.md")]
 
 
 def anchors(text):
