@@ -69,7 +69,7 @@ class Command(unittest.TestCase):
 
     def test_what_is_refused(self):
         for words, code, said in (
-                (["-o", "x.bmp"], 2, r"x\.bmp: must end in .exr or .png"),
+                (["-o", "x.bmp"], 2, r"x\.bmp': must end in .exr, .png"),
                 (["-o", "none/x.png"], 6, r"none/x\.png: its folder none"),
                 ([], 2, "-o or --film is missing"),
                 (["-o", "a.png", "-o", "./a.png"], 2, "named twice"),

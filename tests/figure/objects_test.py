@@ -130,6 +130,13 @@ class Objects(unittest.TestCase):
             np.testing.assert_array_equal(found.positions, PLACES)
             self.assertEqual(found.columns["kind"].tolist(), ["a", "b", "a"])
 
+    def test_colors_whose_scale_no_type_says(self):
+        colors = {"r": np.array([255, 0, 0], np.uint8), "g": np.zeros(3, np.uint8), "b": np.zeros(3, np.uint8)}
+        for more in {}, {"a": np.ones(3, np.float32)}:
+            found = load({"positions": PLACES, **colors, **more})
+            np.testing.assert_array_equal(found.colors[:, :3] / (1 if more else 255), [[1, 0, 0], [0, 0, 0], [0, 0, 0]])
+            self.assertEqual("from 0 to 255: the largest is 255" in " ".join(found.notes), bool(more))
+
     def test_columns_of_one_array_are_read_in_place(self):
         """But not those that are in another order there."""
         array = np.repeat(PLACES, 2, axis=0)
@@ -160,10 +167,10 @@ class Files(unittest.TestCase):
         for kind in "FU":  # the bytes of colours are those of a float, or a number
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
-            np.testing.assert_allclose(found.colors[1] * 255, (0x40, 0x50, 0x60), rtol=1e-6)
+            np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
         found = self.read("a.pcd", (head.format("U", 3, "ascii") + text).encode())
         np.testing.assert_array_equal(found.positions, PLACES)
-        np.testing.assert_allclose(found.colors[2] * 255, (0x70, 0x80, 0x90), rtol=1e-6)
+        np.testing.assert_array_equal(found.colors[2], (0x70, 0x80, 0x90))
         for content, words in ((head.format("U", 4, "ascii") + text, "ends after 3 of 4 particles"),
                                (head.format("U", 3, "binary_compressed"), "must be ascii or binary"),
                                (head.format("X", 3, "ascii"), "the head must have FIELDS"),
@@ -187,7 +194,7 @@ class Files(unittest.TestCase):
                                    "point_format": types.SimpleNamespace(dimension_names=columns)})()
             found = self.read("a.las", b"LASF", laspy=types.SimpleNamespace(read=lambda path: las))
         np.testing.assert_allclose(found.positions, PLACES, atol=0.005)
-        np.testing.assert_array_equal(found.colors, np.eye(3))
+        np.testing.assert_array_equal(found.colors, 255 * np.eye(3))
         self.assertIn("intensity", found.columns)
 
     @unittest.skipUnless(installed("ase"), "ASE is not installed")

@@ -205,8 +205,8 @@ class Users(unittest.TestCase):
                 ("numbers.xyz", 3, {"elements": [8, 1, 1]}), ("heavywater.xyz", 3, {"elements": [8, 1, 1]}),
                 ("types9.xyz", 12, {"elements": None}), ("diam.csv", 3, {"radii": [0.5, 0.5, 1.5]}),
                 ("rgb_over1.csv", 3, {"colors": np.eye(3), "notes": "from 0 to 1:"}),
-                ("ushort.ply", 3, {"colors": [[1, 10000 / 65535, 10000 / 65535]]}),
-                ("diffuse.ply", 2, {"colors": [[1, 0, 0]]}), ("splat.ply", 4, {"colors": [[0.6, 0.5, 0.4]]}),
+                ("ushort.ply", 3, {"colors": [[65535, 10000, 10000]]}),
+                ("diffuse.ply", 2, {"colors": [[255, 0, 0]]}), ("splat.ply", 4, {"colors": [[0.6, 0.5, 0.4]]}),
                 ("cc.asc", 2, {"colors": [[1, 0, 0], [0, 1, 0]], "notes": "from 0 to 255"}),
                 ("nonl.dump", 2, {"notes": "may be cut"}), ("nonl.ply", 2, {"notes": "may be cut"}),
                 ("nan.csv", 3, {})):

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from pt._enums import Result
+from pt._files import format_of
 
 # Exit codes, those of pt.
 INTERNAL, USAGE, SCENE, NO_DEVICE, LOST, FILES, TARGET_MISSED, SIGNAL = 1, 2, 3, 4, 5, 6, 7, 128
@@ -34,12 +35,15 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """What is wrong with the names of files that are to be written, each with the endings that it may have, and the exit
-    code for it. source: what is read."""
-    for name, endings in files:
+    """What is wrong with the names of files that are to be written, each with the formats that it may have, or none if all
+    are good; and the exit code for it. source: what is read."""
+    for name, formats in files:
         place = pathlib.Path(name)
-        if endings and place.suffix.lower() not in endings:
-            return f"{name}: must end in {' or '.join(endings)}", USAGE
+        try:
+            if formats:
+                format_of(name, formats)
+        except ValueError as error:
+            return str(error), USAGE
         if not os.access(place.parent, os.W_OK | os.X_OK):
             return f"{name}: its folder {place.parent} is not there or cannot be written to", FILES
     names = [os.path.realpath(name) for name, _ in files]

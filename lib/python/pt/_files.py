@@ -5,10 +5,19 @@ from __future__ import annotations
 import os
 import pathlib
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import BinaryIO, TypeAlias
 
 Path: TypeAlias = "str | os.PathLike[str]"
+
+
+def format_of(path: Path, formats: Sequence[str]) -> str:
+    """The ending of a name, without its dot and in small letters. ValueError: it is none of the formats."""
+    ending = pathlib.Path(path).suffix.lower().removeprefix(".")
+    if ending not in formats:
+        *others, last = (f".{each}" for each in formats)
+        raise ValueError(f"{os.fspath(path)!r}: must end in {', '.join(others)}{' or ' if others else ''}{last}")
+    return ending
 
 
 def write_atomically(path: Path, write: Callable[[BinaryIO], object]) -> None:

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import io
-import os
-import pathlib
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from pt._display import automatic_exposure, encode_png, to_srgb8
-from pt._files import Path, write_atomically
+from pt._files import Path, format_of, write_atomically
 from pt._stats import Stats
 
 
@@ -76,16 +73,11 @@ class Image:
     def save(self, path: Path, *, exposure: float | None = None) -> None:
         """Writes a picture, of to_srgb8, if the path ends in .png, and the radiance if it ends in .npy. The file is
         there whole or not at all. ValueError: another ending."""
-        suffix = pathlib.Path(path).suffix.lower()
-        if suffix == ".png":
-            data = encode_png(self.to_srgb8(exposure))
-        elif suffix == ".npy":
-            buffer = io.BytesIO()
-            np.save(buffer, self.radiance, allow_pickle=False)
-            data = buffer.getvalue()
+        if format_of(path, ("png", "npy")) == "npy":
+            write_atomically(path, lambda file: np.save(file, self.radiance, allow_pickle=False))
         else:
-            raise ValueError(f"{os.fspath(path)!r}: must end in .png or .npy")
-        write_atomically(path, lambda file: file.write(data))
+            data = encode_png(self.to_srgb8(exposure))
+            write_atomically(path, lambda file: file.write(data))
 
     def _repr_png_(self) -> bytes:
         """What notebooks show."""

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from pt._command_line import USAGE, at_least, misnamed, numbered
 
-PICTURES = (".exr", ".png", ".jpg", ".jpeg")
+PICTURES = ("exr", "png", "jpg", "jpeg")
 
 
 def refuse(message: str, code: int = USAGE) -> NoReturn:
@@ -81,7 +81,7 @@ def check(arguments: argparse.Namespace) -> None:
 def check_files(arguments: argparse.Namespace) -> None:
     """Now rather than after hours."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
-    wanted += [(arguments.standard_error, (".exr",))] if arguments.standard_error else []
+    wanted += [(arguments.standard_error, ("exr",))] if arguments.standard_error else []
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
     if wrong := misnamed(wanted, arguments.scene):
         refuse(*wrong)

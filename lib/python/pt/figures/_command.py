@@ -18,11 +18,10 @@ from pt._command_line import (CODE_OF_RESULT, FILES, INTERNAL, SCENE, SIGNAL, TA
 from pt._context import Context
 from pt._errors import Error
 from pt.figures._accept import frames as read_frames, load
-from pt.figures._figure import Figure, Staged
+from pt.figures._figure import LEGENDS, PICTURES, Figure, Staged
 from pt.figures._options import Options, two
 from pt.figures._series import frames, turntable
 
-PICTURES = (".png", ".jpg", ".jpeg", ".exr")
 EPILOG = """\
 DATA is of a simulation, a molecule or a point cloud. The camera goes as near as it can with all of every ball in the
 picture; lengths follow from the data, so that their units do not matter. Bonds are not drawn. All of --frames and
@@ -54,7 +53,7 @@ def parser() -> argparse.ArgumentParser:
     add("-o", "--output", action="append", default=[], metavar="IMAGE",
         help="may be given again: .png, .jpg are the figure; .exr is the linear radiance of its scene; - is standard "
         "output")
-    add("--format", dest="output_format", choices=("exr", "png", "jpg", "jpeg"), help="of an image to standard output")
+    add("--format", dest="output_format", choices=PICTURES, help="of an image to standard output")
     add("--png-bits", type=int, choices=(8, 16), default=8)
     add("--legend", metavar="FILE", help="what the colours say, as .svg, .pdf or .png")
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
@@ -97,7 +96,7 @@ def check(given: argparse.Namespace) -> None:
     series = given.turntable or given.frames
     pictures = [path for path in given.output if path != "-"]
     files = [(path, PICTURES) for path in pictures] + [
-        (path, endings) for path, endings in ((given.legend, (".svg", ".pdf", ".png")), (given.write_scene, (".json",))) if path]
+        (path, formats) for path, formats in ((given.legend, LEGENDS), (given.write_scene, ("json",))) if path]
     if not (given.output or files):
         refuse("-o, --write-scene or --legend is missing: there is nothing to write")
     if given.turntable and given.frames:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import functools
 import inspect
 import math
-import os
-import pathlib
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any, Concatenate, Final, ParamSpec
@@ -17,7 +15,7 @@ import numpy.typing as npt
 from pt._camera import RenderSettings
 from pt._context import Context
 from pt._display import automatic_exposure, encode_png, linear, quantised, signal
-from pt._files import Path, write_atomically
+from pt._files import Path, format_of, write_atomically
 from pt._fit import Array, Doubles, chunks
 from pt._image import Image
 from pt._scene import Scene, SphereArray
@@ -37,7 +35,8 @@ from pt.figures._where import holds
 LEAST_LENGTH: Final = 1e-18  # which the library takes
 INK: Final = "#222222"  # of words on a bright background
 LEAST_WIDTH: Final = 16  # pixels beside a colour bar
-PICTURES: Final = (".png", ".jpg", ".jpeg", ".exr", ".npy")
+PICTURES: Final = ("png", "jpg", "jpeg", "exr")
+LEGENDS: Final = ("svg", "pdf", "png")
 
 
 @dataclass(frozen=True)
@@ -160,10 +159,8 @@ class Staged:
         write_scene(path, self.scene, self.layout.camera, self.layout.size, self.options)
 
     def save_legend(self, path: Path) -> None:
-        suffix = pathlib.Path(path).suffix.lower()
-        if suffix not in (".svg", ".pdf", ".png"):
-            raise ValueError(f"{os.fspath(path)!r}: must end in .svg, .pdf or .png")
-        write_atomically(path, lambda file: save(self.drawn.legend, file, suffix[1:]))
+        format = format_of(path, LEGENDS)
+        write_atomically(path, lambda file: save(self.drawn.legend, file, format))
 
     def draw(self, context: Context) -> Figure:
         camera, scene, lamps = self.layout.camera, self.scene, self.layout.stage.lamps
@@ -250,14 +247,12 @@ class Figure(Image):
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
         """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The file
         is there whole or not at all. ValueError: another ending."""
-        suffix = pathlib.Path(path).suffix.lower()
-        if suffix == ".npy":
+        format = format_of(path, (*PICTURES, "npy"))
+        if format == "npy":
             super().save(path)
-            return
-        if suffix not in PICTURES:
-            raise ValueError(f"{os.fspath(path)!r}: must end in {', '.join(PICTURES)}")
-        data = self.encode(suffix[1:], exposure=exposure, bits=bits)
-        write_atomically(path, lambda file: file.write(data))
+        else:
+            data = self.encode(format, exposure=exposure, bits=bits)
+            write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
         """What the colours say, as .svg, .pdf or .png. ValueError: they say nothing, or another ending."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import io
 import json
-import os
 import pathlib
 import struct
 import zlib
@@ -15,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from pt._camera import Camera
-from pt._files import Path, write_atomically
+from pt._files import Path, format_of, write_atomically
 from pt._scene import Scene
 from pt._scene_file import camera_section, material_section
 from pt.figures._errors import module
@@ -58,9 +57,8 @@ def encode_exr(radiance: npt.NDArray[np.float32]) -> bytes:
 
 def write_scene(path: Path, scene: Scene, camera: Camera, size: tuple[int, int], options: Options) -> None:
     """A scene file of the program pt, and beside it NPY files of its particles' columns."""
+    format_of(path, ("json",))
     place = pathlib.Path(path)
-    if place.suffix.lower() != ".json":
-        raise ValueError(f"{os.fspath(path)!r}: must end in .json")
     array = scene.sphere_arrays[0]
     item: dict[str, Any] = {}
     for name, column in (("center", array.center), ("radius", array.radius), ("color", array.color)):

@@ -16,7 +16,7 @@ from pt._enums import Format, Quantity
 from pt._fit import Array, Doubles
 
 PER_SIDE: Final = 4  # rays, along each side of a pixel
-BAND_ROWS: Final = 16  # whose hits take less memory on the device than the picture does
+BAND_ROWS: Final = 32  # whose hits take less memory on the device than the picture does
 ROUNDING: Final = 1e-5  # of depths in float32 and of what they are computed from
 LEAST_STEP: Final = 0.1  # of the radius, by which something is behind an outline
 LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in widths of the line: others would be all outline

@@ -73,7 +73,7 @@ class Particles:
     elements   shape (n,), uint8: atomic numbers, 0 for an unknown element; None: the data have no elements
     types      shape (n,), int or str: labels that are not elements
     radii      shape (n,): a column "radius", or half a column "diameter"
-    colors     shape (n, 3) or (n, 4), float32: sRGB in [0, 1]
+    colors     shape (n, 3) or (n, 4): sRGB, floats from 0 to 1, uint8 or uint16
     name       of the data, for messages
     notes      warnings for the user
     """
@@ -361,7 +361,7 @@ def _put_labels(particles: Particles, chosen: dict[str, str]) -> None:
 
 
 def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool, notes: list[str]) -> Array | None:
-    """The scale comes from the type; integers without one and numbers from text are judged by the largest."""
+    """Their scale comes from the type; other integers and numbers from text are judged by the largest."""
     choices = (tuple(chosen.get(key, key) for key in _COLORS[0]), *_COLORS)
     found = next((names for names in ([_first(columns, (name,)) for name in choice] for choice in choices)
                   if None not in names[:3]), None)
@@ -369,24 +369,18 @@ def _colors(columns: Mapping[str, Array], chosen: dict[str, str], is_text: bool,
         if not all(name in columns for name in _HARMONICS):
             return None
         notes.append("colors are those of splats seen from all sides: f_dc_0, f_dc_1, f_dc_2")
-        colors: Array = np.clip(0.5 + _HARMONIC * np.stack([columns[name] for name in _HARMONICS], 1), 0, 1)
-        return colors.astype(np.float32)
+        colors: Array = 0.5 + _HARMONIC * np.stack([columns[name] for name in _HARMONICS], 1)
+        return np.clip(colors, 0, 1)
     names = [name for name in found if name is not None]
     parts = [columns[name] for name in names]
     if any(part.dtype.kind not in "fiu" for part in parts):
         return None
-    kinds = {part.dtype for part in parts}
-    known = {np.dtype(np.uint8): 255.0, np.dtype(np.uint16): 65535.0}
-    if kinds <= known.keys():
-        scale = max(known[kind] for kind in kinds)
-    elif not is_text and all(kind.kind == "f" for kind in kinds):
-        scale = 1.0
-    else:
-        largest = max(float(np.nanmax(part, initial=0)) for part in parts[:3])
-        # Tolerant of rounding: a component of 1.0000001 does not make all of them bytes.
-        scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
-        notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
-    colors = np.empty((len(parts[0]), len(parts)), np.float32)
-    for i, part in enumerate(parts):
-        np.clip(np.nan_to_num(part / scale, nan=0.0), 0, 1, out=colors[:, i])
-    return colors
+    colors = np.stack(parts, axis=1)
+    kinds = {"f" if part.dtype.kind == "f" else part.dtype.str[1:] for part in parts}
+    if kinds in ({"u1"}, {"u2"}) or (kinds == {"f"} and not is_text):
+        return colors
+    largest = float(np.nanmax(colors[:, :3], initial=0))
+    # Tolerant of rounding: a component of 1.0000001 does not make all of them bytes.
+    scale = 1.0 if largest <= 1.5 else 255.0 if largest <= 258 else 65535.0
+    notes.append(f"colors {', '.join(names)} are taken to go from 0 to {scale:g}: the largest is {largest:g}")
+    return np.clip(colors / scale, 0, 1)

@@ -47,6 +47,8 @@ class Lines:
         if not self.is_file:  # where frames may want to be read twice
             pipe, self._raw = self._raw, tempfile.TemporaryFile()
             shutil.copyfileobj(pipe, self._raw)
+            if path != STANDARD_INPUT:
+                pipe.close()
         self._begin()
 
     def _begin(self) -> None:
