@@ -22,8 +22,21 @@ std::vector<float> grey(std::initializer_list<float> pixels) {
 TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
     EXPECT_EQ(automatic_exposure(grey({0.18F})), 0.0);
     EXPECT_EQ(automatic_exposure(grey({0.72F})), -2.0);
-    EXPECT_EQ(automatic_exposure(grey({0.045F, 0.72F})), 0.0);           // a quarter and four times
-    EXPECT_EQ(automatic_exposure(grey({0.18F, 0.18F, 1.44e8F})), -9.86); // a third of log2(8e8)
+    EXPECT_EQ(automatic_exposure(grey({0.09F, 0.36F})), 0.0); // half and twice, with nearly equal weights
+    EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
+}
+
+// A hundredth of the pixels is a lamp 2^20 times as bright as the rest: the level, by the lamp alone, is 2^20 / 100^4,
+// about 0.01 of the rest.
+TEST(Exposure, HardlyDependsOnLamps) {
+    std::vector<float> radiance = grey({0x1p20F * 0.18F});
+    radiance.resize(3 * 100, 0.18F);
+    EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
+}
+
+// Half of the picture is a tail of 2^-40: it counts 128 * 2^-40 / level, next to nothing.
+TEST(Exposure, WhatLooksBlackDoesNotCount) {
+    EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
 }
 
 TEST(Exposure, APixelIsTheMeanOfItsChannels) {
