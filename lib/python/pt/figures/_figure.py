@@ -67,15 +67,11 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
     if options.wrap:
-        if particles.cell is None:
-            raise ValueError(f"wrap: {particles.name} has no cell")
         particles = particles.wrapped()
     radii = radii_of(particles, options.radius, notes)
     colors, legend = colors_of(particles, options, notes)
     conditions = [options.where] if isinstance(options.where, str) else options.where
-    shown: Array | None = None
-    for condition in conditions:
-        shown = holds(particles, condition) if shown is None else shown & holds(particles, condition)
+    shown = np.logical_and.reduce([holds(particles, each) for each in conditions]) if conditions else None
     positions = particles.positions
     if shown is not None:
         if not shown.any():

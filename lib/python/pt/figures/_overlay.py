@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
@@ -92,8 +92,9 @@ def read_shares(context: Context, camera: Camera, settings: RenderSettings, over
 
 
 def _share(hits: Array) -> Doubles:
-    rows, columns = hits.shape
-    cells: Doubles = hits.reshape(rows // PER_SIDE, PER_SIDE, columns // PER_SIDE, PER_SIDE).mean(axis=(1, 3))
+    counts: Any = hits.view(np.uint8)
+    rows: Any = sum(counts[i::PER_SIDE] for i in range(PER_SIDE))  # NumPy takes twenty times as long along short axes
+    cells: Doubles = sum(rows[:, i::PER_SIDE] for i in range(PER_SIDE)) / PER_SIDE**2
     return cells
 
 

@@ -106,7 +106,7 @@ class Particles:
     def wrapped(self) -> Particles:
         """With all particles moved into the cell along the edges in which it is periodic."""
         if self.cell is None:
-            raise DataError(f"{self.name}: has no cell into which particles could be wrapped")
+            raise DataError(f"wrap: {self.name} has no cell")
         positions = self.positions.copy()
         inverse = np.linalg.inv(self.cell.vectors)
         for block in chunks(len(positions)):
