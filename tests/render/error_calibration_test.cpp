@@ -201,7 +201,7 @@ void PrintTo(const RangesCase &test_case, std::ostream *out) {
 }
 
 // So few samples of a range may be in its older part that their error decides the difference: of [1000, 1500) those are
-// the 24 up to 1024. Over six seeds it was 3.05 at the most (shaders/README.md).
+// the 24 up to 1024. Over six seeds it was 3.05 at the most (range_calibration.py).
 constexpr Judgement of_late_range{0.8, 3.2};
 
 class StatedErrorOfRanges : public ErrorCalibration, public testing::WithParamInterface<RangesCase> {};

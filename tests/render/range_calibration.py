@@ -1,4 +1,4 @@
-"""Prints the table in shaders/README.md of the error that is stated of other samples than the first: least, median and
+"""Prints the error that is stated of other samples than the first (shaders/README.md has some rows): least, median and
 largest over six seeds of stated / true error, where the truth is an image of 32768 samples of another seed.
 
     PT_LIBRARY=build/lib/libpt.so python3 tests/render/range_calibration.py MAX_PATH_LENGTH
