@@ -73,6 +73,7 @@ class Lines(unittest.TestCase):
             camera, shares = shares_of(projection, False, self.context, SIZE)
             origins, ways = rays(camera, SIZE)
             depths, balls = first_hits(origins, ways)
+            self.assertEqual(shares.particles.max(), 1.0)  # within balls
             self.assertLess(np.abs(shares.particles - share(balls >= 0)).max(), 2.5 / 16)
             right, above, back = camera.axes()
             covered = np.zeros(balls.shape, bool)
