@@ -32,8 +32,8 @@ enum {
      * pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times: what they
-     * add, as their sizes tell, is more than samples show; or uniform, cosine and bsdf, which find lamps by chance, have
-     * met one that matters less than a thousand times in all pixels. */
+     * add, as their sizes tell, is more than samples show; or uniform, cosine and bsdf, which find lamps by chance,
+     * have met one that matters less than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 
