@@ -122,7 +122,8 @@ class Objects(unittest.TestCase):
     def test_tables(self):
         columns = {**dict(zip("xyz", PLACES.T)), "kind": np.array(["a", "b", "a"])}
         tables = [getattr(package, "DataFrame")(columns) for package in map(installed, ("pandas", "polars")) if package]
-        series = {key: types.SimpleNamespace(to_numpy=lambda values=values: values) for key, values in columns.items()}
+        series = {key: types.SimpleNamespace(to_numpy=lambda values=values: np.frombuffer(values.tobytes(), values.dtype))
+                  for key, values in columns.items()}
         frame = stand_in("polars.dataframe.frame.DataFrame", columns=list(columns))
         type(frame).__getitem__ = lambda self, key: series[key]
         for data in [columns, frame, *tables]:

@@ -274,7 +274,7 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 def _common_table(columns: list[Array]) -> Array | None:
     """That of which these are the columns, one by one."""
     table, count = columns[0].base, len(columns[0])
-    if table is None or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
+    if not isinstance(table, np.ndarray) or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
         return None
     same = all(each.base is table and each.ctypes.data == table[:, i].ctypes.data and each.strides == table.strides[:1]
                for i, each in enumerate(columns))
