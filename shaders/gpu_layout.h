@@ -21,49 +21,49 @@ using vec4 = glm::vec4;
 #endif
 
 // ---- Specialization constants of pathtrace.comp, by constant_id ----------------------------------------------------
-PT_CONSTANT ID_SPHERE_COUNT = 0;    // spheres held by centre and radius; the emitting ones come first
-PT_CONSTANT ID_PLANE_COUNT = 1;     // planes, and spheres held as planes with a curvature
-PT_CONSTANT ID_LAMP_COUNT = 2;      // emitting spheres among ID_SPHERE_COUNT that can be sampled
-PT_CONSTANT ID_MAX_PATH_LENGTH = 3; // surface vertices after the camera
-PT_CONSTANT ID_ESTIMATOR = 4;       // ESTIMATOR_*
-PT_CONSTANT ID_GLOSS = 5;           // 1: some material has a specular lobe
-PT_CONSTANT ID_MOTION = 6;          // 1: some sphere moves while the shutter is open
-PT_CONSTANT ID_SCENE_SOURCE = 7;    // SCENE_IN_*: where the kernel finds the scene
-PT_CONSTANT ID_SAMPLER = 8;         // SAMPLER_*
-PT_CONSTANT ID_TABLE_BLOCKS = 9;    // blocks of a sample and one of its branches that are in the point table
-PT_CONSTANT ID_BRANCH_COUNT = 10;   // directions in which a path leaves its first vertex
-PT_CONSTANT ID_CURVATURE = 11;      // 1: some plane has a curvature
-PT_CONSTANT ID_POINT_BLOCKS = 12;   // blocks that the binding of the point table holds
-PT_CONSTANT ID_INSIDE = 13;         // 1: the camera is inside a sphere, so paths may be
-PT_CONSTANT ID_PLANES_BLOCK = 14;   // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_SHARERS = 15;        // invocations that share a pixel's samples; 0: pixels are those of a list of tiles
-PT_CONSTANT ID_OVERLAP = 16;        // 1: dispatches, and sharers, may add to a pixel at the same time
-PT_CONSTANT ID_PLANES_EMIT = 17;    // 1: some plane, or sphere held as one, emits
-PT_CONSTANT ID_SKY_COUNT = 18;      // emitting spheres that hold the camera, next after the lamps
-PT_CONSTANT ID_KNOWN_SIDES = 19;  // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
-PT_CONSTANT ID_PLANES_MOVE = 20;  // 1: some sphere held as a plane moves while the shutter is open
-PT_CONSTANT ID_CLOSE_LAMPS = 21;  // 1: some lamp nearly coincides with another sphere
-PT_CONSTANT ID_STARTS_AHEAD = 22; // 1: camera rays start on a plane across the view, ahead of the pinhole
-PT_CONSTANT ID_TREE = 23;         // 1: most spheres are in a tree
-PT_CONSTANT ID_TREE_LAMPS = 24;   // lamps among them, the last ones of ID_LAMP_COUNT
-PT_CONSTANT ID_TREE_COLORS = 25;  // 1: spheres of the tree have colours of their own
+PT_CONSTANT ID_SPHERE_COUNT = 0;     // spheres held by centre and radius; the emitting ones come first
+PT_CONSTANT ID_PLANE_COUNT = 1;      // planes, and spheres held as planes with a curvature
+PT_CONSTANT ID_LAMP_COUNT = 2;       // emitting spheres among ID_SPHERE_COUNT that can be sampled
+PT_CONSTANT ID_MAX_PATH_LENGTH = 3;  // surface vertices after the camera
+PT_CONSTANT ID_ESTIMATOR = 4;        // ESTIMATOR_*
+PT_CONSTANT ID_GLOSS = 5;            // 1: some material has a specular lobe
+PT_CONSTANT ID_MOTION = 6;           // 1: some sphere moves while the shutter is open
+PT_CONSTANT ID_SCENE_SOURCE = 7;     // SCENE_IN_*: where the kernel finds the scene
+PT_CONSTANT ID_SAMPLER = 8;          // SAMPLER_*
+PT_CONSTANT ID_TABLE_BLOCKS = 9;     // blocks of a sample and one of its branches that are in the point table
+PT_CONSTANT ID_BRANCH_COUNT = 10;    // directions in which a path leaves its first vertex
+PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
+PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
+PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
+PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
+PT_CONSTANT ID_SHARERS = 15;         // invocations that share a pixel's samples; 0: pixels are those of a list of tiles
+PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
+PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
+PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, next after the lamps
+PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
+PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
+PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
+PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane across the view, ahead of the pinhole
+PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
+PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
+PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
 PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0: there is none
 PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
-PT_CONSTANT ID_WALK_TRIPS = 28; // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
-PT_CONSTANT ID_SPOT_COUNT = 29; // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
-PT_CONSTANT ID_ORTHOGRAPHIC = 30; // 1: camera rays are parallel; then STARTS_AHEAD is 1
-// Surfaces that camera rays pass through: the last lamps but for the tree's, the first skies, the last of the spheres
-// that do not emit, and the first planes.
+PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
+PT_CONSTANT ID_SPOT_COUNT = 29;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
+PT_CONSTANT ID_ORTHOGRAPHIC = 30;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
+// Surfaces that camera rays pass through: the last lamps but for the tree's, the first skies, the last of the spheres that do
+// not emit, and the first planes.
 PT_CONSTANT ID_HIDDEN_LAMPS = 31;
 PT_CONSTANT ID_HIDDEN_SKIES = 32;
 PT_CONSTANT ID_HIDDEN_OTHERS = 33;
 PT_CONSTANT ID_HIDDEN_PLANES = 34;
-PT_CONSTANT ID_TREE_INSIDE = 35;        // 1: the camera is inside a sphere of the tree, or too near to tell
-PT_CONSTANT ID_TREE_LEVELS = 36;        // nodes on the way to the deepest, or some more
-PT_CONSTANT ID_UNROLLED = 37;           // surfaces over which loops are unrolled, at the most
-PT_CONSTANT ID_INTEGER_ORDER = 38;      // 1: integers are compared faster than floats (shaders/maths.glsl)
-PT_CONSTANT ID_UNIFORM_READS = 39;      // 1: words of the scene buffer, which has few, are read by the uniform binding
-PT_CONSTANT ID_KEEP_SHIFTS = 40;        // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
+PT_CONSTANT ID_TREE_INSIDE = 35;     // 1: the camera is inside a sphere of the tree, or too near to tell
+PT_CONSTANT ID_TREE_LEVELS = 36;     // nodes on the way to the deepest, or some more
+PT_CONSTANT ID_UNROLLED = 37;        // surfaces over which loops are unrolled, at the most
+PT_CONSTANT ID_INTEGER_ORDER = 38;   // 1: integers are compared faster than floats (shaders/maths.glsl)
+PT_CONSTANT ID_UNIFORM_READS = 39;   // 1: words of the scene buffer, which has few, are read by the uniform binding
+PT_CONSTANT ID_KEEP_SHIFTS = 40;     // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
 PT_CONSTANT ID_ONE_LAST_DIRECTION = 41; // 1: of the branches one takes the last direction (shaders/last_direction.glsl)
 PT_CONSTANT CONSTANT_COUNT = 42;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
@@ -99,35 +99,32 @@ PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every o
 PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
-PT_FUNCTION uint camera_dimensions(uint motion) {
-    return 2 + motion;
-}
+PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
 // Blocks before those of the way by a spot, of that way, and of all that branches share; that of the last direction, if
 // they share it, comes last.
-PT_FUNCTION uint every_lamp_blocks(uint lamp_count) {
-    return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0);
-}
-PT_FUNCTION uint spot_blocks(uint spot_count) {
-    return spot_count > 0 ? 3 : 0;
-}
-PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count, uint one_last_direction) {
+PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
+PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
+PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count, uint one_last_direction)
+{
     return every_lamp_blocks(lamp_count) + spot_blocks(spot_count) + one_last_direction;
 }
-PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count) {
+PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
+{
     return lamp_count == 0 || (vertex == 1 && lamp_count <= EVERY_LAMP_LIMIT) ? 0 : lamp_count == 1 ? 2 : 3;
 }
-PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length) {
+PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
+{
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
 }
-PT_FUNCTION uint last_direction_dimensions(uint gloss) {
-    return 2 + gloss + 1;
-}
-PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count) {
+PT_FUNCTION uint last_direction_dimensions(uint gloss) { return 2 + gloss + 1; }
+PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
+{
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
 // Blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count, uint one_last_direction) {
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count, uint one_last_direction)
+{
     const uint of_sample = shared_blocks(lamp_count, spot_count, one_last_direction);
     const uint first = of_sample + vertex_blocks(1, lamp_count);
     return max_path_length < 2 ? of_sample
@@ -136,7 +133,8 @@ PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_co
 
 // Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the
 // branches are those of samples of their own: with B branches, B i + b for branch b of sample i.
-PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches) {
+PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
+{
     return table_blocks == 0 ? 0 : shared_count + branches * (table_blocks - shared_count);
 }
 
@@ -170,8 +168,7 @@ PT_CONSTANT QUANTITY_NORMAL = 4;
 PT_CONSTANT QUANTITY_ALBEDO = 5;
 PT_CONSTANT QUANTITY_OBJECT = 6;
 
-// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h. What first_hit.comp
-// writes.
+// What resolve.comp writes of a pixel: the specialization constant 0, and PT_FORMAT_* of pt.h. What first_hit.comp writes.
 PT_CONSTANT FORMAT_RGB32F = 0;
 PT_CONSTANT FORMAT_RGBA32F = 1;
 PT_CONSTANT FORMAT_RGBA16F = 2;
@@ -182,15 +179,15 @@ PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
 // With S = spheres + planes and each block following the one before:
-//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset
-//   (lib/scene/curved_plane.h) emission[S]       radiance R, G, B; mean of the three diffuse[S]        albedo / pi;
-//   probability of choosing the specular lobe specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
+//   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/scene/curved_plane.h)
+//   emission[S]       radiance R, G, B; mean of the three
+//   diffuse[S]        albedo / pi; probability of choosing the specular lobe
+//   specular[S]       factor (n + 2) / (2 pi); glossiness n (only with GLOSS)
 //   motion[spheres]   way of the centre while the shutter is open; 0 (only with MOTION)
 //   curvature[planes] curvature; way of the surface while the shutter is open (only with CURVATURE)
 //   tree              of lamps, if they have one (below), which is read from the storage buffer
 //   spots[SPOT_COUNT] lamp and surface: MATERIAL_INDEX_BITS + each, as the bits of floats; what the surface reflects of
-//                     light, the mean of R, G and B; glossiness of a mirror image, -1 of a glow (never in the storage
-//                     buffer)
+//                     light, the mean of R, G and B; glossiness of a mirror image, -1 of a glow (never in the storage buffer)
 // The uniform buffer has the 16 KiB that every Vulkan device offers.
 PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // A scene that would be longer is in the storage buffer, where surfaces of one material share its words:
@@ -206,17 +203,17 @@ PT_CONSTANT UNIFORM_SCENE_WORDS = 1024;
 // The bits of 1.0: any index below 2^30 makes a finite number of them, and none that a device may flush to 0.
 PT_CONSTANT MATERIAL_INDEX_BITS = 0x3f800000;
 
-// ---- Tree buffer: texels of four integers, the spheres that are not in the scene buffer
-// ------------------------------- Texels, as lavapipe reads them 1.3 times as fast as a storage buffer, and sees 2 GiB
-// of them instead of 128 MiB. The nodes have a binding of their own, so that each may take what a binding can hold.
-// They end at a multiple of TREE_ALIGNMENT words. Places are on an integer grid, so that neither spheres nor boxes
-// change with the camera (lib/tree/grid.h). Surfaces are numbered as the scene buffer has them, and then the spheres of
-// the tree by place, which is an order of the tree.
+// ---- Tree buffer: texels of four integers, the spheres that are not in the scene buffer -------------------------------
+// Texels, as lavapipe reads them 1.3 times as fast as a storage buffer, and sees 2 GiB of them instead of 128 MiB. The nodes
+// have a binding of their own, so that each may take what a binding can hold. They end at a multiple of TREE_ALIGNMENT words.
+// Places are on an integer grid, so that neither spheres nor boxes change with the camera (lib/tree/grid.h). Surfaces are
+// numbered as the scene buffer has them, and then the spheres of the tree by place, which is an order of the tree.
 //   node[nodes][3]    the root first. x, y, z of the low corner of its box; five bits each: the exponents of its steps
-//                     along x, y and z, as powers of two, then a bit, and from bit 16 on the number of children, and
-//                     from bit 20 on of those that are nodes first of these, and place of the first of the others,
-//                     which are spheres: both consecutive; the low sides of the children's boxes in steps from the
-//                     corner, a byte a child, along x and y low sides along z, high sides along x, y and z
+//                     along x, y and z, as powers of two, then a bit, and from bit 16 on the number of children, and from
+//                     bit 20 on of those that are nodes
+//                     first of these, and place of the first of the others, which are spheres: both consecutive; the
+//                     low sides of the children's boxes in steps from the corner, a byte a child, along x and y
+//                     low sides along z, high sides along x, y and z
 //   sphere[places]    x, y, z of the centre at time 0; the radius, as the bits of a float
 //   motion[places]    way of the centre in a unit of time, as bits of floats; 0 (only if some sphere moves)
 //   surface[places]   four to a word: the place of the material in the table, or TREE_LAMP_BIT + the number of a lamp
@@ -232,7 +229,7 @@ PT_CONSTANT TREE_COLOR_STEPS = 1023;
 
 // Of the tree as a camera sees it: a place p of the grid is at (p - camera) step + shift from it.
 struct TreeFrame {
-    ivec3 camera; // a place of the grid
+    ivec3 camera;       // a place of the grid
     uint reserved_0;
     vec3 shift;
     float step;         // a power of two
@@ -247,11 +244,10 @@ struct TreeFrame {
 };
 PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at most this, 2^29
 
-// ---- The tree of lamps (shaders/lamp_tree.glsl)
-// ---------------------------------------------------------------------- Its shape depends on the number of lamps
-// alone. Nodes come in groups of four siblings: on top there are one to four groups, below them for each node a group
-// of its children, level by level; the nodes of the last level are slots for lamps. A group has lamp_tree_group_words()
-// words, each with a component for each sibling:
+// ---- The tree of lamps (shaders/lamp_tree.glsl) ----------------------------------------------------------------------
+// Its shape depends on the number of lamps alone. Nodes come in groups of four siblings: on top there are one to four
+// groups, below them for each node a group of its children, level by level; the nodes of the last level are slots for
+// lamps. A group has lamp_tree_group_words() words, each with a component for each sibling:
 //   x, y, z    its middle as the shutter opens: the mean of its lamps' centres by their power
 //   power      the sum of radiance r^2 over its lamps, up to a factor; 0: an empty slot
 //   spread     mean by power of the squared distances of its lamps from its middle, and of three times their squared
@@ -263,26 +259,26 @@ PT_CONSTANT TREE_REACH = 0x20000000; // coordinates of places in a tree are at m
 PT_CONSTANT LAMP_TREE_TOP_GROUPS = 4; // at most
 PT_CONSTANT LAMP_TREE_BALL = 64;      // what the spread is at least, as above
 
-PT_FUNCTION uint lamp_tree_group_words(uint motion) {
-    return 5 + 3 * motion;
-}
+PT_FUNCTION uint lamp_tree_group_words(uint motion) { return 5 + 3 * motion; }
 
 // Groups on top of a tree of so many levels below them.
-PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels) {
+PT_FUNCTION uint lamp_tree_top_groups(uint lamp_count, uint levels)
+{
     return (lamp_count + (4u << (2u * levels)) - 1u) >> (2u * levels + 2u);
 }
 
 // Of the last level, one for each four slots, and of all levels together.
-PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels) {
+PT_FUNCTION uint lamp_tree_slot_groups(uint lamp_count, uint levels)
+{
     return lamp_tree_top_groups(lamp_count, levels) << (2u * levels);
 }
-PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels) {
+PT_FUNCTION uint lamp_tree_groups(uint lamp_count, uint levels)
+{
     return lamp_tree_top_groups(lamp_count, levels) * (((4u << (2u * levels)) - 1u) / 3u);
 }
 
-// ---- Film: two parts, each planes of one uint per pixel of the strip
-// ------------------------------------------------- Each has samples of its own (lib/film/film_parts.h): the image is
-// the sum of both, and their difference tells its error.
+// ---- Film: two parts, each planes of one uint per pixel of the strip -------------------------------------------------
+// Each has samples of its own (lib/film/film_parts.h): the image is the sum of both, and their difference tells its error.
 PT_CONSTANT FILM_PARTS = 2;
 // Of a part, words 0 to 3, 4 to 7 and 8 to 11 are the exact sums of R, G and B: unsigned 128-bit fixed point, least
 // significant word first, of which the last FILM_FRACTION_BITS bits are the fraction, in film units
@@ -306,8 +302,8 @@ PT_CONSTANT REGION_SIZE = 32;
 PT_CONSTANT TILE_SIZE = 8;
 PT_CONSTANT ESTIMATE_WORKGROUP_SIZE = 128; // a region's rows of tiles; what every device allows
 
-// The sum of what is expected of the squares of errors in a region, and how it is made up: shares in it are numbers
-// that their squares leave in the range of float.
+// The sum of what is expected of the squares of errors in a region, and how it is made up: shares in it are numbers that
+// their squares leave in the range of float.
 struct ErrorSquares {
     float sum;          // over pixels and channels
     float pixel_shares; // sum of the squares of the pixels' shares
@@ -330,13 +326,13 @@ struct RegionError {
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
 struct FrameConstants {
-    vec3 camera_right;      // unit vector
-    float film_scale;       // radiance times this is in film units; a power of two
-    vec3 camera_up;         // unit vector
-    uint width;             // of the image, pixels
-    vec3 camera_forward;    // as long as the image plane is far away in pixels; of parallel rays a unit vector
-    uint height;            // of the image, pixels
-    uvec2 seed;             // well mixed words made from pt_render.seed
+    vec3 camera_right; // unit vector
+    float film_scale;  // radiance times this is in film units; a power of two
+    vec3 camera_up;    // unit vector
+    uint width;        // of the image, pixels
+    vec3 camera_forward; // as long as the image plane is far away in pixels; of parallel rays a unit vector
+    uint height;         // of the image, pixels
+    uvec2 seed;          // well mixed words made from pt_render.seed
     uint strip_first_pixel; // index of the strip's first pixel in the image, row by row
     uint strip_pixel_count;
     uint first_pixel; // of this slice, in the strip; or the first of its entries in the list of tiles
@@ -369,16 +365,16 @@ struct ResolveConstants {
 
 // Of first_hit.comp. Pixels are counted row by row over the image.
 struct FirstHitConstants {
-    vec3 camera_right; // as in FrameConstants, like all that has its name
+    vec3 camera_right;    // as in FrameConstants, like all that has its name
     float start_scale;
     vec3 camera_up;
     float start_distance; // of the scene's origin from the pinhole, along the view
     vec3 camera_forward;
-    uint quantity; // PT_QUANTITY_* of pt.h
+    uint quantity;        // PT_QUANTITY_* of pt.h
     uint width;
     uint height;
-    uint format;      // PT_FORMAT_* of pt.h
-    uint first_pixel; // of a rectangle
+    uint format;          // PT_FORMAT_* of pt.h
+    uint first_pixel;     // of a rectangle
     uint rectangle_width;
     uint first_of_rectangle; // of the pixels that are looked at, counted row by row over the rectangle
     uint pixel_count;
