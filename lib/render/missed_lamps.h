@@ -10,8 +10,8 @@
 
 namespace pt {
 
-// Whether some lamp is found by chance alone, and so small that few of so many samples, of all pixels, have met it, if
-// any.
+// Whether some lamp or lobe is found by chance alone, and so small that few of so many samples, of all pixels, have met
+// it, if any.
 bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
                     std::uint64_t samples);
 

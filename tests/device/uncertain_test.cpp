@@ -19,8 +19,10 @@ constexpr uint32_t height = 32;
 class UncertainTest : public ContextFixture {
 protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
-                const std::array<double, 3> &place = {0.0, 100.0, 0.0}, double depth = 1.0) {
-        const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
+                const std::array<double, 3> &place = {0.0, 100.0, 0.0}, double depth = 1.0, float glossiness = 0.0F) {
+        const float specular = glossiness > 0.0F ? 0.5F : 0.0F;
+        const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {specular, specular, specular}, {}, glossiness},
+                                         {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
         const pt_sphere lamp[] = {{{place[0], place[1], place[2]}, lamp_radius, {}, 1, 0}};
         const pt_plane floor[] = {{{0.0, 1.0, 0.0}, depth, 0, 0}};
         const pt_scene scene = scene_of(materials, lamp, floor);
@@ -57,6 +59,14 @@ TEST_F(UncertainTest, WhileALampIsHardlyMetByChance) {
     }
     set_up(20.0, PT_ESTIMATOR_BSDF, 1); // without directions that could meet it
     EXPECT_EQ(after(16) & unmet, 0U);
+}
+
+// Of the directions from the floor one in 1,000,000 or so meets its lobe.
+TEST_F(UncertainTest, WhileALobeIsHardlyMetByChance) {
+    for (const uint32_t estimator : {PT_ESTIMATOR_UNIFORM, PT_ESTIMATOR_COSINE, PT_ESTIMATOR_BSDF}) {
+        set_up(50.0, estimator, 2, {0.0, 100.0, 0.0}, 1.0, 1e6F);
+        EXPECT_EQ(after(240) & unmet, estimator == PT_ESTIMATOR_BSDF ? 0U : unmet) << estimator;
+    }
 }
 
 // A lamp in the middle of the view that covers a 20th of a pixel: 16 samples are expected to meet it .8 times, 256 do

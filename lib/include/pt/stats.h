@@ -33,7 +33,7 @@ enum {
     PT_UNCERTAIN_UNSEEN = 4,
     /** Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times: what they
      * add, as their sizes tell, is more than samples show; or uniform, cosine and bsdf, which find lamps by chance,
-     * have met one that matters less than a thousand times in all pixels. */
+     * have met one that matters, or uniform and cosine a lobe, less than a thousand times in all pixels. */
     PT_UNCERTAIN_UNMET = 8
 };
 
