@@ -1,26 +1,26 @@
 // The program `pt`: chooses the command, and turns every exception into an exit code.
-#include "cli/base/device_text.h"
-#include "cli/base/devices_command.h"
+#include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/help_formatter.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/other_program.h"
-#include "cli/base/standard_streams.h"
-#include "cli/base/usage_reason.h"
+#include "cli/base/text.h"
+#include "cli/base/usage.h"
 #include "cli/compare/compare_command.h"
 #include "cli/merge/merge_command.h"
 #include "cli/render/render_command.h"
-#include "cli/scene/scene_schema.h"
+#include "cli/scene/scene_keys.h"
 #include "cli/selftest/selftest_command.h"
 #include "cli/tonemap/tonemap_command.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <fcntl.h>
 #include <functional>
 #include <iostream>
 #include <memory>
@@ -28,9 +28,21 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <unistd.h>
 #include <vector>
 
 namespace {
+
+// Keeps the numbers of closed standard streams from going to other files: what is printed would be written into them.
+// To be called before any file is opened. A stream that is closed fails afterwards as it did before, with EBADF.
+void occupy_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
+            // The lowest number that is free, which is this one: those before it are in use.
+            static_cast<void>(open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+        }
+    }
+}
 
 int fail(cli::ExitCode code, const std::string &message) {
     cli::print_message(message);
@@ -54,8 +66,8 @@ public:
 
     int run(int argument_count, char **arguments) {
         const std::string_view name = argument_count > 1 ? arguments[1] : "";
-        const auto is_named = [&](const Command &command) { return command.app->get_name() == name; };
-        if (cli::may_name_program(name) && std::none_of(commands_.begin(), commands_.end(), is_named)) {
+        const std::vector<std::string> own = names();
+        if (cli::may_name_program(name) && std::ranges::find(own, name) == own.end()) {
             cli::run_other_program(name, arguments + 1);
             if (const std::string_view how = cli::installation_of(name); !how.empty())
                 return fail(cli::ExitCode::usage,
@@ -71,7 +83,7 @@ public:
         for (const Command &command : commands_)
             if (command.app->parsed())
                 return command.run();
-        return fail(cli::ExitCode::usage, "a command is missing: " + names() + " (see pt --help)");
+        return fail(cli::ExitCode::usage, "a command is missing: " + cli::listed(names()) + " (see pt --help)");
     }
 
 private:
@@ -105,22 +117,23 @@ private:
         return *app;
     }
 
+    template <typename Options>
+    void add(const std::string &name, const std::string &description, const std::string &notes,
+             void (*add_options)(CLI::App &, Options &), int (*run_command)(const Options &), Options &options) {
+        add_options(add(name, description, notes, [run_command, &options] { return run_command(options); }), options);
+    }
+
     void add_commands() {
-        cli::add_render_options(add("render", "Render a scene file to images", cli::render_help,
-                                    [this] { return cli::run_render(render_); }),
-                                render_);
-        cli::add_tonemap_options(add("tonemap", "Make a picture of a file of radiance, without rendering",
-                                     cli::tonemap_help, [this] { return cli::run_tonemap(tonemap_); }),
-                                 tonemap_);
-        cli::add_compare_options(add("compare", "Compare an image with a reference", cli::compare_help,
-                                     [this] { return cli::run_compare(compare_); }),
-                                 compare_);
-        cli::add_merge_options(add("merge", "Add films of one picture that were rendered apart", cli::merge_help,
-                                   [this] { return cli::run_merge(merge_); }),
-                               merge_);
-        cli::add_selftest_options(add("selftest", "Check a device against exact answers, in a second or so",
-                                      cli::selftest_help, [this] { return cli::run_selftest(selftest_); }),
-                                  selftest_);
+        add("render", "Render a scene file to images", cli::render_help, &cli::add_render_options, &cli::run_render,
+            render_);
+        add("tonemap", "Make a picture of a file of radiance, without rendering", cli::tonemap_help,
+            &cli::add_tonemap_options, &cli::run_tonemap, tonemap_);
+        add("compare", "Compare an image with a reference", cli::compare_help, &cli::add_compare_options,
+            &cli::run_compare, compare_);
+        add("merge", "Add films of one picture that were rendered apart", cli::merge_help, &cli::add_merge_options,
+            &cli::run_merge, merge_);
+        add("selftest", "Check a device against exact answers, in a second or so", cli::selftest_help,
+            &cli::add_selftest_options, &cli::run_selftest, selftest_);
         add("schema", "Print the JSON Schema of scene files", "", [] {
             std::cout << cli::json_text(cli::scene_schema());
             return static_cast<int>(cli::ExitCode::done);
@@ -130,13 +143,11 @@ private:
         }).add_flag("--json", devices_as_json_, "Print JSON");
     }
 
-    std::string names() const {
-        std::string text;
-        for (const Command &command : commands_) {
-            const bool is_last = &command == &commands_.back();
-            text += (text.empty() ? "" : is_last ? " or " : ", ") + command.app->get_name();
-        }
-        return text;
+    std::vector<std::string> names() const {
+        std::vector<std::string> all;
+        for (const Command &command : commands_)
+            all.push_back(command.app->get_name());
+        return all;
     }
 
     CLI::App app_{"An offscreen path tracer for spheres and planes on any Vulkan device", "pt"};
@@ -157,7 +168,7 @@ int main(int argument_count, char **arguments) {
         std::fputs("pt: out of memory, or an internal error\n", stderr);
         std::_Exit(static_cast<int>(cli::ExitCode::internal));
     });
-    cli::occupy_closed_streams();
+    occupy_closed_streams();
     int code = 0;
     try {
         code = Program().run(argument_count, arguments);

@@ -3,7 +3,6 @@
 #include "cli/base/number.h"
 #include "cli/base/text.h"
 
-#include <optional>
 #include <utility>
 
 namespace cli {

@@ -4,7 +4,7 @@
 #include "cli/base/exit_code.h"
 #include "cli/base/kernel_folder.h"
 #include "cli/base/library_error.h"
-#include "cli/base/user_cache.h"
+#include "cli/base/vector_width.h"
 
 #include <pt/pt.h>
 #include <pt/stats.h>
@@ -49,8 +49,7 @@ public:
 
     // With the estimate of the error, for which the image is read back.
     pt_stats read_stats() const {
-        pt_stats stats{};
-        stats.struct_size = sizeof(pt_stats);
+        auto stats = sized<pt_stats>();
         require(pt_get_stats(context_, &stats));
         return stats;
     }
@@ -65,32 +64,28 @@ public:
     // The same of some columns of the rows that are rendered. quantity: PT_QUANTITY_*.
     void read_columns(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
                       float *values) const {
-        pt_image image{};
-        image.struct_size = sizeof(pt_image);
-        image.quantity = quantity;
-        image.data = values;
-        image.size_bytes = std::uint64_t{3} * count * rows * sizeof(float);
-        image.x = first;
-        image.width = count;
-        image.height = rows;
-        require(pt_readback(context_, &image));
+        read(first, count, rows, quantity, PT_FORMAT_RGB32F, values, 3 * sizeof(float));
     }
 
     // The numbers of the objects in them.
     void read_objects(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t *numbers) const {
-        pt_image image{};
-        image.struct_size = sizeof(pt_image);
-        image.quantity = PT_QUANTITY_OBJECT;
-        image.format = PT_FORMAT_R32UI;
-        image.data = numbers;
-        image.size_bytes = std::uint64_t{count} * rows * sizeof(std::uint32_t);
+        read(first, count, rows, PT_QUANTITY_OBJECT, PT_FORMAT_R32UI, numbers, sizeof(std::uint32_t));
+    }
+
+private:
+    void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
+              std::uint32_t format, void *data, std::size_t pixel_bytes) const {
+        auto image = sized<pt_image>();
+        image.quantity = quantity;
+        image.format = format;
+        image.data = data;
+        image.size_bytes = pixel_bytes * count * rows;
         image.x = first;
         image.width = count;
         image.height = rows;
         require(pt_readback(context_, &image));
     }
 
-private:
     [[noreturn]] void fail(pt_result result, const LibraryError &error) const {
         const bool loses_work = result == PT_ERROR_INTERNAL || result == PT_ERROR_DEVICE_LOST;
         throw Failure(code_of(result, error), error.in_words(&in_words_of_options) +

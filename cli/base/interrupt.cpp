@@ -41,28 +41,27 @@ extern "C" void note_picture_request(int) {
     noted_picture_request = true;
 }
 
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
+}
+
 } // namespace
 
 void catch_interrupts() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
-        if (old.sa_handler == SIG_IGN)
-            continue; // whoever started this program wants it so: a background job, nohup
-        struct sigaction action {};
-        action.sa_handler = &note_signal;
-        action.sa_flags = SA_RESTART;
-        sigemptyset(&action.sa_mask);
-        sigaction(signal, &action, nullptr);
+        if (old.sa_handler != SIG_IGN) // whoever started this program wants that: a background job, nohup
+            handle(signal, &note_signal);
     }
 }
 
 void catch_picture_requests() {
-    struct sigaction action {};
-    action.sa_handler = &note_picture_request;
-    action.sa_flags = SA_RESTART;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGUSR1, &action, nullptr);
+    handle(SIGUSR1, &note_picture_request);
 }
 
 bool has_picture_request() {

@@ -78,8 +78,7 @@ LibraryError last_error(const pt_context *context) {
     LibraryError error{pt_last_error(context), {}, 0};
     const std::uint64_t count = pt_get_broken_rule(context, 0, nullptr);
     for (std::uint32_t i = 0; i < count; ++i) {
-        pt_broken_rule rule{};
-        rule.struct_size = sizeof(pt_broken_rule);
+        auto rule = sized<pt_broken_rule>();
         pt_get_broken_rule(context, i, &rule);
         if (rule.subject == nullptr)
             break;

@@ -13,6 +13,14 @@
 
 namespace cli {
 
+// A struct of pt.h with its size, and else zeros.
+template <typename Struct>
+constexpr Struct sized() {
+    Struct value{};
+    value.struct_size = sizeof(Struct);
+    return value;
+}
+
 // The members of pt_broken_rule, owned.
 struct BrokenRule {
     std::string subject{};

@@ -23,25 +23,23 @@ template <std::size_t Count>
 class MethodNames {
 public:
     constexpr explicit MethodNames(const Method (&methods)[Count]) {
-        std::transform(methods, methods + Count, names_.begin(), [](const Method &method) { return method.name; });
-        std::transform(methods, methods + Count, values_.begin(), [](const Method &method) { return method.value; });
+        std::ranges::transform(methods, names_.begin(), &Method::name);
+        std::ranges::transform(methods, values_.begin(), &Method::value);
     }
 
     constexpr std::span<const std::string_view> names() const { return names_; }
 
     constexpr std::optional<std::uint32_t> find(std::string_view name) const {
-        const auto found = std::find(names_.begin(), names_.end(), name);
-        return found == names_.end() ? std::nullopt : std::optional(values_[index(found - names_.begin())]);
+        const auto found = std::ranges::find(names_, name);
+        return found == names_.end() ? std::nullopt : std::optional(values_[std::size_t(found - names_.begin())]);
     }
 
     // Throws std::out_of_range for a value that the table lacks.
     constexpr std::string_view name(std::uint32_t value) const {
-        return names_.at(index(std::find(values_.begin(), values_.end(), value) - values_.begin()));
+        return names_.at(std::size_t(std::ranges::find(values_, value) - values_.begin()));
     }
 
 private:
-    static constexpr std::size_t index(std::ptrdiff_t distance) { return static_cast<std::size_t>(distance); }
-
     std::array<std::string_view, Count> names_{};
     std::array<std::uint32_t, Count> values_{};
 };

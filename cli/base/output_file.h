@@ -1,4 +1,5 @@
-// Files that are written whole, or standard output if their name is "-".
+// Files that are written whole, or standard output if their name is "-"; and the rule that a command writes no file
+// twice and none that it reads, checked before there is anything to lose.
 #pragma once
 
 #include "cli/base/atomic_file.h"
@@ -8,8 +9,22 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cli {
+
+// As the user knows it: "--stats" and the path after it, or "the scene" and its path.
+struct NamedFile {
+    std::string role;
+    std::string path; // empty: there is no such file; "-": standard input or output
+};
+
+// Throws Failure(ExitCode::usage) if two outputs, or an output and an input, are one file: by whatever path, symbolic
+// or hard link.
+void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs);
+
+// Throws Failure(ExitCode::usage) for an output that is, or would be, in that folder itself.
+void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outputs);
 
 // Standard input where a file is read, standard output where one is written. A file of that name is "./-".
 inline constexpr std::string_view standard_stream = "-";

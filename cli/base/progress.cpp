@@ -1,13 +1,13 @@
 #include "cli/base/progress.h"
 
 #include "cli/base/message.h"
+#include "cli/base/text.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <utility>
@@ -18,17 +18,9 @@ namespace {
 constexpr std::chrono::milliseconds update_interval{100};
 constexpr const char *erase_line = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
 
-std::string formatted(const char *format, double number) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), format, number);
-    return text.data();
-}
-
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
-    return text.data();
+    return formatted("%lld:%02lld:%02lld", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdarg>
-#include <cstddef>
 #include <cstdio>
 #include <sstream>
 #include <string>

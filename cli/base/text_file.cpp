@@ -1,7 +1,7 @@
 #include "cli/base/text_file.h"
 
+#include "cli/base/atomic_file.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/file_descriptor.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -2,9 +2,19 @@
 // an instance is created, so every command does this first.
 #pragma once
 
-#include "cli/base/user_cache.h"
+#include <filesystem>
+#include <map>
+#include <string>
 
 namespace cli {
+
+using Environment = std::map<std::string, std::string>;
+
+// Of this process.
+Environment own_environment();
+
+// The program's part of it, which need not exist. Empty if there is none: without a home directory.
+std::filesystem::path user_cache(const Environment &environment);
 
 // The variables to add to an environment on a machine with AVX-512: the width, unless the user has chosen one, and
 // where shaders compiled for it are kept, or that none are. Clouds of 8 / 14 / 30 / 64 / 120 spheres over a floor

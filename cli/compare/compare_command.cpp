@@ -1,21 +1,22 @@
 #include "cli/compare/compare_command.h"
 
 #include "cli/base/atomic_file.h"
-#include "cli/base/distinct_files.h"
+#include "cli/base/common_options.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
 #include "cli/base/output_file.h"
-#include "cli/compare/compare_report.h"
-#include "cli/compare/viridis.h"
+#include "cli/base/text.h"
+#include "cli/compare/image_difference.h"
 #include "cli/image/image_file.h"
+
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstdint>
 #include <numeric>
 #include <span>
-#include <vector>
 
 namespace cli {
 namespace {
@@ -31,11 +32,8 @@ void check_outputs(const CompareOptions &options) {
 }
 
 std::string size_text(const DecodedImage &image) {
-    const auto pair = [](auto a, const char *between, auto b) {
-        return std::to_string(a) + between + std::to_string(b);
-    };
-    return pair(image.width, "x", image.height) + " at " + pair(image.x, ",", image.y) + " of " +
-           pair(image.full_width, "x", image.full_height);
+    return concat(image.width, "x", image.height, " at ", image.x, ",", image.y, " of ", image.full_width, "x",
+                  image.full_height);
 }
 
 const char *kind_text(const DecodedImage &image) {
@@ -70,10 +68,62 @@ float write_difference(const std::string &path, std::uint32_t width, const std::
     const float largest = std::accumulate(differences.begin(), differences.end(), 0.0F,
                                           [](float most, float each) { return std::fmax(most, each); });
     const auto height = static_cast<std::uint32_t>(differences.size() / width);
-    ImageWriter().write_signal({path, ImageFormat::png}, whole_window(width, height),
-                               difference_picture(differences, largest), {});
+    const std::vector<std::uint8_t> bytes = difference_picture(differences, largest);
+    ImageWriter().write({path, ImageFormat::png}, {.window = whole_window(width, height), .bytes = bytes});
     return largest;
 }
+
+// The figures, and which limits they exceed.
+struct CompareReport {
+    const CompareOptions &options;
+    const DecodedImage &image; // as large as the reference
+    ImageDifference difference;
+
+    // Where the largest difference is, in the picture.
+    std::int64_t x() const { return image.x + static_cast<std::int64_t>(difference.maximum_value / 3 % image.width); }
+    std::int64_t y() const { return image.y + static_cast<std::int64_t>(difference.maximum_value / 3 / image.width); }
+    std::string channel() const { return {"RGB"[difference.maximum_value % 3]}; }
+
+    // A line for each limit that is exceeded, and for pixels that are not finite where there is a limit.
+    std::vector<std::string> exceeded() const {
+        std::vector<std::string> lines;
+        const auto check_limit = [&](const char *name, double figure, std::optional<double> limit) {
+            if (limit && !(figure <= *limit))
+                lines.push_back(formatted("%s is %.6g, above the limit of %.6g", name, figure, *limit));
+        };
+        check_limit("mse", difference.mse, options.mse);
+        check_limit("relative_mse", difference.relative_mse, options.relative_mse);
+        check_limit("maximum", difference.maximum, options.maximum);
+        if (difference.not_finite > 0 && (options.mse || options.relative_mse || options.maximum))
+            lines.push_back(concat(difference.not_finite, " pixels are not finite"));
+        return lines;
+    }
+
+    nlohmann::ordered_json json() const {
+        return {{"image", options.image},
+                {"reference", options.reference},
+                {"layer", options.layer},
+                {"width", image.width},
+                {"height", image.height},
+                {"mse", difference.mse},
+                {"relative_mse", difference.relative_mse},
+                {"maximum", difference.maximum},
+                {"maximum_at", {{"x", x()}, {"y", y()}, {"channel", channel()}}},
+                {"not_finite", difference.not_finite},
+                {"exceeded", exceeded()}};
+    }
+
+    // Lines for people.
+    std::string text() const {
+        std::string text = formatted("mse           %.6g\nrelative_mse  %.6g\nmaximum       %.6g", difference.mse,
+                                     difference.relative_mse, difference.maximum);
+        if (difference.maximum > 0.0)
+            text += concat(" at ", x(), ",", y(), " in ", channel());
+        if (difference.not_finite > 0)
+            text += concat("\nnot finite    ", difference.not_finite, " pixels, left out above");
+        return text + "\n";
+    }
+};
 
 } // namespace
 
@@ -98,6 +148,33 @@ int run_compare(const CompareOptions &options) {
     for (const std::string &line : exceeded)
         print_message(line);
     return static_cast<int>(exceeded.empty() ? ExitCode::done : ExitCode::images_differ);
+}
+
+const char *const compare_help =
+    "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and channels, "
+    "relative_mse\n"
+    "that of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files hold radiance, or both what displays take,\n"
+    "from 0 to 1. Pixels that are not finite in either image are left out and counted; any limit is exceeded then.\n\n"
+    "The picture of --difference shows the root of each pixel's relative_mse, from 0 (dark) to the largest (bright) "
+    "by\n"
+    "the color map viridis; pixels that are not finite are white.\n";
+
+void add_compare_options(CLI::App &command, CompareOptions &options) {
+    constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
+    const std::string group = "Limits";
+    add_text(command, "IMAGE", options.image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
+    add_text(command, "REFERENCE", options.reference, "REFERENCE",
+             "What it is compared with, of the same size and kind")
+        ->required();
+    add_text(command, "--layer", options.layer, "NAME",
+             "Compare this layer of both files (default: the channels R, G and B)");
+    add_text(command, "--difference", options.difference, "PNG", "Write a picture of where they differ (.png)");
+    add_number(command, "--max-mse", limit, options.mse, "Exit with 8 if mse is above X")->group(group);
+    add_number(command, "--max-relative-mse", limit, options.relative_mse, "Exit with 8 if relative_mse is above X")
+        ->group(group);
+    add_number(command, "--max-difference", limit, options.maximum, "Exit with 8 if maximum is above X")->group(group);
+    add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
+    add_quiet(command, options.quiet);
 }
 
 } // namespace cli

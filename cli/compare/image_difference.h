@@ -1,12 +1,26 @@
-// How two images differ: numbers for all pixels together, and for each of them.
+// How two images differ: numbers for all pixels together, and for each of them, and colors that show them.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace cli {
+
+struct ImageError {
+    double mse = 0.0; // mean of (x - r)^2 over pixels and channels
+    double relative_mse =
+        0.0; // mean of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
+};
+
+// Equally many values, at least one.
+ImageError image_error(std::span<const float> image, std::span<const float> reference);
+
+// sRGB of a number, which is clamped to [0, 1]. The published table has 256 entries: every fifth is held, and between
+// them colors are on straight lines, which differ from the table by 1/255 at the most.
+std::array<std::uint8_t, 3> viridis(double number);
 
 struct ImageDifference {
     // Means over the channels of the pixels that are finite in both images; 0 if there are none.

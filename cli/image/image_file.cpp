@@ -2,36 +2,40 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/output_file.h"
-#include "cli/image/module_function.h"
 #include "cli/image/png_encoder.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstddef>
-#include <filesystem>
+#include <dlfcn.h>
+#include <stdexcept>
+#include <unistd.h>
 
 namespace cli {
 namespace {
 
-const char *module_extension(ImageFormat format) {
-    return format == ImageFormat::exr ? "exr" : "jpg";
+std::optional<std::size_t> find_channel(const DecodedImage &image, const std::string &name) {
+    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+    return found == image.channels.end() ? std::nullopt
+                                         : std::optional(static_cast<std::size_t>(found - image.channels.begin()));
 }
 
-// What became of writing the encoded bytes. The sink runs under the module's C frame, which no exception may cross.
-struct Sink {
-    OutputFile &file;
-    std::exception_ptr error;
-
-    static void receive(void *user, const void *bytes, std::size_t size) {
-        auto *sink = static_cast<Sink *>(user);
-        try {
-            sink->file.write({static_cast<const std::byte *>(bytes), size});
-        } catch (...) {
-            sink->error = std::current_exception();
+std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::string &layer) {
+    std::array<std::size_t, 3> channels{};
+    const std::string prefix = layer.empty() ? "" : layer + ".";
+    for (std::size_t i = 0; i < 3; ++i) {
+        auto found = find_channel(image, prefix + "RGB"[i]);
+        found = found || layer.empty() ? found : find_channel(image, prefix + "XYZ"[i]);
+        found = found || layer.empty() ? found : find_channel(image, layer);
+        if (!found) {
+            throw Failure(ExitCode::file,
+                          "cannot read " + image.path + ": must have the channels R, G and B" +
+                              (layer.empty() ? "" : " of the layer " + layer + ", or a channel of that name") +
+                              ", has " + listed(image.channels));
         }
+        channels[i] = *found;
     }
-};
+    return channels;
+}
 
 } // namespace
 
@@ -64,11 +68,62 @@ std::uint32_t longest_side(ImageFormat format) {
     return 2'147'483'647; // sizes are 32-bit signed numbers
 }
 
+void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {
+    const auto refuse_if = [](bool is_refused, const std::string &message) {
+        if (is_refused)
+            throw Failure(ExitCode::usage, message);
+    };
+    const bool to_standard_output = std::ranges::find(paths, standard_stream) != paths.end();
+    refuse_if(to_standard_output && !format, "-o -: standard output needs --format exr, png or jpg");
+    refuse_if(to_standard_output && isatty(STDOUT_FILENO) == 1,
+              "-o -: standard output is a terminal; send it to a file or a program");
+    refuse_if(format && !to_standard_output, "--format: is for -o - alone; the names of files tell their formats");
+    for (const std::string &path : paths)
+        refuse_if(path != standard_stream && !image_format(path),
+                  "-o " + path + ": the name must end in .exr, .png, .jpg or .jpeg");
+}
+
+ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format) {
+    return {path, path == standard_stream ? format.value() : image_format(path).value()};
+}
+
+void check_image_target(const ImageTarget &target, const ImageWindow &window) {
+    const std::uint32_t side = std::max(window.part.width, window.part.height);
+    const std::uint32_t longest = longest_side(target.format);
+    if (side > longest) {
+        throw Failure(ExitCode::usage, concat("-o ", target.path, ": this format holds at most ", longest,
+                                              " pixels a side, not ", side));
+    }
+    if (target.path != standard_stream)
+        AtomicFile::check_writable(target.path);
+}
+
+// PT_MODULE_DIRECTORY is relative to the program, so that an installed tree can be moved.
+std::filesystem::path module_path() {
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+    std::filesystem::path path = program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so";
+    path = path.lexically_normal();
+    if (access(path.c_str(), R_OK) != 0) {
+        throw Failure(ExitCode::file, "EXR and JPEG need the image module, and there is no " + path.string() +
+                                          ": install the package pt-image-formats, or libopenimageio-dev before "
+                                          "building pt; PNG needs neither");
+    }
+    return path;
+}
+
+// Never unloaded: OpenImageIO keeps threads and static objects.
+void *load_symbol(const std::filesystem::path &path, const char *name) {
+    void *module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void *symbol = module == nullptr ? nullptr : dlsym(module, name);
+    if (symbol == nullptr)
+        throw Failure(ExitCode::internal, std::string("cannot load the image module: ") + dlerror());
+    return symbol;
+}
+
 void ImageWriter::load_module() {
-    const std::filesystem::path path = module_path();
-    encode_ = std::async(std::launch::async, [this, path] {
+    encode_ = std::async(std::launch::async, [this, path = module_path()] {
         try {
-            return reinterpret_cast<pt_encode_image_fn>(load_symbol(path, PT_ENCODE_IMAGE_SYMBOL));
+            return reinterpret_cast<EncodeImage *>(load_symbol(path, encode_image_symbol));
         } catch (...) {
             failed_ = true;
             throw;
@@ -76,77 +131,48 @@ void ImageWriter::load_module() {
     });
 }
 
-void ImageWriter::write_radiance(const ImageTarget &target, const ImageWindow &window,
-                                 std::span<const pt_image_layer> layers,
-                                 std::span<const pt_image_attribute> attributes) {
-    pt_image_data image{};
-    image.layers = layers.data();
-    image.layer_count = layers.size();
-    write(target, window, image, attributes);
-}
-
-void ImageWriter::write_signal(const ImageTarget &target, const ImageWindow &window,
-                               std::span<const std::uint8_t> bytes, std::span<const pt_image_attribute> attributes,
-                               std::optional<double> gamma) {
-    pt_image_data image{};
-    image.bytes = bytes.data();
-    image.has_alpha = bytes.size() == 4 * window.part.pixel_count() ? 1 : 0;
-    image.gamma = gamma.value_or(0.0);
-    write(target, window, image, attributes);
-}
-
-void ImageWriter::write_signal(const ImageTarget &target, const ImageWindow &window,
-                               std::span<const std::uint16_t> words, std::span<const pt_image_attribute> attributes,
-                               std::optional<double> gamma) {
-    pt_image_data image{};
-    image.words = words.data();
-    image.has_alpha = words.size() == 4 * window.part.pixel_count() ? 1 : 0;
-    image.gamma = gamma.value_or(0.0);
-    write(target, window, image, attributes);
-}
-
-void ImageWriter::write(const ImageTarget &target, const ImageWindow &window, pt_image_data image,
-                        std::span<const pt_image_attribute> attributes) {
-    image.width = window.part.width;
-    image.height = window.part.height;
-    image.x = window.part.x;
-    image.y = window.part.y;
-    image.full_width = window.full_width;
-    image.full_height = window.full_height;
-    image.attributes = attributes.data();
-    image.attribute_count = attributes.size();
-    if (target.format == ImageFormat::png) {
-        write_png(target.path, image);
-    } else {
-        image.extension = module_extension(target.format);
-        write_by_module(target.path, image);
-    }
-}
-
-void ImageWriter::write_png(const std::string &path, const pt_image_data &image) {
-    OutputFile file(path);
-    std::vector<std::byte> bytes;
-    try {
-        bytes = encode_png(image);
-    } catch (const std::runtime_error &error) {
-        throw Failure(ExitCode::file, "cannot write " + path + ": " + error.what());
-    }
-    file.write(bytes);
-    file.commit();
-}
-
-void ImageWriter::write_by_module(const std::string &path, const pt_image_data &image) {
+std::vector<unsigned char> ImageWriter::encoded(const ImageTarget &target, const ImageData &image) {
+    if (target.format == ImageFormat::png)
+        return encode_png(image);
     if (!encode_.valid())
         load_module();
-    const pt_encode_image_fn encode = encode_.get();
-    OutputFile file(path);
-    Sink sink{file, nullptr};
-    std::array<char, 512> message{};
-    if (encode(&image, &Sink::receive, &sink, message.data(), message.size()) != 0)
-        throw Failure(ExitCode::file, "cannot write " + path + ": " + message.data());
-    if (sink.error)
-        std::rethrow_exception(sink.error);
+    std::vector<unsigned char> file;
+    encode_.get()(image, target.format == ImageFormat::exr ? "exr" : "jpg", file);
+    return file;
+}
+
+void ImageWriter::write(const ImageTarget &target, const ImageData &image) {
+    OutputFile file(target.path);
+    try {
+        const std::vector<unsigned char> bytes = encoded(target, image);
+        file.write(std::as_bytes(std::span(bytes)));
+    } catch (const Failure &) {
+        throw;
+    } catch (const std::runtime_error &error) {
+        throw Failure(ExitCode::file, "cannot write " + target.path + ": " + error.what());
+    }
     file.commit();
+}
+
+std::vector<float> DecodedImage::layer(const std::string &name) const {
+    const std::array<std::size_t, 3> wanted = channels_of(*this, name);
+    std::vector<float> chosen;
+    chosen.reserve(std::size_t{3} * width * height);
+    for (std::size_t pixel = 0; pixel < values.size(); pixel += channels.size())
+        for (const std::size_t channel : wanted)
+            chosen.push_back(values[pixel + channel]);
+    return chosen;
+}
+
+DecodedImage read_image(const std::string &path) {
+    const auto decode = reinterpret_cast<DecodeImage *>(load_symbol(module_path(), decode_image_symbol));
+    DecodedImage image{};
+    try {
+        decode(path, image);
+    } catch (const std::runtime_error &error) {
+        throw Failure(ExitCode::file, "cannot read " + path + ": " + error.what());
+    }
+    return image;
 }
 
 } // namespace cli

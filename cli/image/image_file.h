@@ -1,15 +1,18 @@
-// Writes images: PNG itself, and all other formats by the module of image_module.h.
+// Which images a command writes, from what its options -o and --format say, and the files of them: PNG itself, and all
+// other formats by the module of image_module.h.
 #pragma once
 
 #include "cli/image/image_module.h"
-#include "cli/image/image_window.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <future>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace cli {
 
@@ -36,6 +39,24 @@ struct ImageTarget {
     ImageFormat format;
 };
 
+// Throws Failure(ExitCode::usage) for a file whose name tells no format, for standard output without --format or on a
+// terminal, and for --format without standard output.
+void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format);
+
+// Of a path that passed these checks. format: of standard output.
+ImageTarget image_target(const std::string &path, std::optional<ImageFormat> format);
+
+// Throws Failure: ExitCode::usage for an image that is too large for its format, ExitCode::file for a file that cannot
+// be written.
+void check_image_target(const ImageTarget &target, const ImageWindow &window);
+
+// Where the image module is, seen from the program. Throws Failure(ExitCode::file) if it is not there: it is a package
+// of its own, and not built everywhere.
+std::filesystem::path module_path();
+
+// One of the names in image_module.h. Throws Failure(ExitCode::internal) if the module cannot be loaded.
+void *load_symbol(const std::filesystem::path &path, const char *name);
+
 class ImageWriter {
 public:
     // In the background, so that it is there when the first image is to be written; otherwise it is loaded then. Throws
@@ -51,24 +72,17 @@ public:
             encode_.get();
     }
 
-    // All throw Failure(ExitCode::file) and leave an existing file as it was. Values are those of the window's part.
-    void write_radiance(const ImageTarget &target, const ImageWindow &window, std::span<const pt_image_layer> layers,
-                        std::span<const pt_image_attribute> attributes);
-    // Three components to a pixel, for PNG also four with alpha, of 8 bits, or of 16 for PNG. gamma: of their encoding;
-    // nothing: it is that of sRGB.
-    void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint8_t> bytes,
-                      std::span<const pt_image_attribute> attributes, std::optional<double> gamma = std::nullopt);
-    void write_signal(const ImageTarget &target, const ImageWindow &window, std::span<const std::uint16_t> words,
-                      std::span<const pt_image_attribute> attributes, std::optional<double> gamma = std::nullopt);
+    // Throws Failure(ExitCode::file), and leaves an existing file as it was.
+    void write(const ImageTarget &target, const ImageData &image);
 
 private:
-    void write(const ImageTarget &target, const ImageWindow &window, pt_image_data image,
-               std::span<const pt_image_attribute> attributes);
-    void write_png(const std::string &path, const pt_image_data &image);
-    void write_by_module(const std::string &path, const pt_image_data &image);
+    std::vector<unsigned char> encoded(const ImageTarget &target, const ImageData &image);
 
     std::atomic<bool> failed_ = false;
-    std::shared_future<pt_encode_image_fn> encode_; // destroyed first: the thread uses failed_
+    std::shared_future<EncodeImage *> encode_; // destroyed first: the thread uses failed_
 };
+
+// Throws Failure: ExitCode::file if it cannot be read, or without the module.
+DecodedImage read_image(const std::string &path);
 
 } // namespace cli

@@ -1,7 +1,5 @@
 #include "cli/image/png_encoder.h"
 
-#include "cli/image/image_attribute_text.h"
-
 #include <png.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <csetjmp>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -18,7 +17,7 @@ namespace {
 
 // libpng's structures, and what its callbacks leave behind: the file so far, or why there is none.
 struct Encoding {
-    std::vector<std::byte> file;
+    std::vector<unsigned char> file;
     std::string error;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, &Encoding::fail, &Encoding::ignore);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
@@ -47,8 +46,7 @@ struct Encoding {
         auto &file = static_cast<Encoding *>(png_get_io_ptr(png))->file;
         bool fits = true;
         try {
-            const auto *first = reinterpret_cast<const std::byte *>(bytes);
-            file.insert(file.end(), first, first + size);
+            file.insert(file.end(), bytes, bytes + size);
         } catch (const std::bad_alloc &) {
             fits = false;
         }
@@ -58,13 +56,13 @@ struct Encoding {
 };
 
 // Text chunks are Latin-1, and international ones UTF-8. The result points into both arguments.
-std::vector<png_text> texts_of(const pt_image_data &image, std::span<std::string> values) {
+std::vector<png_text> texts_of(const ImageData &image, std::span<std::string> values) {
     std::vector<png_text> texts;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const bool is_ascii = std::ranges::all_of(values[i], [](unsigned char byte) { return byte < 0x80; });
         png_text text{};
         text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-        text.key = const_cast<char *>(image.attributes[i].name); // libpng copies both
+        text.key = const_cast<char *>(image.attributes[i].name.c_str()); // libpng copies both
         text.text = values[i].data();
         texts.push_back(text);
     }
@@ -73,38 +71,43 @@ std::vector<png_text> texts_of(const pt_image_data &image, std::span<std::string
 
 // What the bytes mean as light (PNG, ISO 15948, 11.3.3): sRGB, or a power of it with the primaries of sRGB, which are
 // those of Rec. 709 (ITU-R BT.709, table 1). Perceptual is the intent for photographs.
-void set_color_space(const Encoding &encoding, double gamma) {
-    if (gamma == 0.0) {
+void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
+    if (!gamma) {
         png_set_sRGB_gAMA_and_cHRM(encoding.png, encoding.info, PNG_sRGB_INTENT_PERCEPTUAL);
     } else {
-        png_set_gAMA(encoding.png, encoding.info, 1.0 / gamma);
+        png_set_gAMA(encoding.png, encoding.info, 1.0 / *gamma);
         png_set_cHRM(encoding.png, encoding.info, 0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06);
     }
 }
 
-std::vector<png_bytep> rows_of(const pt_image_data &image) {
-    const auto *first = image.words != nullptr ? reinterpret_cast<const std::uint8_t *>(image.words) : image.bytes;
-    const std::size_t pixel_bytes =
-        (image.has_alpha != 0 ? 4 : 3) * (image.words != nullptr ? sizeof(std::uint16_t) : 1);
-    std::vector<png_bytep> rows(image.height);
+bool has_words(const ImageData &image) {
+    return !image.words.empty();
+}
+
+std::vector<png_bytep> rows_of(const ImageData &image) {
+    const auto *first =
+        has_words(image) ? reinterpret_cast<const std::uint8_t *>(image.words.data()) : image.bytes.data();
+    const std::size_t row_bytes =
+        (has_words(image) ? image.words.size_bytes() : image.bytes.size()) / image.window.part.height;
+    std::vector<png_bytep> rows(image.window.part.height);
     for (std::size_t y = 0; y < rows.size(); ++y)
-        rows[y] = const_cast<png_bytep>(first + y * pixel_bytes * image.width); // only read
+        rows[y] = const_cast<png_bytep>(first + y * row_bytes); // only read
     return rows;
 }
 
 // PNG has the more significant byte of a word first (ISO 15948, 7.2).
-int transforms_of(const pt_image_data &image) {
-    const bool is_swapped = image.words != nullptr && std::endian::native == std::endian::little;
+int transforms_of(const ImageData &image) {
+    const bool is_swapped = has_words(image) && std::endian::native == std::endian::little;
     return is_swapped ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY;
 }
 
 // False after a failure. A long jump runs no destructors: this function has no objects that need one.
-bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> texts, png_bytepp rows) {
+bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts, png_bytepp rows) {
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
-    png_set_IHDR(encoding.png, encoding.info, image.width, image.height, image.words != nullptr ? 16 : 8,
-                 image.has_alpha != 0 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(encoding.png, encoding.info, image.window.part.width, image.window.part.height,
+                 has_words(image) ? 16 : 8, image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as
     // large as the best of all filters and zlib's default do, in a third of the time or less.
@@ -118,9 +121,9 @@ bool write(Encoding &encoding, const pt_image_data &image, std::span<png_text> t
 
 } // namespace
 
-std::vector<std::byte> encode_png(const pt_image_data &image) {
-    std::vector<std::string> values(image.attribute_count);
-    std::transform(image.attributes, image.attributes + image.attribute_count, values.begin(), &image_attribute_text);
+std::vector<unsigned char> encode_png(const ImageData &image) {
+    std::vector<std::string> values(image.attributes.size());
+    std::ranges::transform(image.attributes, values.begin(), &attribute_text);
     std::vector<png_text> texts = texts_of(image, values);
     std::vector<png_bytep> rows = rows_of(image);
     Encoding encoding;

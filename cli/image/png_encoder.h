@@ -3,12 +3,11 @@
 
 #include "cli/image/image_module.h"
 
-#include <cstddef>
 #include <vector>
 
 namespace cli {
 
 // The whole file: image.bytes or image.words, and the attributes as text chunks. Throws std::runtime_error.
-std::vector<std::byte> encode_png(const pt_image_data &image);
+std::vector<unsigned char> encode_png(const ImageData &image);
 
 } // namespace cli

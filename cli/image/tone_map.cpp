@@ -1,11 +1,9 @@
 #include "cli/image/tone_map.h"
 
-#include "cli/base/parallel.h"
-#include "cli/image/byte_encoder.h"
+#include "cli/base/tasks.h"
 
-#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 
 namespace cli {
@@ -118,6 +116,18 @@ std::vector<Number> map_pixels(std::span<const float> radiance, const ToneMap &m
     return numbers;
 }
 
+// The least light in (low, 1] whose signal is a byte or more. Numbers >= 0 are ordered as their bits are.
+double least_light_of(long byte, double low, const std::function<double(double)> &encode) {
+    auto below = std::bit_cast<std::uint64_t>(low);
+    auto least = std::bit_cast<std::uint64_t>(1.0);
+    while (least - below > 1) {
+        const std::uint64_t middle = below + (least - below) / 2;
+        const bool reaches = std::lround(encode(std::bit_cast<double>(middle)) * 255.0) >= byte;
+        (reaches ? least : below) = middle;
+    }
+    return std::bit_cast<double>(least);
+}
+
 } // namespace
 
 std::optional<ToneCurve> find_tone_curve(std::string_view name) {
@@ -158,6 +168,17 @@ std::vector<std::uint16_t> map_to_16_bits(std::span<const float> radiance, const
         return static_cast<std::uint16_t>(std::lround(encode(map, light) * 65535.0));
     };
     return map_pixels<std::uint16_t>(radiance, map, word_of);
+}
+
+ByteEncoder::ByteEncoder(const std::function<double(double)> &encode) {
+    least_light_[0] = 0.0;
+    for (std::size_t byte = 1; byte < least_light_.size(); ++byte)
+        least_light_[byte] = least_light_of(static_cast<long>(byte), least_light_[byte - 1], encode);
+    for (std::size_t cell = 0; cell < cell_bytes_.size(); ++cell) {
+        const double begin = static_cast<double>(cell) / cell_count;
+        const auto above = std::upper_bound(least_light_.begin(), least_light_.end(), begin);
+        cell_bytes_[cell] = static_cast<std::uint8_t>(above - least_light_.begin() - 1);
+    }
 }
 
 } // namespace cli

@@ -1,11 +1,8 @@
 #include "cli/render/picture_layer.h"
 
-#include "cli/base/common_options.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <sstream>
 
 namespace cli {
 namespace {
@@ -13,20 +10,20 @@ namespace {
 struct FileLayer {
     std::uint32_t quantity;
     const char *name;
-    std::uint32_t channel_count;
-    std::uint32_t kind;
+    std::size_t channel_count;
+    LayerKind kind;
 };
 
 // Z, N.X, N.Y, N.Z and id are what programs look for; of the others each is a layer by its name ("OpenEXR: Technical
 // Introduction", channel names). Layers whose channels are alike have one.
 constexpr std::array<FileLayer, 7> file_layers{{
-    {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, PT_LAYER_COLOR},
-    {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, PT_LAYER_COLOR},
-    {PT_QUANTITY_DEPTH, "Z", 1, PT_LAYER_COLOR},
-    {PT_QUANTITY_NORMAL, "N", 3, PT_LAYER_VECTOR},
-    {PT_QUANTITY_ALBEDO, "albedo", 3, PT_LAYER_COLOR},
-    {PT_QUANTITY_OBJECT, "id", 1, PT_LAYER_NUMBERS},
-    {PT_QUANTITY_COVERAGE, "A", 1, PT_LAYER_COLOR},
+    {PT_QUANTITY_STANDARD_ERROR, "standard_error", 3, LayerKind::color},
+    {PT_QUANTITY_SAMPLE_COUNT, "sample_count", 1, LayerKind::color},
+    {PT_QUANTITY_DEPTH, "Z", 1, LayerKind::color},
+    {PT_QUANTITY_NORMAL, "N", 3, LayerKind::vector},
+    {PT_QUANTITY_ALBEDO, "albedo", 3, LayerKind::color},
+    {PT_QUANTITY_OBJECT, "id", 1, LayerKind::numbers},
+    {PT_QUANTITY_COVERAGE, "A", 1, LayerKind::color},
 }};
 
 const FileLayer &file_layer(std::uint32_t quantity) {
@@ -36,24 +33,9 @@ const FileLayer &file_layer(std::uint32_t quantity) {
 
 } // namespace
 
-std::vector<std::uint32_t> parse_layers(const std::string &text) {
-    const ValueRule rule{.form = ValueRule::Form::name, .kind = "layer", .names = layer_names.names()};
-    std::vector<std::uint32_t> quantities;
-    std::istringstream names(text + ",");
-    for (std::string name; std::getline(names, name, ',');) {
-        read_value("--layers", name, rule);
-        const std::uint32_t quantity = layer_names.find(name).value();
-        if (std::find(quantities.begin(), quantities.end(), quantity) != quantities.end())
-            refuse_option("--layers", "must name a layer once", text);
-        quantities.push_back(quantity);
-    }
-    std::erase(quantities, std::uint32_t{PT_QUANTITY_RADIANCE});
-    return quantities;
-}
-
 PictureLayer::PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count) : quantity(of_quantity) {
     const FileLayer &layer = file_layer(quantity);
-    if (layer.kind == PT_LAYER_NUMBERS)
+    if (layer.kind == LayerKind::numbers)
         numbers.resize(pixel_count);
     else
         values.resize(pixel_count * layer.channel_count);
@@ -73,9 +55,9 @@ void PictureLayer::read(const Context &context, const Rectangle &part, std::uint
     }
 }
 
-pt_image_layer PictureLayer::in_file() const {
+ImageLayer PictureLayer::in_file() const {
     const FileLayer &layer = file_layer(quantity);
-    return {layer.name, layer.channel_count, layer.kind, values.data(), numbers.data()};
+    return {layer.name, layer.kind, layer.channel_count, values, numbers};
 }
 
 } // namespace cli

@@ -8,9 +8,6 @@
 #include "cli/image/image_window.h"
 
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace cli {
@@ -26,10 +23,6 @@ inline constexpr MethodNames layer_names({
     {"object-id", PT_QUANTITY_OBJECT},
 });
 
-// "depth,normal": their quantities, without that of the radiance. Throws CLI::ValidationError for what is no list of
-// different names.
-std::vector<std::uint32_t> parse_layers(const std::string &text);
-
 // A layer of the part of a picture that is rendered.
 struct PictureLayer {
     std::uint32_t quantity;             // PT_QUANTITY_*
@@ -43,7 +36,7 @@ struct PictureLayer {
     void read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows);
 
     // As it is in a file; refers to this.
-    pt_image_layer in_file() const;
+    ImageLayer in_file() const;
 };
 
 } // namespace cli

@@ -32,8 +32,7 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
 
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log) {
     const auto text = [](const std::string &option) { return option.empty() ? nullptr : option.c_str(); };
-    pt_create_info info{};
-    info.struct_size = sizeof(pt_create_info);
+    auto info = sized<pt_create_info>();
     info.device = text(options.device);
     info.shader_dir = text(options.shader_dir);
     info.submit_milliseconds = options.submit_milliseconds;

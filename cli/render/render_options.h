@@ -1,20 +1,74 @@
-// The options of `pt render`: their names, help and syntax.
+// Frames of an animation, and their numbers in the names of files.
 #pragma once
 
+#include "cli/base/number.h"
+#include "cli/image/image_file.h"
 #include "cli/image/image_window.h"
-#include "cli/render/frame_range.h"
-#include "cli/render/output_options.h"
 #include "cli/scene/scene_override.h"
 
 #include <pt/pt.h>
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace cli {
+
+struct FrameRange {
+    std::uint32_t first;
+    std::uint32_t last; // not before the first
+};
+
+// "0-23", or "5" alone; nothing if it is neither.
+inline std::optional<FrameRange> parse_frames(std::string_view text) {
+    const std::size_t dash = text.find('-');
+    const auto first = parse_number<std::uint32_t>(text.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : parse_number<std::uint32_t>(text.substr(dash + 1));
+    return first && last && *first <= *last ? std::optional(FrameRange{*first, *last}) : std::nullopt;
+}
+
+// The name of a frame's file: the last row of # signs is its number, with zeros in front up to as many digits. Nothing
+// if there is no #.
+inline std::optional<std::string> numbered_name(const std::string &pattern, std::uint32_t frame) {
+    const std::size_t last = pattern.rfind('#');
+    if (last == std::string::npos)
+        return std::nullopt;
+    const std::size_t first = pattern.find_last_not_of('#', last) + 1; // npos + 1 = 0: the name begins with it
+    const std::string digits = std::to_string(frame);
+    const std::size_t width = last - first + 1;
+    const std::string zeros(width > digits.size() ? width - digits.size() : 0, '0');
+    return pattern.substr(0, first) + zeros + digits + pattern.substr(last + 1);
+}
+
+struct OutputOptions {
+    std::vector<std::string> images;   // paths, like all here
+    std::optional<ImageFormat> format; // of an image that is standard output
+    std::string standard_error;        // of the image of standard errors; empty: none, as of those below
+    std::string film;
+    std::string stats;
+    std::uint32_t png_bits = 8; // of a channel
+    bool quiet = false;
+
+    // Of images whose names were checked.
+    std::vector<ImageTarget> targets() const;
+
+    // Whether an image or the report goes there, so that lines for people do not.
+    bool takes_standard_output() const;
+};
+
+// The options write into `options` when the command line is parsed. All but those of quiet and png_bits.
+void add_output_options(CLI::App &command, OutputOptions &options);
+
+// Of an image that goes to standard output. names: of the formats that the command can write.
+void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names);
+
+void add_png_bits(CLI::App &command, std::uint32_t &bits);
 
 struct RenderOptions {
     std::string scene;

@@ -1,16 +1,14 @@
 #include "cli/render/render_output.h"
 
-#include "cli/base/abandoned_files.h"
 #include "cli/base/atomic_file.h"
 #include "cli/base/message.h"
 #include "cli/base/output_file.h"
-#include "cli/film/film_file.h"
-#include "cli/image/display_image.h"
+#include "cli/film/film.h"
+#include "cli/image/display.h"
 #include "cli/render/source_watch.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 namespace cli {
 namespace {
@@ -18,19 +16,18 @@ namespace {
 void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOptions &options,
                  const RenderReport &report, std::span<const float> values, std::uint32_t quantity,
                  std::span<const PictureLayer> others) {
-    if (target.format == ImageFormat::exr) {
-        const ImageMetadata metadata(report, quantity, nullptr);
-        std::vector<pt_image_layer> layers{{"", 3, PT_LAYER_COLOR, values.data()}};
-        std::transform(others.begin(), others.end(), std::back_inserter(layers),
-                       [](const PictureLayer &other) { return other.in_file(); });
-        writer.write_radiance(target, report.window, layers, metadata.attributes());
+    const ToneMap *tone_map = target.format == ImageFormat::exr ? nullptr : &report.tone_map.value();
+    const std::vector<ImageAttribute> attributes = image_metadata(report, quantity, tone_map);
+    ImageData image{.window = report.window, .attributes = attributes};
+    if (tone_map == nullptr) {
+        std::vector<ImageLayer> layers{{"", LayerKind::color, 3, values}};
+        for (const PictureLayer &other : others)
+            layers.push_back(other.in_file());
+        image.layers = layers;
+        writer.write(target, image);
     } else {
-        const ToneMap &tone_map = report.tone_map.value();
-        const ImageMetadata metadata(report, quantity, &tone_map);
-        const auto alpha = std::find_if(others.begin(), others.end(), [](const PictureLayer &other) {
-            return other.quantity == PT_QUANTITY_COVERAGE;
-        });
-        write_display_image(writer, target, report.window, values, tone_map, options.png_bits, metadata.attributes(),
+        const auto alpha = std::ranges::find(others, std::uint32_t{PT_QUANTITY_COVERAGE}, &PictureLayer::quantity);
+        write_display_image(writer, target, image, values, *tone_map, options.png_bits,
                             alpha == others.end() ? std::span<const float>() : alpha->values);
     }
 }

@@ -1,10 +1,10 @@
 // The outputs of a rendering: checks before it, images after it.
 #pragma once
 
-#include "cli/base/distinct_files.h"
+#include "cli/base/output_file.h"
 #include "cli/image/image_file.h"
-#include "cli/render/output_options.h"
 #include "cli/render/picture_layer.h"
+#include "cli/render/render_options.h"
 #include "cli/render/render_report.h"
 #include "cli/render/render_task.h"
 

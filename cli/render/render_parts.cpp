@@ -1,7 +1,7 @@
 // The option --parts of `pt render`.
 #include "cli/base/text.h"
 #include "cli/base/vector_width.h"
-#include "cli/film/context_film.h"
+#include "cli/film/film.h"
 #include "cli/render/render_command.h"
 
 #include <pt/devices.h>
@@ -14,7 +14,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace cli {
@@ -89,8 +88,7 @@ public:
         pt_render render = task_.render;
         render.first_sample = part.first_sample;
         require(context_, task_, pt_set_render(context_.get(), &render));
-        pt_accumulate_info info{};
-        info.struct_size = sizeof(pt_accumulate_info);
+        auto info = sized<pt_accumulate_info>();
         info.sample_count = *std::max_element(part.tile_samples.begin(), part.tile_samples.end());
         info.tile_samples = part.tile_samples.data();
         info.tile_count = static_cast<std::uint32_t>(part.tile_samples.size());

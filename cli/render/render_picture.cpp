@@ -1,6 +1,7 @@
 #include "cli/render/render_picture.h"
 
-#include "cli/base/device_text.h"
+#include "cli/base/devices.h"
+#include "cli/base/exit_code.h"
 #include "cli/base/interrupt.h"
 #include "cli/base/json_text.h"
 #include "cli/base/message.h"
@@ -8,13 +9,11 @@
 #include "cli/base/progress.h"
 #include "cli/base/source_date.h"
 #include "cli/base/text.h"
-#include "cli/film/context_film.h"
-#include "cli/render/checkpoint_observer.h"
+#include "cli/film/film.h"
+#include "cli/render/checkpoint.h"
+#include "cli/render/observers.h"
 #include "cli/render/piecewise_render.h"
-#include "cli/render/preview_observer.h"
 #include "cli/render/render_output.h"
-#include "cli/render/resume.h"
-#include "cli/render/time_limit_observer.h"
 #include "cli/render/warnings.h"
 
 #include <cmath>
@@ -208,6 +207,22 @@ RenderReport report_of(const Context &context, const RenderTask &task) {
 }
 
 } // namespace
+
+int exit_code_of(Outcome outcome, int signal) {
+    switch (outcome) {
+    case Outcome::not_all_written:
+        return static_cast<int>(ExitCode::file);
+    case Outcome::target_missed:
+        return static_cast<int>(ExitCode::target_missed);
+    case Outcome::timed_out:
+        return static_cast<int>(ExitCode::resumable);
+    case Outcome::written:
+    case Outcome::interrupted:
+    case Outcome::superseded:
+        break;
+    }
+    return signal == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(signal);
+}
 
 Outcome render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
                        const Stop &superseded) {

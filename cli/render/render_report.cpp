@@ -1,15 +1,16 @@
 #include "cli/render/render_report.h"
 
-#include "cli/base/device_text.h"
+#include "cli/base/devices.h"
 #include "cli/base/json_text.h"
 #include "cli/base/method_names.h"
 #include "cli/base/text.h"
-#include "cli/image/display_image.h"
+#include "cli/image/display.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
@@ -174,30 +175,38 @@ std::string error_text(const RenderReport &report) {
 
 // No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
 // pbrt's name and type, which other tools read. Numbers that may not fit OpenEXR's signed 32-bit integer are texts.
-ImageMetadata::ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map) {
+std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint32_t quantity,
+                                           const ToneMap *tone_map) {
+    std::vector<ImageAttribute> attributes;
+    const auto add = [&](const char *name, auto value) { attributes.push_back({name, std::move(value)}); };
+    // The largest of OpenEXR's numbers stands for all beyond.
+    const auto whole = [](std::uint32_t number) {
+        return static_cast<std::int32_t>(std::min<std::uint32_t>(number, std::numeric_limits<std::int32_t>::max()));
+    };
     add("software", "pt " + version_text());
     if (!report.date.empty())
         add("DateTime", report.date); // becomes capDate in OpenEXR
-    add_whole("samplesPerPixel", report.stats.sample_count);
+    add("samplesPerPixel", whole(report.stats.sample_count));
     add("pt.quantity", std::string(tone_map != nullptr ? "tone-mapped " : "") +
                            (quantity == PT_QUANTITY_RADIANCE ? "radiance" : "standard error"));
     if (tone_map != nullptr)
-        add_tone_map(*this, *tone_map);
+        add_tone_map(attributes, *tone_map);
     if (!report.window.is_whole())
         add("pt.crop", window_text(report.window));
     if (!report.scene.empty())
-        add("pt.scene", std::filesystem::path(report.scene).filename());
+        add("pt.scene", std::filesystem::path(report.scene).filename().string());
     add("pt.seed", std::to_string(report.render.seed));
     add("pt.firstSample", std::to_string(report.render.first_sample));
-    add_whole("pt.maxPathLength", report.render.max_path_length);
+    add("pt.maxPathLength", whole(report.render.max_path_length));
     add("pt.sampler", std::string(samplers.name(report.render.sampler)));
     add("pt.estimator", std::string(estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
     if (std::isfinite(report.stats.relative_rmse))
-        add_real("pt.relativeError", report.stats.relative_rmse);
-    add("pt.device", report.device.name);
+        add("pt.relativeError", report.stats.relative_rmse);
+    add("pt.device", std::string(report.device.name));
     if (report.device.driver[0] != '\0')
-        add("pt.driver", report.device.driver);
+        add("pt.driver", std::string(report.device.driver));
+    return attributes;
 }
 
 } // namespace cli

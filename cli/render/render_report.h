@@ -1,8 +1,7 @@
 // The facts of a finished rendering and their forms: image metadata, the --stats file and a line for people.
 #pragma once
 
-#include "cli/image/image_attributes.h"
-#include "cli/image/image_window.h"
+#include "cli/image/image_module.h"
 #include "cli/image/tone_map.h"
 
 #include <pt/devices.h>
@@ -53,12 +52,8 @@ std::string automatic_exposure_line(const RenderReport &report);
 // "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
 std::string error_text(const RenderReport &report);
 
-// What the metadata of an image say of the rendering.
-class ImageMetadata : public ImageAttributes {
-public:
-    // quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was made of it for a display, nullptr if nothing
-    // was.
-    ImageMetadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
-};
+// What the metadata of an image say of the rendering. quantity: what the pixels are, PT_QUANTITY_*; tone_map: what was
+// made of it for a display, nullptr if nothing was.
+std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint32_t quantity, const ToneMap *tone_map);
 
 } // namespace cli

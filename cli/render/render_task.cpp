@@ -1,6 +1,6 @@
 #include "cli/render/render_task.h"
 
-#include "cli/base/device_text.h"
+#include "cli/base/devices.h"
 #include "cli/base/text.h"
 #include "cli/render/render_output.h"
 

@@ -5,11 +5,9 @@
 #include "cli/base/value_rule.h"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 #include <iterator>
 #include <unordered_set>
-#include <utility>
 
 namespace cli {
 namespace {
@@ -51,35 +49,39 @@ JsonLines::Place mixed(JsonLines::Place parent, std::uint64_t step) {
     return sum ^ (sum >> 31);
 }
 
-class ItemParser : public nlohmann::json_sax<json> {
+class ItemParser {
 public:
-    ItemParser(std::string_view text, const std::string &file_name, JsonLines &lines, JsonItemHandler &handler) :
-        text_(text),
-        file_name_(file_name),
+    ItemParser(JsonLines &lines, JsonItemHandler &handler, const Reached &reached) :
         lines_(lines),
-        handler_(handler) {}
+        handler_(handler),
+        reached_(reached) {}
 
-    void parse() {
-        constexpr bool strict = true; // nothing may follow the root
-        constexpr bool ignore_comments = true;
-        json::sax_parse(LineCountingIterator(text_.data(), reached_),
-                        LineCountingIterator(text_.data() + text_.size(), reached_), this, json::input_format_t::json,
-                        strict, ignore_comments);
+    // The parser's callback: false if the value is not to be kept.
+    bool take(json::parse_event_t event, const json &parsed) {
+        switch (event) {
+        case json::parse_event_t::object_start:
+        case json::parse_event_t::array_start:
+            begin(event == json::parse_event_t::array_start);
+            return true;
+        case json::parse_event_t::key:
+            enter_member(parsed.get_ref<const std::string &>());
+            return true;
+        case json::parse_event_t::value:
+            enter_value(parsed.type());
+            return hand_out(parsed);
+        default:
+            levels_.pop_back();
+            return hand_out(parsed);
+        }
     }
 
-    bool null() override { return scalar(nullptr); }
-    bool boolean(bool value) override { return scalar(value); }
-    bool number_integer(number_integer_t value) override { return scalar(value); }
-    bool number_unsigned(number_unsigned_t value) override { return scalar(value); }
-    bool number_float(number_float_t value, const string_t &) override { return scalar(value); }
-    bool string(string_t &value) override { return scalar(std::move(value)); }
-    bool binary(binary_t &) override { return false; } // JSON text has none
-    bool start_object(std::size_t) override { return begin(json::object()); }
-    bool start_array(std::size_t) override { return begin(json::array()); }
-    bool end_object() override { return end(); }
-    bool end_array() override { return end(); }
-    bool key(string_t &name) override;
-    bool parse_error(std::size_t position, const std::string &token, const json::exception &error) override;
+    // A number that is too large for double is a value that has a place.
+    [[noreturn]] void refuse_overflow(const std::string &what) {
+        enter_value(json::value_t::number_float);
+        const std::size_t quote = what.find('\'');
+        throw JsonRefusal(path(),
+                          "the number " + what.substr(quote + 1, what.rfind('\'') - quote - 1) + " is too large");
+    }
 
 private:
     // A value and its line.
@@ -88,142 +90,87 @@ private:
         std::size_t line = 0;
     };
 
-    // An array or object that is open, and the step to what is inside it now.
+    // An array or object that is open, the step to what is inside it now, and the keys that it has.
     struct Level {
         Place place;
         JsonStep step;
+        std::unordered_set<std::string> names;
     };
 
     // Open levels before the value: 0 for the root, 1 for a section, 2 for an item.
     static constexpr std::size_t section_depth = 1;
     static constexpr std::size_t element_depth = 2;
 
-    bool scalar(json value);
-    bool begin(json value);
-    bool end();
-    json *add(json value);
-    void enter_value();
-    void enter(JsonLines::Place hash);
-    void hand_out();
-    JsonPath path() const;
+    JsonPath path() const {
+        JsonPath path;
+        for (const Level &level : levels_)
+            path.push_back(level.step);
+        return path;
+    }
 
-    std::string_view text_;
-    const std::string &file_name_;
+    void enter(JsonLines::Place hash) {
+        value_ = {hash, reached_.line};
+        if (levels_.size() <= section_depth || value_.line != levels_.back().place.line)
+            lines_.add(hash, value_.line);
+    }
+
+    void enter_member(const std::string &name) {
+        Level &level = levels_.back();
+        level.step.key = name;
+        enter(JsonLines::member(level.place.hash, name));
+        if (!level.names.insert(name).second)
+            throw JsonRefusal(path(), "is given twice");
+    }
+
+    // A member has a line since its key was read. Array elements have no such event: a value that begins is the next.
+    void enter_value(json::value_t kind) {
+        if (levels_.empty()) {
+            enter(JsonLines::root);
+            if (kind != json::value_t::object)
+                refuse({}, "must contain an object, is " + json_kind(kind));
+        } else if (JsonStep &step = levels_.back().step; step.in_array) {
+            ++step.index;
+            enter(JsonLines::element(levels_.back().place.hash, step.index));
+        }
+        if (levels_.size() == section_depth) {
+            const JsonPlace root;
+            handler_.begin_section(root.member(levels_[0].step.key), kind);
+        }
+    }
+
+    void begin(bool is_array) {
+        enter_value(is_array ? json::value_t::array : json::value_t::object);
+        levels_.push_back(
+            {value_, {{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}, {}}); // the first makes 0
+    }
+
+    // Items are handed out, and not kept.
+    bool hand_out(const json &value) {
+        if (levels_.size() != element_depth)
+            return true;
+        const JsonPlace root;
+        const JsonPlace section = root.member(levels_[0].step.key);
+        const JsonStep &step = levels_[1].step;
+        handler_.item(step.in_array ? section.element(step.index) : section.member(step.key), value);
+        return false;
+    }
+
     JsonLines &lines_;
     JsonItemHandler &handler_;
-    Reached reached_;
+    const Reached &reached_;
     std::vector<Level> levels_;
     Place value_; // that began last
-    // Keys met in the root and in the present section. Items are trees, which know their keys.
-    std::array<std::unordered_set<std::string>, 2> names_;
-    json item_;
-    std::vector<json *> open_; // the item and, inside it, the arrays and objects not yet closed
 };
 
-JsonPath ItemParser::path() const {
-    JsonPath path;
-    for (const Level &level : levels_)
-        path.push_back(level.step);
-    return path;
-}
-
-void ItemParser::enter(JsonLines::Place hash) {
-    value_ = {hash, reached_.line};
-    if (levels_.size() <= section_depth || value_.line != levels_.back().place.line)
-        lines_.add(hash, value_.line);
-}
-
-// A member has a line since its key was read. Array elements have no such event: a value that begins is the next one.
-void ItemParser::enter_value() {
-    if (levels_.empty()) {
-        enter(JsonLines::root);
-    } else if (JsonStep &step = levels_.back().step; step.in_array) {
-        ++step.index;
-        enter(JsonLines::element(levels_.back().place.hash, step.index));
-    }
-}
-
-bool ItemParser::key(string_t &name) {
-    levels_.back().step.key = name;
-    enter(JsonLines::member(levels_.back().place.hash, name));
-    const std::size_t depth = levels_.size() - 1;
-    const bool fresh = depth < names_.size() ? names_[depth].insert(name).second : !open_.back()->contains(name);
-    if (!fresh)
-        throw JsonRefusal(path(), "is given twice");
-    return true;
-}
-
-void ItemParser::hand_out() {
-    const JsonPlace root;
-    const JsonPlace section = root.member(levels_[0].step.key);
-    const JsonStep &step = levels_[1].step;
-    handler_.item(step.in_array ? section.element(step.index) : section.member(step.key), item_);
-}
-
-// Puts a value into the section or item that is open. Returns where it is kept: nullptr for the root and for sections.
-json *ItemParser::add(json value) {
-    enter_value();
-    if (levels_.empty()) {
-        if (!value.is_object())
-            refuse({}, "must contain an object, is " + json_kind(value.type()));
-        return nullptr;
-    }
-    if (levels_.size() == section_depth) {
-        names_[section_depth].clear();
-        const JsonPlace root;
-        handler_.begin_section(root.member(levels_[0].step.key), value.type());
-        return nullptr;
-    }
-    if (levels_.size() == element_depth) {
-        item_ = std::move(value);
-        return &item_;
-    }
-    json &parent = *open_.back();
-    if (parent.is_array()) {
-        parent.push_back(std::move(value));
-        return &parent.back();
-    }
-    return &*parent.emplace(levels_.back().step.key, std::move(value)).first;
-}
-
-bool ItemParser::scalar(json value) {
-    if (add(std::move(value)) == &item_)
-        hand_out();
-    return true;
-}
-
-bool ItemParser::begin(json value) {
-    const bool is_array = value.is_array();
-    if (json *added = add(std::move(value)))
-        open_.push_back(added);
-    levels_.push_back({value_, {{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes it 0
-    return true;
-}
-
-bool ItemParser::end() {
-    levels_.pop_back();
-    if (!open_.empty()) {
-        open_.pop_back();
-        if (open_.empty())
-            hand_out();
-    }
-    return true;
-}
-
-// position counts the characters read so far, the wrong one included.
-bool ItemParser::parse_error(std::size_t position, const std::string &token, const json::exception &error) {
-    constexpr int number_overflow = 406; // the library's documented id
-    if (error.id == number_overflow) {
-        enter_value();
-        throw JsonRefusal(path(), "the number " + token + " is too large");
-    }
+// "[json.exception...] parse error at line 1, column 2: syntax error while ...", with the place in the file's words.
+// error.byte counts the characters read so far, the wrong one included.
+Failure failure_of(const json::parse_error &error, std::string_view text, const std::string &file_name) {
     const std::string_view before =
-        text_.substr(0, std::min(position, text_.size() + 1) - std::min<std::size_t>(position, 1));
-    // "[json.exception...] parse error at line 1, column 2: syntax error while ...": the position is said already.
+        text.substr(0, std::min(error.byte, text.size() + 1) - std::min<std::size_t>(error.byte, 1));
     const std::string_view what = error.what();
     const std::size_t reason = what.find(": ", std::min(what.find("column "), what.size()));
-    throw Failure(ExitCode::scene, file_name_ + ":" + line_and_column(before) + ": " +
-                                       std::string(reason == std::string_view::npos ? what : what.substr(reason + 2)));
+    return {ExitCode::scene, file_name + ":" + line_and_column(before) + ": " +
+                                 std::string(reason == std::string_view::npos ? what : what.substr(reason + 2))};
 }
 
 } // namespace
@@ -250,7 +197,23 @@ std::optional<std::size_t> JsonLines::find(const JsonPath &path) const {
 }
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonLines &lines, JsonItemHandler &handler) {
-    ItemParser(text, file_name, lines, handler).parse();
+    constexpr int number_overflow = 406; // the library's documented id
+    constexpr bool throws = true;
+    constexpr bool ignore_comments = true;
+    Reached reached;
+    ItemParser parser(lines, handler, reached);
+    const auto take = [&](int, json::parse_event_t event, const json &parsed) { return parser.take(event, parsed); };
+    try {
+        [[maybe_unused]] const json empty_sections =
+            json::parse(LineCountingIterator(text.data(), reached),
+                        LineCountingIterator(text.data() + text.size(), reached), take, throws, ignore_comments);
+    } catch (const json::parse_error &error) {
+        throw failure_of(error, text, file_name);
+    } catch (const json::out_of_range &error) {
+        if (error.id != number_overflow)
+            throw;
+        parser.refuse_overflow(error.what());
+    }
 }
 
 } // namespace cli

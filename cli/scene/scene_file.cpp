@@ -14,8 +14,7 @@ namespace {
 
 pt_sphere_array colored(std::span<const pt_sphere> spheres, std::span<const std::array<float, 3>> colors) {
     constexpr auto stride = static_cast<std::uint32_t>(sizeof(pt_sphere));
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
+    auto array = sized<pt_sphere_array>();
     array.count = static_cast<std::uint32_t>(spheres.size());
     array.center = {&spheres[0].center, stride, PT_TYPE_FLOAT64};
     array.radius = {&spheres[0].radius, stride, PT_TYPE_FLOAT64};
@@ -99,8 +98,7 @@ void SceneFile::add_sphere(const pt_sphere &sphere, const std::optional<std::arr
 }
 
 pt_scene SceneFile::scene() const {
-    pt_scene scene{};
-    scene.struct_size = sizeof(pt_scene);
+    auto scene = sized<pt_scene>();
     scene.material_count = static_cast<std::uint32_t>(materials.size());
     scene.sphere_count = sphere_colors.empty() ? static_cast<std::uint32_t>(spheres.size()) : 0;
     scene.plane_count = static_cast<std::uint32_t>(planes.size());

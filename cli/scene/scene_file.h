@@ -4,7 +4,7 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/library_error.h"
-#include "cli/image/exposure.h"
+#include "cli/image/display.h"
 #include "cli/scene/animation.h"
 #include "cli/scene/json_items.h"
 #include "cli/scene/scene_override.h"
@@ -24,8 +24,7 @@ namespace cli {
 
 // The camera of files without one: it looks from (0, 0, 1) at the origin.
 constexpr pt_camera default_camera() {
-    pt_camera camera{};
-    camera.struct_size = sizeof(pt_camera);
+    auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
     return camera;
 }
@@ -37,8 +36,7 @@ constexpr std::array<double, 2> shutter_of(const pt_camera &camera) {
 }
 
 constexpr pt_render default_render() {
-    pt_render render{};
-    render.struct_size = sizeof(pt_render);
+    auto render = sized<pt_render>();
     render.width = 512;
     render.height = 512;
     render.max_path_length = PT_DEFAULT_MAX_PATH_LENGTH;

@@ -58,4 +58,9 @@ const SceneKey *find_key(const SceneSection &section, std::string_view name);
 
 std::vector<std::string_view> key_names(const SceneSection &section);
 
+// The JSON Schema of scene files, for editors and programs that write them: draft 7 (json-schema.org/draft-07). What it
+// refuses `pt` refuses too; what needs two values to be known (names of materials, a look_at that is not the position,
+// an up along the view), `pt` refuses alone.
+nlohmann::ordered_json scene_schema();
+
 } // namespace cli

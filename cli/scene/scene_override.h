@@ -9,6 +9,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace cli {
 
@@ -32,5 +37,9 @@ struct SceneOverride {
 // "camera.vertical_fov=30". The value is JSON; what is none is a text, so that names need no quotes. Throws
 // Failure(ExitCode::usage).
 SceneOverride parse_override(const std::string &text);
+
+// The options write into `overrides` when the command line is parsed. has_scene: whether there is a scene file, as of
+// `pt render`; otherwise there are only those that say how a picture is shown.
+void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides, bool has_scene);
 
 } // namespace cli

@@ -3,7 +3,6 @@
 #include "cli/base/suggestion.h"
 #include "cli/scene/animation.h"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 

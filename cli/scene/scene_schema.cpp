@@ -1,5 +1,4 @@
-#include "cli/scene/scene_schema.h"
-
+// The JSON Schema of scene files, from the table of keys.
 #include "cli/scene/scene_keys.h"
 
 #include <cmath>

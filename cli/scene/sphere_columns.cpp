@@ -4,7 +4,6 @@
 #include "cli/base/text_file.h"
 #include "cli/scene/scene_keys.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <limits>
 
@@ -71,8 +70,7 @@ void SphereColumns::add_value(const SceneKey &key, const nlohmann::json &value) 
 }
 
 pt_sphere_array SphereColumns::spheres() const {
-    pt_sphere_array array{};
-    array.struct_size = sizeof array;
+    auto array = sized<pt_sphere_array>();
     array.count = static_cast<std::uint32_t>(columns.front().array.row_count); // of the centers
     array.material = {&material, 0, PT_TYPE_UINT32};
     for (const SphereColumn &each : columns)

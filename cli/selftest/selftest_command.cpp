@@ -1,15 +1,119 @@
 #include "cli/selftest/selftest_command.h"
 
 #include "cli/base/common_options.h"
-#include "cli/base/context.h"
+#include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/json_text.h"
 #include "cli/base/output_file.h"
+#include "cli/base/text.h"
 #include "cli/base/vector_width.h"
-#include "cli/selftest/selftest_report.h"
-#include "cli/selftest/selftest_run.h"
+#include "cli/selftest/selftest_scenes.h"
+
+#include <nlohmann/json.hpp>
+#include <pt/accuracy.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <numeric>
+#include <span>
 
 namespace cli {
+namespace {
+
+std::size_t failed_count(const SelftestReport &report) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(report.checks, [](const SelftestCheck &check) { return !check.passed(); }));
+}
+
+std::string header(const pt_device_info &device) {
+    return "pt      " + version_text() + "\ndevice  " + device.name + "\ndriver  " + device.driver + "\nkind    " +
+           kind_name(device.kind) + "\nmemory  " + memory_text(device.memory_bytes) + "\nUUID    " +
+           uuid_text(device.uuid) + "\n";
+}
+
+std::string row(const char *verdict, const std::string &name, const std::string &error, const std::string &bound,
+                const std::string &unit, const std::string &detail) {
+    return formatted("%-4s  %-32s  %9s  %9s  %-8s  ", verdict, name.c_str(), error.c_str(), bound.c_str(),
+                     unit.c_str()) +
+           detail + "\n";
+}
+
+std::string verdict(const SelftestReport &report) {
+    const std::string count = std::to_string(report.checks.size()) + " checks";
+    return report.passed() ? "passed: all " + count + "\n"
+                           : "FAILED: " + std::to_string(failed_count(report)) + " of " + count + "\n";
+}
+
+std::vector<SelftestCheck> check_functions(const Context &context) {
+    std::uint32_t count = 0;
+    context.require(pt_get_accuracy(context.get(), nullptr, &count));
+    std::vector<pt_function_accuracy> rows(count);
+    context.require(pt_get_accuracy(context.get(), rows.data(), &count));
+    rows.resize(count);
+    std::vector<SelftestCheck> checks;
+    for (const pt_function_accuracy &row : rows) {
+        checks.push_back(
+            {"function", row.name, row.worst_error, row.bound, "ulp", formatted("worst at %.9g", row.worst_input)});
+    }
+    return checks;
+}
+
+void describe(const Context &context, const SelftestScene &scene) {
+    const pt_scene description = scene.scene();
+    context.require(pt_set_scene(context.get(), &description));
+    context.require(pt_set_camera(context.get(), &scene.camera));
+    context.require(pt_set_render(context.get(), &scene.render));
+}
+
+void accumulate(const Context &context, std::uint32_t sample_count) {
+    auto info = sized<pt_accumulate_info>();
+    info.sample_count = sample_count;
+    context.require(pt_accumulate(context.get(), &info));
+}
+
+// One call for each count.
+std::vector<float> render(const Context &context, const SelftestScene &scene,
+                          const std::vector<std::uint32_t> &sample_counts) {
+    describe(context, scene);
+    for (const std::uint32_t sample_count : sample_counts)
+        accumulate(context, sample_count);
+    return context.read_image(scene.render);
+}
+
+double differing_values(std::span<const float> a, std::span<const float> b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(), [](float x, float y) {
+        return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y) ? 0.0 : 1.0;
+    });
+}
+
+// The sum of the samples is exact, so that its bits do not depend on the calls in which they were taken.
+SelftestCheck check_splits(const Context &context) {
+    const SelftestScene scene = lamp_in_a_ball();
+    const std::uint32_t third = scene.sample_count / 3;
+    const std::vector<float> one_call = render(context, scene, {scene.sample_count});
+    const std::vector<float> two_calls = render(context, scene, {third, scene.sample_count - third});
+    const std::vector<float> many_calls = render(context, scene, std::vector<std::uint32_t>(scene.sample_count, 1));
+    const double differing = differing_values(one_call, two_calls) + differing_values(one_call, many_calls);
+    return {
+        "invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + scene.name + "\""};
+}
+
+// The library leaves out samples that are not finite, negative or too bright; these scenes have none.
+std::vector<SelftestCheck> check_scenes(const Context &context) {
+    std::vector<SelftestCheck> checks;
+    double left_out = 0.0;
+    for (const SelftestScene &scene : selftest_scenes()) {
+        checks.push_back(scene.judge(render(context, scene, {scene.sample_count})));
+        left_out += static_cast<double>(context.read_stats().rejected_samples);
+    }
+    checks.push_back({"scene", "samples left out", left_out, 0.0, "samples", "of all scenes"});
+    return checks;
+}
+
+} // namespace
 
 const char *const selftest_help =
     "Compares the kernel's functions with double precision, small scenes with closed forms, and images whose samples\n"
@@ -30,8 +134,7 @@ void add_selftest_options(CLI::App &command, SelftestOptions &options) {
 int run_selftest(const SelftestOptions &options) {
     check_report_file(options.json);
     choose_vector_width();
-    pt_create_info info{};
-    info.struct_size = sizeof(pt_create_info);
+    auto info = sized<pt_create_info>();
     info.device = options.device.empty() ? nullptr : options.device.c_str();
     info.shader_dir = options.shader_dir.empty() ? nullptr : options.shader_dir.c_str();
     const Context context(info);
@@ -42,6 +145,59 @@ int run_selftest(const SelftestOptions &options) {
     print_for_people(selftest_text(report), options.json == standard_stream);
     write_report_file(options.json, json_text(selftest_json(report)));
     return static_cast<int>(report.passed() ? ExitCode::done : ExitCode::internal);
+}
+
+bool SelftestReport::passed() const {
+    return failed_count(*this) == 0;
+}
+
+std::string selftest_text(const SelftestReport &report) {
+    std::string text = header(report.device) + "\n" + row("", "check", "error", "bound", "unit", "measured");
+    for (const SelftestCheck &check : report.checks) {
+        text += row(check.passed() ? "pass" : "FAIL", check.name, formatted("%.3g", check.error),
+                    formatted("%.3g", check.bound), check.unit, check.detail);
+    }
+    return text + "\n" + verdict(report);
+}
+
+nlohmann::ordered_json selftest_json(const SelftestReport &report) {
+    auto checks = nlohmann::ordered_json::array();
+    for (const SelftestCheck &check : report.checks) {
+        checks.push_back({{"group", check.group},
+                          {"name", check.name},
+                          {"passed", check.passed()},
+                          {"error", number_or_null(check.error)},
+                          {"bound", check.bound},
+                          {"unit", check.unit},
+                          {"measured", check.detail}});
+    }
+    return {{"version", version_text()},
+            {"device",
+             {{"name", report.device.name},
+              {"driver", report.device.driver},
+              {"kind", kind_name(report.device.kind)},
+              {"memory_bytes", report.device.memory_bytes},
+              {"uuid", uuid_text(report.device.uuid)}}},
+            {"passed", report.passed()},
+            {"checks", std::move(checks)}};
+}
+
+std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
+    std::vector<SelftestCheck> checks = check_functions(context);
+    const std::vector<SelftestCheck> scenes = check_scenes(context);
+    checks.insert(checks.end(), scenes.begin(), scenes.end());
+    checks.push_back(check_splits(context));
+    return checks;
+}
+
+std::vector<SelftestCheck> run_direction_checks(const Context &context) {
+    std::vector<SelftestCheck> checks;
+    for (const DirectionScene &directions : direction_scenes()) {
+        const SelftestScene &scene = directions.scene;
+        const std::vector<SelftestCheck> judged = directions.judge(render(context, scene, {scene.sample_count}));
+        checks.insert(checks.end(), judged.begin(), judged.end());
+    }
+    return checks;
 }
 
 } // namespace cli

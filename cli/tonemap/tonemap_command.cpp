@@ -1,18 +1,16 @@
 #include "cli/tonemap/tonemap_command.h"
 
-#include "cli/base/device_text.h"
-#include "cli/base/distinct_files.h"
+#include "cli/base/common_options.h"
+#include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
 #include "cli/base/output_file.h"
-#include "cli/image/display_image.h"
-#include "cli/image/image_attribute_text.h"
-#include "cli/image/image_reader.h"
-#include "cli/image/image_target.h"
+#include "cli/image/display.h"
+#include "cli/image/image_file.h"
+#include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace cli {
 namespace {
@@ -74,16 +72,16 @@ std::vector<float> alpha_of(const DecodedImage &image, ImageFormat format) {
 }
 
 // What the file says of its rendering, and what is made of it now.
-void describe(ImageAttributes &attributes, const DecodedImage &image, const ToneMap &tone_map) {
-    attributes.add("software", "pt " + version_text());
-    for (const pt_image_attribute &each : image.attributes->attributes()) {
-        const std::string_view name = each.name;
-        if (name == "pt.quantity")
-            attributes.add("pt.quantity", std::string("tone-mapped ") + image_attribute_text(each));
-        else if (name.starts_with("pt.") || name == "samplesPerPixel" || name == "DateTime")
-            attributes.add_copy(each);
+std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneMap &tone_map) {
+    std::vector<ImageAttribute> attributes{{"software", "pt " + version_text()}};
+    for (const ImageAttribute &each : image.attributes) {
+        if (each.name == "pt.quantity")
+            attributes.push_back({each.name, "tone-mapped " + attribute_text(each)});
+        else if (each.name.starts_with("pt.") || each.name == "samplesPerPixel" || each.name == "DateTime")
+            attributes.push_back(each);
     }
     add_tone_map(attributes, tone_map);
+    return attributes;
 }
 
 } // namespace
@@ -98,17 +96,31 @@ int run_tonemap(const TonemapOptions &options) {
 
     const Display display = display_of(options.display);
     const ToneMap tone_map = display.tone_map(radiance);
-    ImageAttributes attributes;
-    describe(attributes, image, tone_map);
+    const std::vector<ImageAttribute> attributes = attributes_of(image, tone_map);
     ImageWriter writer;
-    write_display_image(writer, target, window, radiance, tone_map, options.png_bits, attributes.attributes(),
-                        alpha_of(image, target.format));
+    write_display_image(writer, target, {.window = window, .attributes = attributes}, radiance, tone_map,
+                        options.png_bits, alpha_of(image, target.format));
     if (!options.quiet) {
         print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
                              window_text(window) + "\n" + (display.exposure ? "" : automatic_exposure_line(tone_map)),
                          options.output == standard_stream);
     }
     return static_cast<int>(ExitCode::done);
+}
+
+const char *const tonemap_help = "IN is an OpenEXR file, of `pt render` or another program, with the channels R, G and "
+                                 "B; of one that was rendered,\n"
+                                 "OUT has the pixels that `pt render` would have written with the same options. "
+                                 "Negative numbers count as 0; one that\n"
+                                 "is not finite is an error. --exposure auto is explained in `pt render --help`.\n";
+
+void add_tonemap_options(CLI::App &command, TonemapOptions &options) {
+    add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
+    add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
+    add_format(command, options.format, picture_format_names);
+    add_scene_options(command, options.display, false);
+    add_png_bits(command, options.png_bits);
+    add_quiet(command, options.quiet);
 }
 
 } // namespace cli

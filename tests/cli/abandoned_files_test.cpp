@@ -1,7 +1,6 @@
 // Tests of cli/base/abandoned_files: what killed programs have left goes, and nothing else.
-#include "cli/base/abandoned_files.h"
-
 #include "cli/base/atomic_file.h"
+
 #include "tests/cli/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "cli/scene/animation.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/render/frame_range.h"
+#include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 
 #include <gtest/gtest.h>

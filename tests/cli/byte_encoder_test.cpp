@@ -1,5 +1,4 @@
 // Tests of cli/byte_encoder: the table against the function that it stands for.
-#include "cli/image/byte_encoder.h"
 #include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>

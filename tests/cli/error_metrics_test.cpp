@@ -1,5 +1,5 @@
 // Tests of cli/error_metrics on cases that can be worked out by hand.
-#include "cli/image/error_metrics.h"
+#include "cli/compare/image_difference.h"
 
 #include <gtest/gtest.h>
 

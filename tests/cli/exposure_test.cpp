@@ -1,5 +1,5 @@
 // Tests of cli/exposure.
-#include "cli/image/exposure.h"
+#include "cli/image/display.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/film/film_file: what was written is read again, and what is damaged is refused or whole.
-#include "cli/film/film_file.h"
+#include "cli/film/film.h"
 
 #include "cli/base/exit_code.h"
 #include "tests/cli/temporary_folder.h"

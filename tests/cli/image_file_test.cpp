@@ -1,9 +1,7 @@
 // Tests of cli/image_file and the module behind it: what is written is read back by OpenImageIO itself.
-#include "cli/image/image_file.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/image/image_reader.h"
-#include "cli/image/image_target.h"
+#include "cli/image/image_file.h"
 #include "tests/cli/temporary_folder.h"
 
 #include <OpenImageIO/imageio.h>
@@ -19,18 +17,25 @@ namespace {
 
 using cli::ImageFormat;
 using cli::ImageWriter;
+using cli::LayerKind;
 
-constexpr std::array<pt_image_attribute, 3> attributes{{{"samplesPerPixel", nullptr, 64.0, 0, 0},
-                                                        {"pt.exposure", nullptr, 1.5, 1, 0},
-                                                        {"pt.seed", "18446744073709551615", 0.0, 0, 0}}};
+const std::vector<cli::ImageAttribute> attributes{
+    {"samplesPerPixel", 64}, {"pt.exposure", 1.5}, {"pt.seed", "18446744073709551615"}};
 
 cli::ImageTarget target(const std::string &path) {
     return cli::image_target(path, std::nullopt);
 }
 
 void write_main_layer(const std::string &path, const cli::ImageWindow &window, std::span<const float> radiance) {
-    const pt_image_layer layer{"", 3, 0, radiance.data()};
-    ImageWriter().write_radiance(target(path), window, {&layer, 1}, attributes);
+    const cli::ImageLayer layer{"", LayerKind::color, 3, radiance};
+    ImageWriter().write(target(path), {.window = window, .layers = {&layer, 1}, .attributes = attributes});
+}
+
+void write_bytes(const std::string &path, std::uint32_t width, std::uint32_t height,
+                 std::span<const std::uint8_t> bytes, std::optional<double> gamma = std::nullopt) {
+    ImageWriter().write(
+        target(path),
+        {.window = cli::whole_window(width, height), .bytes = bytes, .gamma = gamma, .attributes = attributes});
 }
 
 template <typename Value>
@@ -85,10 +90,10 @@ TEST(ImageFile, ExrIsReadBack) {
     const TemporaryFolder folder;
     const std::vector<float> radiance{0.1F, 2.0F, 3e30F, 4.0F, 5.0F, 6.0F};
     write_main_layer(folder.file("a.exr"), cli::whole_window(1, 2), radiance);
-    const cli::RadianceImage image = cli::read_radiance(folder.file("a.exr"));
+    const cli::DecodedImage image = cli::read_image(folder.file("a.exr"));
     EXPECT_EQ(image.width, 1U);
     EXPECT_EQ(image.height, 2U);
-    EXPECT_EQ(image.radiance, radiance);
+    EXPECT_EQ(image.layer(""), radiance);
 }
 
 TEST(ImageFile, ALayerIsReadByItsName) {
@@ -97,13 +102,13 @@ TEST(ImageFile, ALayerIsReadByItsName) {
     const std::array<float, 6> error{0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F};
     const std::array<float, 2> count{16.0F, 32.0F};
     const std::array<std::uint32_t, 2> objects{0, 0xffffffff};
-    const std::array<pt_image_layer, 5> layers{{{"", 3, PT_LAYER_COLOR, main.data()},
-                                                {"error", 3, PT_LAYER_COLOR, error.data()},
-                                                {"count", 1, PT_LAYER_COLOR, count.data()},
-                                                {"N", 3, PT_LAYER_VECTOR, error.data()},
-                                                {"id", 1, PT_LAYER_NUMBERS, nullptr, objects.data()}}};
+    const std::array<cli::ImageLayer, 5> layers{{{"", LayerKind::color, 3, main},
+                                                 {"error", LayerKind::color, 3, error},
+                                                 {"count", LayerKind::color, 1, count},
+                                                 {"N", LayerKind::vector, 3, error},
+                                                 {"id", LayerKind::numbers, 1, {}, objects}}};
     const cli::ImageWindow window{{3, 4, 1, 2}, 10, 20};
-    ImageWriter().write_radiance(target(folder.file("a.exr")), window, layers, attributes);
+    ImageWriter().write(target(folder.file("a.exr")), {.window = window, .layers = layers, .attributes = attributes});
     const cli::DecodedImage image = cli::read_image(folder.file("a.exr"));
     EXPECT_EQ(std::tuple(image.x, image.y, image.width, image.height), std::tuple(3, 4, 1U, 2U));
     EXPECT_EQ(std::tuple(image.full_width, image.full_height, image.is_float), std::tuple(10U, 20U, true));
@@ -126,7 +131,7 @@ TEST(ImageFile, ALayerIsReadByItsName) {
 TEST(ImageFile, WordsKeepEveryBit) {
     const TemporaryFolder folder;
     const std::vector<std::uint16_t> words{0, 1, 255, 256, 257, 32768, 65279, 65534, 65535};
-    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(3, 1), words, attributes);
+    ImageWriter().write(target(folder.file("a.png")), {.window = cli::whole_window(3, 1), .words = words});
     EXPECT_EQ(read_pixels<std::uint16_t>(folder.file("a.png"), OIIO::TypeDesc::UINT16), words);
 }
 
@@ -139,7 +144,7 @@ TEST(ImageFile, WhatCannotBeReadIsRefused) {
     ASSERT_TRUE(grey->write_image(OIIO::TypeDesc::FLOAT, &value) && grey->close());
     for (const char *name : {"none.exr", "text.exr", "grey.exr"}) {
         try {
-            cli::read_radiance(folder.file(name));
+            cli::read_image(folder.file(name)).layer("");
             FAIL() << name << " was read";
         } catch (const cli::Failure &failure) {
             EXPECT_EQ(failure.code(), cli::ExitCode::file);
@@ -151,14 +156,13 @@ TEST(ImageFile, WhatCannotBeReadIsRefused) {
 TEST(ImageFile, PngKeepsEveryByte) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes{0, 1, 2, 127, 128, 129, 253, 254, 255};
-    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(3, 1), bytes, attributes);
+    write_bytes(folder.file("a.png"), 3, 1, bytes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
 TEST(ImageFile, PngHasMetadata) {
     const TemporaryFolder folder;
-    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1, 1),
-                               std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    write_bytes(folder.file("a.png"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3});
     const auto input = OIIO::ImageInput::open(folder.file("a.png"));
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().nchannels, 3);
@@ -170,9 +174,10 @@ TEST(ImageFile, PngHasMetadata) {
 TEST(ImageFile, PngKeepsNamesInUtf8) {
     const TemporaryFolder folder;
     const std::string name = "sc\xc3\xa8ne.json"; // as which libpng reads international text chunks
-    const std::array<pt_image_attribute, 1> named{{{"pt.scene", name.c_str(), 0.0, 0, 0}}};
-    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1, 1),
-                               std::array<std::uint8_t, 3>{1, 2, 3}, named);
+    const cli::ImageAttribute named{"pt.scene", name};
+    const std::array<std::uint8_t, 3> bytes{1, 2, 3};
+    ImageWriter().write(target(folder.file("a.png")),
+                        {.window = cli::whole_window(1, 1), .bytes = bytes, .attributes = {&named, 1}});
     EXPECT_EQ(OIIO::ImageInput::open(folder.file("a.png"))->spec().get_string_attribute("pt.scene"), name);
     EXPECT_NE(folder.read("a.png").find("iTXtpt.scene"), std::string::npos);
 }
@@ -180,9 +185,9 @@ TEST(ImageFile, PngKeepsNamesInUtf8) {
 TEST(ImageFile, PngTellsItsColorSpace) {
     const TemporaryFolder folder;
     const std::array<std::uint8_t, 3> bytes{1, 2, 3};
-    ImageWriter().write_signal(target(folder.file("srgb.png")), cli::whole_window(1, 1), bytes, attributes);
+    write_bytes(folder.file("srgb.png"), 1, 1, bytes);
     EXPECT_NE(folder.read("srgb.png").find("sRGB"), std::string::npos);
-    ImageWriter().write_signal(target(folder.file("gamma.png")), cli::whole_window(1, 1), bytes, attributes, 2.2);
+    write_bytes(folder.file("gamma.png"), 1, 1, bytes, 2.2);
     const std::string file = folder.read("gamma.png");
     EXPECT_EQ(file.find("sRGB"), std::string::npos);
     EXPECT_NE(file.find("cHRM"), std::string::npos);
@@ -196,14 +201,14 @@ TEST(ImageFile, PngKeepsALargePicture) {
     std::vector<std::uint8_t> bytes(std::size_t{1000} * 700 * 3);
     std::minstd_rand random(1);
     std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() >> 16); });
-    ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(1000, 700), bytes, attributes);
+    write_bytes(folder.file("a.png"), 1000, 700, bytes);
     EXPECT_EQ(read_pixels<std::uint8_t>(folder.file("a.png"), OIIO::TypeDesc::UINT8), bytes);
 }
 
 TEST(ImageFile, JpegIsClose) {
     const TemporaryFolder folder;
     const std::vector<std::uint8_t> bytes(std::size_t{16} * 16 * 3, 100);
-    ImageWriter().write_signal(target(folder.file("a.jpeg")), cli::whole_window(16, 16), bytes, attributes);
+    write_bytes(folder.file("a.jpeg"), 16, 16, bytes);
     const auto read = read_pixels<std::uint8_t>(folder.file("a.jpeg"), OIIO::TypeDesc::UINT8);
     ASSERT_EQ(read.size(), bytes.size());
     for (const std::uint8_t value : read) {
@@ -213,8 +218,7 @@ TEST(ImageFile, JpegIsClose) {
 
 TEST(ImageFile, JpegHasMetadataInItsDescription) {
     const TemporaryFolder folder;
-    ImageWriter().write_signal(target(folder.file("a.jpg")), cli::whole_window(1, 1),
-                               std::array<std::uint8_t, 3>{1, 2, 3}, attributes);
+    write_bytes(folder.file("a.jpg"), 1, 1, std::array<std::uint8_t, 3>{1, 2, 3});
     const auto input = OIIO::ImageInput::open(folder.file("a.jpg"));
     ASSERT_TRUE(input);
     EXPECT_EQ(input->spec().get_string_attribute("ImageDescription"),
@@ -228,7 +232,7 @@ TEST(ImageFile, AFailureLeavesTheOldFile) {
     const std::uint32_t side = cli::longest_side(ImageFormat::png) + 1;
     const std::vector<std::uint8_t> bytes(std::size_t{side} * 3);
     try {
-        ImageWriter().write_signal(target(folder.file("a.png")), cli::whole_window(side, 1), bytes, attributes);
+        write_bytes(folder.file("a.png"), side, 1, bytes);
         FAIL() << "was written";
     } catch (const cli::Failure &failure) {
         EXPECT_EQ(failure.code(), cli::ExitCode::file);
@@ -240,11 +244,10 @@ TEST(ImageFile, AFailureLeavesTheOldFile) {
 
 TEST(ImageFile, LongestSidesHold) {
     const TemporaryFolder folder;
-    ImageWriter writer;
     for (const char *name : {"a.png", "a.jpg"}) {
         const std::uint32_t side = cli::longest_side(cli::image_format(name).value());
         const std::vector<std::uint8_t> bytes(std::size_t{side} * 3, 200);
-        EXPECT_NO_THROW(writer.write_signal(target(folder.file(name)), cli::whole_window(side, 1), bytes, attributes));
+        EXPECT_NO_THROW(write_bytes(folder.file(name), side, 1, bytes));
         EXPECT_EQ(read_pixels<std::uint8_t>(folder.file(name), OIIO::TypeDesc::UINT8).size(), bytes.size());
     }
 }

@@ -1,5 +1,5 @@
 // Tests of cli/render/outcome: the exit code of every combination.
-#include "cli/render/outcome.h"
+#include "cli/render/render_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Tests of cli/parallel: every thing has its turn, once.
-#include "cli/base/parallel.h"
+#include "cli/base/tasks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Tests of the forecast of samples and of the lengths of steps.
-#include "cli/render/progress_observer.h"
-#include "cli/render/render_loop.h"
+#include "cli/render/observers.h"
+#include "cli/render/piecewise_render.h"
 
 #include <gtest/gtest.h>
 

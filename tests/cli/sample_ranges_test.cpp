@@ -1,5 +1,5 @@
 // Tests of cli/film/sample_ranges.
-#include "cli/film/sample_ranges.h"
+#include "cli/film/film.h"
 
 #include <gtest/gtest.h>
 

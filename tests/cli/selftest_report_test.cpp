@@ -1,5 +1,5 @@
 // Tests of cli/selftest_report and selftest_check.
-#include "cli/selftest/selftest_report.h"
+#include "cli/selftest/selftest_command.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // Tests of cli/selftest_scene: the judgement passes what is right and fails what is wrong. Whether the scenes are right
 // is tested where there is a device, by selftest_test.py.
-#include "cli/selftest/selftest_scene.h"
+#include "cli/selftest/selftest_scenes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,133 @@
+#include "cli/base/devices.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/base/json_text.h"
+#include "cli/base/text.h"
+#include "cli/base/vector_width.h"
+
+#include <pt/devices.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iomanip>
+#include <iostream>
+#include <vector>
+
+namespace cli {
+namespace {
+
+using Row = std::array<std::string, 7>;
+
+std::vector<pt_device_info> list_devices() {
+    std::uint32_t count = 0;
+    std::vector<pt_device_info> devices;
+    pt_result result = pt_get_devices(nullptr, &count);
+    if (result >= 0) {
+        devices.resize(count);
+        result = pt_get_devices(devices.data(), &count);
+        devices.resize(count);
+    }
+    if (result < 0)
+        throw Failure(exit_code_of(result), pt_last_error(nullptr));
+    return devices;
+}
+
+Row table_row(std::size_t index, const pt_device_info &device) {
+    return {std::to_string(index),
+            kind_name(device.kind),
+            device.name,
+            device.driver,
+            memory_text(device.memory_bytes),
+            uuid_text(device.uuid),
+            device.suitable != 0 ? "yes" : std::string("no: ") + device.reason};
+}
+
+void print_table(const std::vector<pt_device_info> &devices) {
+    std::vector<Row> rows{{"index", "kind", "name", "driver", "memory", "UUID", "suitable"}};
+    for (const pt_device_info &device : devices)
+        rows.push_back(table_row(rows.size() - 1, device));
+    const auto width_of = [&](std::size_t column) {
+        return std::ranges::max(rows, {}, [column](const Row &row) { return row[column].size(); })[column].size();
+    };
+    for (const Row &row : rows) {
+        for (std::size_t column = 0; column + 1 < row.size(); ++column)
+            std::cout << std::left << std::setw(static_cast<int>(width_of(column) + 2)) << row[column];
+        std::cout << row.back() << '\n';
+    }
+}
+
+void print_json(const std::vector<pt_device_info> &devices) {
+    auto list = nlohmann::ordered_json::array();
+    for (const pt_device_info &device : devices) {
+        list.push_back({{"index", list.size()},
+                        {"kind", kind_name(device.kind)},
+                        {"name", device.name},
+                        {"driver", device.driver},
+                        {"memory_bytes", device.memory_bytes},
+                        {"uuid", uuid_text(device.uuid)},
+                        {"suitable", device.suitable != 0},
+                        {"reason", device.reason}});
+    }
+    std::cout << json_text(list);
+}
+
+} // namespace
+
+std::string kind_name(std::uint32_t kind) {
+    switch (kind) {
+    case PT_DEVICE_INTEGRATED_GPU:
+        return "integrated GPU";
+    case PT_DEVICE_DISCRETE_GPU:
+        return "discrete GPU";
+    case PT_DEVICE_VIRTUAL_GPU:
+        return "virtual GPU";
+    case PT_DEVICE_CPU:
+        return "CPU";
+    default:
+        return "other";
+    }
+}
+
+std::string memory_text(std::uint64_t bytes) {
+    static constexpr std::array<const char *, 6> larger_units{"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+    constexpr double rounds_to_1024 = 1023.95; // with one decimal
+    if (bytes < 1024)
+        return std::to_string(bytes) + " B";
+    double count = static_cast<double>(bytes) / 1024.0;
+    std::size_t unit = 0;
+    while (count >= rounds_to_1024) {
+        count /= 1024.0;
+        ++unit;
+    }
+    return formatted("%.1f %s", count, larger_units[unit]);
+}
+
+std::string version_text() {
+    const std::uint32_t version = pt_version();
+    return concat(version / 1'000'000, ".", version / 1'000 % 1'000, ".", version % 1'000);
+}
+
+std::string uuid_text(const std::uint8_t (&uuid)[16]) {
+    std::string text;
+    for (std::size_t i = 0; i < 16; ++i) {
+        if (i == 4 || i == 6 || i == 8 || i == 10)
+            text += '-';
+        text += formatted("%02x", uuid[i]);
+    }
+    return text;
+}
+
+int run_devices(bool as_json) {
+    choose_vector_width(); // it is part of llvmpipe's name
+    const std::vector<pt_device_info> devices = list_devices();
+    if (as_json)
+        print_json(devices);
+    else
+        print_table(devices);
+    const bool any_suitable =
+        std::any_of(devices.begin(), devices.end(), [](const pt_device_info &device) { return device.suitable != 0; });
+    return static_cast<int>(any_suitable ? ExitCode::done : ExitCode::no_device);
+}
+
+} // namespace cli

@@ -1,0 +1,27 @@
+// The command `pt devices` (which Vulkan devices there are and which can be used), and what is shown of a device and of
+// the library as text.
+#pragma once
+
+#include <pt/pt.h>
+
+#include <cstdint>
+#include <string>
+
+namespace cli {
+
+// kind: PT_DEVICE_*.
+std::string kind_name(std::uint32_t kind);
+
+// "7.7 GiB", "480 B": in the largest unit of which there is one at least.
+std::string memory_text(std::uint64_t bytes);
+
+// Of the library, which is the program's too: "0.2.0".
+std::string version_text();
+
+// 32 hexadecimal digits in the usual groups.
+std::string uuid_text(const std::uint8_t (&uuid)[16]);
+
+// Returns the exit code: ExitCode::no_device if none is suitable. Throws Failure.
+int run_devices(bool as_json);
+
+} // namespace cli

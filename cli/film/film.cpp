@@ -1,0 +1,209 @@
+#include "cli/film/film.h"
+
+#include "cli/base/atomic_file.h"
+#include "cli/base/exit_code.h"
+#include "cli/base/text_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <zstd.h>
+
+namespace cli {
+namespace {
+
+// Of calls whose arguments are not the user's.
+void require(pt_result result) {
+    if (result < 0)
+        throw Failure(exit_code_of(result), pt_last_error(nullptr));
+}
+
+// Facts that are digests, which tell people no more than that they differ.
+constexpr std::array<std::string_view, 3> digests{"scene", "camera", "kernel"};
+
+std::string words_of(const std::string &path, const BrokenRule &rule) {
+    if (std::find(digests.begin(), digests.end(), rule.member) != digests.end())
+        return path + ": was made with another " + rule.member + " (" + rule.value + ": " + rule.rule + ")";
+    const std::string text = rule_text(path + ": " + rule.member, rule);
+    return rule.member == "device" ? text + "; choose that model of device by --device, or on a CPU the width of its "
+                                            "vectors by LP_NATIVE_VECTOR_WIDTH, or begin anew"
+                                   : text;
+}
+
+// The library's own subject is not a name that the user gave.
+std::string without_subject(const std::string &message) {
+    constexpr std::string_view subject = "film: ";
+    return message.starts_with(subject) ? message.substr(subject.size()) : message;
+}
+
+// Of the lowest levels the sums of 1920x1080 pixels take a seventh of their size at 1.2 GB/s a processor with 1, at 2.9
+// GB/s with -1, which makes files 6% larger: cli/README.md says how that was measured.
+constexpr int compression_level = -1;
+
+// A block of at most 128 KiB takes 4 bytes at the least (RFC 8878, 3.1.1.2): what claims more is damaged.
+constexpr std::uint64_t most_ratio = 32768;
+
+[[noreturn]] void refuse(const std::string &path, const std::string &reason) {
+    throw Failure(ExitCode::usage, path + ": " + reason);
+}
+
+bool is_packed(std::span<const std::byte> bytes) {
+    std::uint32_t magic = 0;
+    for (std::size_t i = 0; i < sizeof magic && i < bytes.size(); ++i)
+        magic |= std::to_integer<std::uint32_t>(bytes[i]) << (8 * i);
+    return magic == ZSTD_MAGICNUMBER;
+}
+
+std::vector<std::byte> unpacked(const std::string &path, std::span<const std::byte> bytes) {
+    const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size / most_ratio > bytes.size())
+        refuse(path, "damaged or cut short: the head of its zstd frame is no film's");
+    std::vector<std::byte> film(size);
+    const std::size_t count = ZSTD_decompress(film.data(), film.size(), bytes.data(), bytes.size());
+    if (ZSTD_isError(count) != 0 || count != film.size()) {
+        refuse(path, std::string("damaged or cut short: ") +
+                         (ZSTD_isError(count) != 0 ? ZSTD_getErrorName(count) : "its zstd frame is too short"));
+    }
+    return film;
+}
+
+} // namespace
+
+FilmHandle::FilmHandle(const std::string &path, std::span<const std::byte> bytes) {
+    const pt_result result = pt_open_film(bytes.data(), bytes.size(), &film_);
+    if (result < 0)
+        throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
+}
+
+void FilmHandle::merge(const std::string &path, std::span<const std::byte> bytes) {
+    const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
+    if (result < 0)
+        throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
+}
+
+pt_film_info FilmHandle::info() const {
+    auto info = sized<pt_film_info>();
+    require(pt_get_film_info(film_, &info));
+    return info;
+}
+
+pt_stats FilmHandle::stats() const {
+    auto stats = sized<pt_stats>();
+    require(pt_get_film_stats(film_, &stats));
+    return stats;
+}
+
+std::vector<pt_film_tile> FilmHandle::tiles() const {
+    std::vector<pt_film_tile> tiles(info().tile_count, sized<pt_film_tile>());
+    for (std::uint32_t i = 0; i < tiles.size(); ++i)
+        require(pt_get_film_tile(film_, i, &tiles[i]));
+    return tiles;
+}
+
+std::vector<pt_sample_range> FilmHandle::ranges(std::uint32_t tile) const {
+    std::uint32_t count = 0;
+    require(pt_get_film_ranges(film_, tile, nullptr, &count));
+    std::vector<pt_sample_range> ranges(count);
+    require(pt_get_film_ranges(film_, tile, ranges.data(), &count));
+    return ranges;
+}
+
+std::vector<float> FilmHandle::read_image(std::uint32_t quantity) const {
+    const pt_film_info film = info();
+    std::vector<float> values(std::size_t{3} * film.columns * film.rows);
+    auto image = sized<pt_image>();
+    image.quantity = quantity;
+    image.data = values.data();
+    image.size_bytes = values.size() * sizeof(float);
+    require(pt_read_film(film_, &image));
+    return values;
+}
+
+std::vector<std::byte> FilmHandle::bytes() const {
+    std::uint64_t size = 0;
+    require(pt_write_film(film_, nullptr, &size));
+    std::vector<std::byte> bytes(size);
+    require(pt_write_film(film_, bytes.data(), &size));
+    return bytes;
+}
+
+void save_film(const Context &context, std::vector<std::byte> &bytes) {
+    std::uint64_t size = 0;
+    context.require(pt_save_film(context.get(), nullptr, &size));
+    bytes.resize(size);
+    context.require(pt_save_film(context.get(), bytes.data(), &size));
+}
+
+std::vector<std::byte> saved_film(const Context &context) {
+    std::vector<std::byte> bytes;
+    save_film(context, bytes);
+    return bytes;
+}
+
+void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes) {
+    const pt_result result = pt_add_film(context.get(), bytes.data(), bytes.size());
+    if (result < 0)
+        throw Failure(exit_code_of(result), film_words(path, context.last_error()));
+}
+
+std::string film_words(const std::string &path, const LibraryError &error) {
+    if (error.rules.empty())
+        return path + ": " + without_subject(error.message);
+    return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
+}
+
+std::string ranges_text(const std::vector<pt_sample_range> &ranges) {
+    std::string text;
+    for (const pt_sample_range &range : ranges)
+        text += (text.empty() ? "[" : ", [") + std::to_string(range.first) + ", " + std::to_string(range.end) + ")";
+    return text.empty() ? "none" : text;
+}
+
+std::uint64_t sample_count_of(const std::vector<pt_sample_range> &ranges) {
+    std::uint64_t count = 0;
+    for (const pt_sample_range &range : ranges)
+        count += range.end - range.first;
+    return count;
+}
+
+std::vector<pt_sample_range> missing_of(const pt_sample_range &wanted, const std::vector<pt_sample_range> &there) {
+    std::vector<pt_sample_range> missing;
+    std::uint64_t next = wanted.first;
+    for (const pt_sample_range &range : there) {
+        if (next < std::min(range.first, wanted.end))
+            missing.push_back({next, std::min(range.first, wanted.end)});
+        next = std::max(next, range.end);
+    }
+    if (next < wanted.end)
+        missing.push_back({next, wanted.end});
+    return missing;
+}
+
+void write_film_file(const std::string &path, std::span<const std::byte> film) {
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+    std::vector<std::byte> piece(ZSTD_CStreamOutSize());
+    if (!context)
+        throw std::bad_alloc();
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression_level);
+    ZSTD_CCtx_setPledgedSrcSize(context.get(), film.size());
+    ZSTD_inBuffer input{film.data(), film.size(), 0};
+    AtomicFile file(path);
+    for (std::size_t left = 1; left != 0;) {
+        ZSTD_outBuffer output{piece.data(), piece.size(), 0};
+        left = ZSTD_compressStream2(context.get(), &output, &input, ZSTD_e_end);
+        if (ZSTD_isError(left) != 0)
+            throw Failure(ExitCode::internal, path + ": zstd: " + ZSTD_getErrorName(left));
+        file.write(std::span(piece).first(output.pos));
+    }
+    file.commit();
+}
+
+std::vector<std::byte> read_film_file(const std::string &path) {
+    const std::string text = read_file(path);
+    const auto bytes = std::as_bytes(std::span(text));
+    return is_packed(bytes) ? unpacked(path, bytes) : std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+} // namespace cli

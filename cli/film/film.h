@@ -1,0 +1,70 @@
+// Films: one pt_film and that of a context, whose failures are thrown as Failure, and their samples as text.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/library_error.h"
+
+#include <pt/film.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class FilmHandle {
+public:
+    // path: what the film is called in messages.
+    FilmHandle(const std::string &path, std::span<const std::byte> bytes);
+    FilmHandle(const FilmHandle &) = delete;
+    FilmHandle &operator=(const FilmHandle &) = delete;
+    ~FilmHandle() { pt_close_film(film_); }
+
+    // Throws Failure(ExitCode::usage) with a line for each way in which it does not belong.
+    void merge(const std::string &path, std::span<const std::byte> bytes);
+
+    pt_film_info info() const;
+    pt_stats stats() const;
+    std::vector<pt_film_tile> tiles() const;
+    std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
+
+    // Of the film's rectangle, three components to a pixel. quantity: PT_QUANTITY_*.
+    std::vector<float> read_image(std::uint32_t quantity) const;
+
+    std::vector<std::byte> bytes() const;
+
+private:
+    pt_film *film_ = nullptr;
+};
+
+// The samples so far, of which there is one at least; bytes: memory to be used again.
+void save_film(const Context &context, std::vector<std::byte> &bytes);
+
+std::vector<std::byte> saved_film(const Context &context);
+
+// Adds a film to the samples of the context. path: what it is called in messages. Throws Failure(ExitCode::usage) with
+// a line for each way in which it does not belong.
+void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
+
+// "part.ptfilm: seed = 7: must be 8, as in this context", a line for each difference.
+std::string film_words(const std::string &path, const LibraryError &error);
+
+// "[0, 64), [128, 256)"; "none" of none.
+std::string ranges_text(const std::vector<pt_sample_range> &ranges);
+
+// How many samples they have.
+std::uint64_t sample_count_of(const std::vector<pt_sample_range> &ranges);
+
+// What a range has and the others, which are in ascending order, have not.
+std::vector<pt_sample_range> missing_of(const pt_sample_range &wanted, const std::vector<pt_sample_range> &there);
+
+// Packs the bytes and writes them to a file that appears whole or not at all. Throws Failure(ExitCode::file).
+void write_film_file(const std::string &path, std::span<const std::byte> film);
+
+// The bytes of a film, packed or not; whether they are a film is for the library to say. Throws Failure:
+// ExitCode::file if the file cannot be read, ExitCode::usage if it was packed and is damaged or cut short.
+std::vector<std::byte> read_film_file(const std::string &path);
+
+} // namespace cli

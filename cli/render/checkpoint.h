@@ -1,0 +1,60 @@
+// Keeps a film of the samples so far in a file, from which another run goes on.
+#pragma once
+
+#include "cli/base/context.h"
+#include "cli/base/tasks.h"
+#include "cli/render/render_observer.h"
+#include "cli/render/render_task.h"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+class CheckpointObserver : public RenderObserver {
+public:
+    // seconds: from one checkpoint to the next. say: shows a message.
+    CheckpointObserver(const Context &context, std::string path, double seconds,
+                       std::function<void(const std::string &)> say);
+
+    bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
+    void stepped(const RenderState &state) override;
+
+    // Writes what the file does not have yet of these samples, which are those of a pixel on the average, as in
+    // RenderState. Afterwards nothing is under way.
+    void finish(std::uint32_t sample_count);
+
+    // Whether the file has all the samples that finish() was told of.
+    bool is_valid() const { return is_valid_; }
+
+private:
+    void save(std::uint32_t sample_count);
+    void write();
+    void take_in();
+    void tell_failure(const std::string &reason);
+
+    const Context &context_;
+    std::string path_;
+    std::chrono::duration<double> interval_;
+    std::function<void(const std::string &)> say_;
+    Clock::time_point due_;
+    Clock::time_point saved_at_;
+    std::chrono::duration<double> write_time_{0}; // of the last one
+    std::uint32_t saved_count_ = 0;               // samples of the film that was written last, or is being written
+    std::uint32_t written_count_ = 0;             // samples in the file, as far as this run has written it
+    bool is_valid_ = false;
+    bool has_told_failure_ = false;
+    std::vector<std::byte> film_;
+    BackgroundTask task_; // destroyed first: it uses the others
+};
+
+// After pt_set_render. Returns how many samples a pixel there were: 0 if there is no such file yet, as where the run
+// before was ended too early to write one. Throws Failure(ExitCode::usage) if the checkpoint is of another picture,
+// which says what differs, or has samples that this run does not take.
+std::uint32_t resume(const Context &context, const RenderTask &task);
+
+} // namespace cli
