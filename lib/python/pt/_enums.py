@@ -1,87 +1,66 @@
-"""The numbers of the headers in lib/include/pt, by name: PT_QUANTITY_RADIANCE is Quantity.RADIANCE. tests/abi holds
-them against the headers, so that one that is added there is added here."""
+"""The numbers of the headers in lib/include/pt, by name, as lib/python/generate.py writes them: PT_QUANTITY_RADIANCE
+is Quantity.RADIANCE."""
 
 import enum
 from typing import Final
 
-
-class Result(enum.IntEnum):
-    """What a call came to. Errors are raised (see Error), so that calls return one of the first four."""
-
-    OK = 0
-    CANCELLED = 1  # the caller asked to stop; whole samples were kept, or the scene before
-    TARGET_REACHED = 2  # the target error was reached before all samples were taken
-    PENDING = 3
-    ERROR_INVALID_ARGUMENT = -1
-    ERROR_INVALID_SCENE = -2
-    ERROR_INVALID_STATE = -3
-    ERROR_UNSUPPORTED = -4
-    ERROR_NO_DEVICE = -5
-    ERROR_OUT_OF_HOST_MEMORY = -6
-    ERROR_OUT_OF_DEVICE_MEMORY = -7
-    ERROR_DEVICE_LOST = -8
-    ERROR_SHADER = -9
-    ERROR_INTERNAL = -10
-    ERROR_INCOMPATIBLE = -11
+NO_OBJECT: Final = 0xFFFFFFFF  # of Quantity.OBJECT, where a ray meets nothing
 
 
 class Quantity(enum.IntEnum):
     """What is read of an image."""
 
-    RADIANCE = 0  # mean of the samples: linear RGB, unclamped
-    STANDARD_ERROR = 1  # of that mean; in a single pixel no more than a hint. Infinite up to 8 samples
-    SAMPLE_COUNT = 2  # samples that the pixel has, the same in all channels
-    DEPTH = 3  # along the view, of what the ray through the pixel's centre meets first; infinite where that is nothing
-    NORMAL = 4  # of what camera rays meet first, the mean of 16
-    ALBEDO = 5  # diffuse + specular of that, likewise
-    OBJECT = 6  # index of the sphere, or of all spheres + that of the plane; NO_OBJECT. In Format.R32UI
-    COVERAGE = 7  # share of the samples whose camera rays meet a surface
-
-
-NO_OBJECT: Final = 0xFFFFFFFF  # of Quantity.OBJECT, where a ray meets nothing
+    RADIANCE = 0  # mean of the samples
+    STANDARD_ERROR = 1  # standard error of that mean, from the difference of the means of two parts of the samples
+    SAMPLE_COUNT = 2  # samples that the pixel has, the same in all channels, as float32 rounds it
+    DEPTH = 3  # depth along the view, as compositing programs have it
+    NORMAL = 4  # unit normal in the world's coordinates x, y, z, on the side of the camera
+    ALBEDO = 5  # diffuse + specular, no component above 1, of each of these rays
+    OBJECT = 6  # index of the sphere whose depth it is, as the scene counts them
+    COVERAGE = 7  # share of the pixel's samples whose camera rays meet a surface, the same in all channels
 
 
 class Format(enum.IntEnum):
     """What a pixel is; A is 1."""
 
-    RGB32F = 0
-    RGBA32F = 1
-    RGBA16F = 2
-    R32UI = 3  # a number for each pixel: of Quantity.OBJECT
+    RGB32F = 0  # R, G, B as float32
+    RGBA32F = 1  # R, G, B, A as float32
+    RGBA16F = 2  # R, G, B, A as float16
+    R32UI = 3  # one uint32_t
 
 
 class MaterialFlag(enum.IntFlag):
     """What else a material is."""
 
-    HIDDEN_FROM_CAMERA = 1  # rays from the camera pass through
+    HIDDEN_FROM_CAMERA = 1  # Rays from the camera pass through surfaces of the material
 
 
 class Projection(enum.IntEnum):
     """What the rays of a camera have in common."""
 
-    PERSPECTIVE = 0  # they start at one point
-    ORTHOGRAPHIC = 1  # they are parallel, and start on a plane
+    PERSPECTIVE = 0  # a pinhole
+    ORTHOGRAPHIC = 1  # parallel rays along the viewing direction, which start on the plane through position across it
 
 
 class Estimator(enum.IntEnum):
     """How light is found. All converge to the same image, with different noise and time."""
 
-    BEST = 0  # mis
-    UNIFORM = 1
-    COSINE = 2
-    BSDF = 3
-    LIGHT = 4
-    MIS = 5
+    BEST = 0  # what this version considers best
+    UNIFORM = 1  # directions uniform on the hemisphere
+    COSINE = 2  # directions by the cosine to the normal, the geometric term
+    BSDF = 3  # directions by the material
+    LIGHT = 4  # lamps by solid angle
+    MIS = 5  # lamps sampled by solid angle and directions as bsdf, combined
 
 
 class Sampler(enum.IntEnum):
     """Where a sample's numbers come from. All converge to the same image, at other rates."""
 
-    BEST = 0  # sobol
-    RANDOM = 1
-    HALTON = 2
-    HALTON_CP = 3
-    SOBOL = 4
+    BEST = 0  # what this version considers best
+    RANDOM = 1  # independent random numbers
+    HALTON = 2  # radical inverses in prime bases, the same points in every pixel
+    HALTON_CP = 3  # the same, rotated by a random offset per pixel and dimension (Cranley, Patterson)
+    SOBOL = 4  # Sobol points, Owen-scrambled per pixel and dimension
 
 
 class Sampling(enum.IntEnum):
@@ -95,53 +74,73 @@ class Sampling(enum.IntEnum):
 class ColumnType(enum.IntEnum):
     """What a component of a column is."""
 
-    FLOAT32 = 1
-    FLOAT64 = 2
-    UINT32 = 3
-    SRGB8 = 4
+    FLOAT32 = 1  # float
+    FLOAT64 = 2  # double
+    UINT32 = 3  # uint32_t
+    SRGB8 = 4  # uint8_t, for colours alone
 
 
 class LogLevel(enum.IntEnum):
     """Level of a log line."""
 
-    ERROR = 1
-    WARNING = 2
-    INFO = 3
+    ERROR = 1  # something is wrong
+    WARNING = 2  # something may be wrong
+    INFO = 3  # something to know
 
 
 class CreateFlag(enum.IntFlag):
     """What else a context is to be; see Context."""
 
-    VALIDATION = 1
-    NO_SCENE_KERNELS = 2
+    VALIDATION = 1  # the Khronos validation layer reports to log
+    NO_SCENE_KERNELS = 2  # No kernels with a scene's numbers as constants
 
 
 class DeviceKind(enum.IntEnum):
     """What a Vulkan device is."""
 
-    OTHER = 0
-    INTEGRATED_GPU = 1
-    DISCRETE_GPU = 2
-    VIRTUAL_GPU = 3
-    CPU = 4
+    OTHER = 0  # none of these
+    INTEGRATED_GPU = 1  # shares the memory of the machine
+    DISCRETE_GPU = 2  # has memory of its own
+    VIRTUAL_GPU = 3  # a virtual machine's
+    CPU = 4  # a driver that runs kernels on the CPU
 
 
 class Feature(enum.IntFlag):
     """What the kernel contains because the scene needs it."""
 
-    LAMPS = 1
-    GLOSS = 2
-    MOTION = 4
-    LARGE = 8
-    TREE = 16
-    ORTHOGRAPHIC = 32
-    HIDDEN = 64
+    LAMPS = 1  # emitting spheres, sampled directly
+    GLOSS = 2  # specular lobes
+    MOTION = 4  # spheres that move while the shutter is open
+    LARGE = 8  # more surfaces than a uniform buffer holds, or a tree
+    TREE = 16  # so many spheres that they are in a tree
+    ORTHOGRAPHIC = 32  # parallel camera rays
+    HIDDEN = 64  # surfaces that the camera does not see
 
 
 class Uncertain(enum.IntFlag):
     """Why an error that is stated may be far off. Its bounds are then wider by a further factor of two."""
 
-    RMSE = 1
-    RELATIVE_RMSE = 2
+    RMSE = 1  # rmse comes from fewer than 8 pixels
+    RELATIVE_RMSE = 2  # relative_rmse comes from fewer than 8 pixels
     UNSEEN = 4
-    UNMET = 8
+    UNMET = 8  # A lamp that matters is in view, and a pixel's samples are expected to meet it fewer than 8 times
+
+
+class Result(enum.IntEnum):
+    """What a call came to. Errors are raised (see Error), so that calls return one of the first four."""
+
+    OK = 0  # done
+    CANCELLED = 1  # the caller asked to stop
+    TARGET_REACHED = 2  # the target error was reached before all samples were taken
+    PENDING = 3  # samples are under way, see pt/async.h
+    ERROR_INVALID_ARGUMENT = -1  # a field, size or pointer breaks a rule of this header
+    ERROR_INVALID_SCENE = -2  # a scene breaks a rule
+    ERROR_INVALID_STATE = -3  # something has to be set or to end first, or a call is under way already
+    ERROR_UNSUPPORTED = -4  # valid, but beyond this device, driver or library
+    ERROR_NO_DEVICE = -5  # no Vulkan driver, or no device fits
+    ERROR_OUT_OF_HOST_MEMORY = -6  # the machine has too little memory left
+    ERROR_OUT_OF_DEVICE_MEMORY = -7  # the device has too little memory left, for this image for instance
+    ERROR_DEVICE_LOST = -8  # the device or its driver gave up
+    ERROR_SHADER = -9  # the driver refused to build the kernel, or its GLSL does not compile
+    ERROR_INTERNAL = -10  # a bug in this library or in the driver
+    ERROR_INCOMPATIBLE = -11  # a film that does not belong to what is rendered (pt/film.h)

@@ -1,15 +1,15 @@
-"""The structs of the headers in lib/include/pt that the package uses, field by field; a field that is not set is 0,
-which means its default. tests/abi holds names, types, offsets and sizes against the headers."""
+"""The structs of the headers in lib/include/pt, field by field, as lib/python/generate.py writes them; a field
+that is not set is 0, which means its default."""
 
 import ctypes
 from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_uint8, c_uint32, c_uint64, c_void_p
 from typing import Any
 
-pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 pt_progress_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_double)
 pt_log_fn = ctypes.CFUNCTYPE(None, c_void_p, c_int32, c_char_p)
 pt_load_kernels_fn = ctypes.CFUNCTYPE(c_uint64, c_void_p, c_char_p, c_void_p, c_uint64)
 pt_store_kernels_fn = ctypes.CFUNCTYPE(None, c_void_p, c_char_p, c_void_p, c_uint64)
+pt_take_bytes_fn = ctypes.CFUNCTYPE(c_int32, c_void_p, c_void_p, c_uint64)
 
 
 class Sized(ctypes.Structure):
@@ -28,10 +28,6 @@ class pt_sphere(ctypes.Structure):
                 ("reserved", c_uint32)]
 
 
-class pt_plane(ctypes.Structure):
-    _fields_ = [("normal", c_double * 3), ("offset", c_double), ("material", c_uint32), ("reserved", c_uint32)]
-
-
 class pt_column(ctypes.Structure):
     _fields_ = [("data", c_void_p), ("stride_bytes", c_uint32), ("type", c_uint32)]
 
@@ -39,6 +35,10 @@ class pt_column(ctypes.Structure):
 class pt_sphere_array(Sized):
     _fields_ = [("struct_size", c_uint32), ("count", c_uint32), ("center", pt_column), ("radius", pt_column),
                 ("motion", pt_column), ("material", pt_column), ("color", pt_column)]
+
+
+class pt_plane(ctypes.Structure):
+    _fields_ = [("normal", c_double * 3), ("offset", c_double), ("material", c_uint32), ("reserved", c_uint32)]
 
 
 class pt_scene(Sized):
@@ -50,8 +50,8 @@ class pt_scene(Sized):
 
 
 class pt_camera(Sized):
-    _fields_ = [("struct_size", c_uint32), ("projection", c_uint32), ("position", c_double * 3), ("target", c_double * 3),
-                ("up", c_double * 3), ("vertical_fov", c_double), ("shutter_open", c_double),
+    _fields_ = [("struct_size", c_uint32), ("projection", c_uint32), ("position", c_double * 3),
+                ("target", c_double * 3), ("up", c_double * 3), ("vertical_fov", c_double), ("shutter_open", c_double),
                 ("shutter_close", c_double), ("vertical_extent", c_double)]
 
 
@@ -80,6 +80,10 @@ class pt_create_info(Sized):
                 ("kernels_user", c_void_p)]
 
 
+class pt_function_accuracy(ctypes.Structure):
+    _fields_ = [("name", c_char * 40), ("worst_error", c_double), ("bound", c_double), ("worst_input", c_double)]
+
+
 class pt_device_info(ctypes.Structure):
     _fields_ = [("kind", c_uint32), ("suitable", c_uint32), ("memory_bytes", c_uint64), ("uuid", c_uint8 * 16),
                 ("name", c_char * 256), ("driver", c_char * 256), ("reason", c_char * 256)]
@@ -88,15 +92,6 @@ class pt_device_info(ctypes.Structure):
 class pt_broken_rule(Sized):
     _fields_ = [("struct_size", c_uint32), ("component", c_int32), ("index", c_int64), ("subject", c_char_p),
                 ("member", c_char_p), ("with", c_char_p), ("value", c_char_p), ("rule", c_char_p)]
-
-
-class pt_stats(Sized):
-    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
-                ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
-                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
-                ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
-                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("max_sample_count", c_uint32),
-                ("mean_sample_count", c_double)]
 
 
 class pt_film_info(Sized):
@@ -113,3 +108,12 @@ class pt_film_tile(Sized):
 
 class pt_sample_range(ctypes.Structure):
     _fields_ = [("first", c_uint64), ("end", c_uint64)]
+
+
+class pt_stats(Sized):
+    _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
+                ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
+                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
+                ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
+                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("max_sample_count", c_uint32),
+                ("mean_sample_count", c_double)]

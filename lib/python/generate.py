@@ -1,0 +1,130 @@
+"""Writes pt/_structs.py and pt/_enums.py: the structs and numbers of the headers, as Python has them.
+
+python3 lib/python/generate.py [HEADERS [PACKAGE]]; by default ../include/pt and pt beside this file. The files are
+committed, since the package is installed without the headers and without a build; a test asserts that they are what this
+writes."""
+
+import pathlib
+import re
+import sys
+import textwrap
+
+# Of each enumeration the common beginning of its names, its class, and what that says.
+ENUMERATIONS = (
+    ("PT_QUANTITY_", "Quantity", "IntEnum", "What is read of an image."),
+    ("PT_FORMAT_", "Format", "IntEnum", "What a pixel is; A is 1."),
+    ("PT_MATERIAL_", "MaterialFlag", "IntFlag", "What else a material is."),
+    ("PT_PROJECTION_", "Projection", "IntEnum", "What the rays of a camera have in common."),
+    ("PT_ESTIMATOR_", "Estimator", "IntEnum", "How light is found. All converge to the same image, with different noise "
+                                              "and time."),
+    ("PT_SAMPLER_", "Sampler", "IntEnum", "Where a sample's numbers come from. All converge to the same image, at other "
+                                          "rates."),
+    ("PT_SAMPLING_", "Sampling", "IntEnum", "Where samples go. All converge to the same image."),
+    ("PT_TYPE_", "ColumnType", "IntEnum", "What a component of a column is."),
+    ("PT_LOG_", "LogLevel", "IntEnum", "Level of a log line."),
+    ("PT_CREATE_", "CreateFlag", "IntFlag", "What else a context is to be; see Context."),
+    ("PT_DEVICE_", "DeviceKind", "IntEnum", "What a Vulkan device is."),
+    ("PT_FEATURE_", "Feature", "IntFlag", "What the kernel contains because the scene needs it."),
+    ("PT_UNCERTAIN_", "Uncertain", "IntFlag", "Why an error that is stated may be far off. Its bounds are then wider by a "
+                                              "further factor of two."),
+    ("PT_", "Result", "IntEnum", "What a call came to. Errors are raised (see Error), so that calls return one of the "
+                                 "first four."),
+)
+
+NUMBERS = {"float": "c_float", "double": "c_double", "char": "c_char", "int32_t": "c_int32", "uint32_t": "c_uint32",
+           "int64_t": "c_int64", "uint64_t": "c_uint64", "uint8_t": "c_uint8"}
+POINTERS = {"char *": "c_char_p", "void *": "c_void_p"}
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+
+
+def python_type(declared, known):
+    """The ctypes type of a declared one, of which structs are known by now; other pointers are handles."""
+    kind, bracket, count = declared.removeprefix("const ").partition("[")
+    if bracket:
+        return f"{NUMBERS[kind.strip()]} * {count[:-1]}"
+    if kind.endswith(" *"):
+        target = kind[:-2]
+        target = NUMBERS.get(target, target if target in known else None)
+        return POINTERS.get(kind) or (f"POINTER({target})" if target else "c_void_p")
+    return NUMBERS.get(kind, kind)
+
+
+def members_of(body):
+    """Names and types of the members that are declared one by line of a struct's body."""
+    for declaration in filter(None, (" ".join(part.split()) for part in body.split(";"))):
+        kind, name, array = re.fullmatch(r"(.*?)(\w+)((?:\[\d+\])*)", declaration).groups()
+        yield name, kind.strip() + array
+
+
+def structs_text(headers):
+    lines = ['"""The structs of the headers in lib/include/pt, field by field, as lib/python/generate.py writes them; a field',
+             'that is not set is 0, which means its default."""', "", "import ctypes",
+             "from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int32, c_int64, c_uint8, c_uint32, "
+             "c_uint64, c_void_p", "from typing import Any", ""]
+    text = without_comments("".join(headers))
+    for result, name, parameters in re.findall(r"typedef (\w+) \(\*(pt_\w+)\)\(([^)]*)\);", text):
+        types = [python_type(kind.strip(), ()) for kind in re.findall(r"([^,]*?)\w+(?:,|$)", parameters)]
+        lines.append(f"{name} = ctypes.CFUNCTYPE({', '.join(['None' if result == 'void' else NUMBERS[result], *types])})")
+    lines += ["", "", "class Sized(ctypes.Structure):",
+              '    """A struct that begins with its size, as its caller (here: this file) has it."""', "",
+              "    def __init__(self, **fields: Any) -> None:",
+              "        super().__init__(struct_size=ctypes.sizeof(self), **fields)"]
+    known = []
+    for name, body in re.findall(r"\bstruct (\w+) \{(.*?)\}", text, re.DOTALL):
+        members = [(member, python_type(kind, known)) for member, kind in members_of(body)]
+        base = "Sized" if members[0][0] == "struct_size" else "ctypes.Structure"
+        fields = ", ".join(f'("{member}",~{kind.replace(" ", "~")})' for member, kind in members)
+        fields = textwrap.fill(f"    _fields_ = [{fields}]", 120, subsequent_indent=" " * 16).replace("~", " ")
+        lines += ["", "", f"class {name}({base}):", fields]
+        known.append(name)
+    return "\n".join(lines) + "\n"
+
+
+def first_words(comment):
+    """Of a comment what comes before the first break of its sentence."""
+    return re.split(r"[:;.](?:\s|$)", " ".join(comment.replace("*", " ").split()))[0]
+
+
+def enumerators_of(headers):
+    """Name, number and words of each enumerator."""
+    for text in headers:
+        for body in re.findall(r"\benum \{(.*?)\n\};", text, re.DOTALL):
+            for before, name, number, after in re.findall(
+                    r"(?:/\*\*((?:(?!\*/).)*)\*/\s*)?\b(PT_\w+) = (-?\d+),?(?:\s*/\*\*<((?:(?!\*/).)*)\*/)?", body, re.DOTALL):
+                yield name, number, first_words(before or after)
+
+
+def enums_text(headers):
+    lines = ['"""The numbers of the headers in lib/include/pt, by name, as lib/python/generate.py writes them: PT_QUANTITY_RADIANCE',
+             'is Quantity.RADIANCE."""', "", "import enum", "from typing import Final", "",
+             "NO_OBJECT: Final = 0xFFFFFFFF  # of Quantity.OBJECT, where a ray meets nothing"]
+    left = list(enumerators_of(headers))
+    for prefix, name, base, words in ENUMERATIONS:
+        members = [each for each in left if each[0].startswith(prefix)]
+        left = [each for each in left if each not in members]
+        lines += ["", "", f"class {name}(enum.{base}):", f'    """{words}"""', ""]
+        for member, number, comment in members:
+            line = f"    {member.removeprefix(prefix)} = {number}"
+            lines.append(f"{line}  # {comment}" if comment and len(line) + len(comment) < 116 else line)
+    return "\n".join(lines) + "\n"
+
+
+def files_of(headers):
+    """The text of each file, by its name; headers: their texts by name."""
+    ordered = [headers["pt.h"], *(text for name, text in sorted(headers.items()) if name not in ("pt.h", "vulkan.h"))]
+    return {"_structs.py": structs_text(ordered), "_enums.py": enums_text(ordered)}
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parent
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here.parent / "include" / "pt"
+    package = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else here / "pt"
+    for name, text in files_of({path.name: path.read_text() for path in folder.glob("*.h")}).items():
+        (package / name).write_text(text)
+
+
+if __name__ == "__main__":
+    main()
