@@ -54,12 +54,6 @@ public:
     void write(std::span<const std::byte> bytes);
     void commit();
 
-    static void write_text(const std::string &path, std::string_view text) {
-        AtomicFile file(path);
-        file.write(std::as_bytes(std::span(text)));
-        file.commit();
-    }
-
     // Checks all that the constructor checks, and leaves no file behind: nor those of programs that were killed while
     // they wrote in that folder.
     static void check_writable(const std::string &path);

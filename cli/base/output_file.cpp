@@ -31,8 +31,8 @@ fs::path target_of(const NamedFile &file, bool is_input) {
 // Whether they are one file, or would be: then their folders are one, and their names there.
 bool is_same(const fs::path &one, const fs::path &other) {
     std::error_code error;
-    if (one.empty() || other.empty())
-        return false;
+    if (one.empty() || other.empty() || one == other)
+        return !one.empty() && one == other;
     if (fs::exists(one, error) || fs::exists(other, error))
         return fs::equivalent(one, other, error);
     const fs::path first = AtomicFile::target_of(one);

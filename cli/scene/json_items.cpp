@@ -14,14 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-// How far the parser has come. It reads one character beyond a number, which may end the line: the last one that was
-// read does not count.
-struct Reached {
-    std::size_t line = 1;
-    std::size_t next_line = 1;
-};
-
-class LineCountingIterator {
+// Tells how far the parser has come.
+class TellingIterator {
 public:
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -29,19 +23,18 @@ public:
     using pointer = const char *;
     using reference = const char &;
 
-    LineCountingIterator(const char *position, Reached &reached) : position_(position), reached_(&reached) {}
+    TellingIterator(const char *position, const char *&reached) : position_(position), reached_(&reached) {}
 
     reference operator*() const { return *position_; }
-    LineCountingIterator &operator++() {
-        reached_->line = reached_->next_line;
-        reached_->next_line += *position_++ == '\n' ? 1 : 0;
+    TellingIterator &operator++() {
+        *reached_ = ++position_;
         return *this;
     }
-    bool operator==(const LineCountingIterator &other) const { return position_ == other.position_; }
+    bool operator==(const TellingIterator &other) const { return position_ == other.position_; }
 
 private:
     const char *position_;
-    Reached *reached_;
+    const char **reached_;
 };
 
 JsonLines::Place mixed(JsonLines::Place parent, std::uint64_t step) {
@@ -51,10 +44,12 @@ JsonLines::Place mixed(JsonLines::Place parent, std::uint64_t step) {
 
 class ItemParser {
 public:
-    ItemParser(JsonLines &lines, JsonItemHandler &handler, const Reached &reached) :
+    // reached: how far the text is read.
+    ItemParser(JsonLines &lines, JsonItemHandler &handler, const char *const &reached) :
         lines_(lines),
         handler_(handler),
-        reached_(reached) {}
+        reached_(reached),
+        counted_(reached) {}
 
     // The parser's callback: false if the value is not to be kept.
     bool take(json::parse_event_t event, const json &parsed) {
@@ -90,11 +85,10 @@ private:
         std::size_t line = 0;
     };
 
-    // An array or object that is open, the step to what is inside it now, and the keys that it has.
+    // An array or object that is open, and the step to what is inside it now.
     struct Level {
         Place place;
         JsonStep step;
-        std::unordered_set<std::string> names;
     };
 
     // Open levels before the value: 0 for the root, 1 for a section, 2 for an item.
@@ -108,8 +102,13 @@ private:
         return path;
     }
 
+    // The parser reads one character beyond a number, which may end the line: the last one that was read does not
+    // count.
     void enter(JsonLines::Place hash) {
-        value_ = {hash, reached_.line};
+        const char *const end = std::max(counted_, reached_ - 1);
+        line_ += static_cast<std::size_t>(std::count(counted_, end, '\n'));
+        counted_ = end;
+        value_ = {hash, line_};
         if (levels_.size() <= section_depth || value_.line != levels_.back().place.line)
             lines_.add(hash, value_.line);
     }
@@ -118,8 +117,17 @@ private:
         Level &level = levels_.back();
         level.step.key = name;
         enter(JsonLines::member(level.place.hash, name));
-        if (!level.names.insert(name).second)
+        if (!is_new(value_.hash))
             throw JsonRefusal(path(), "is given twice");
+    }
+
+    // Items have few members, but may be millions; sections may have many.
+    bool is_new(JsonLines::Place member) {
+        if (levels_.size() <= element_depth)
+            return members_.insert(member).second;
+        const bool is_known = std::ranges::find(members_of_item_, member) != members_of_item_.end();
+        members_of_item_.push_back(member);
+        return !is_known;
     }
 
     // A member has a line since its key was read. Array elements have no such event: a value that begins is the next.
@@ -141,7 +149,7 @@ private:
     void begin(bool is_array) {
         enter_value(is_array ? json::value_t::array : json::value_t::object);
         levels_.push_back(
-            {value_, {{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}, {}}); // the first makes 0
+            {value_, {{}, is_array ? static_cast<std::size_t>(-1) : 0, is_array}}); // the first makes it 0
     }
 
     // Items are handed out, and not kept.
@@ -151,15 +159,20 @@ private:
         const JsonPlace root;
         const JsonPlace section = root.member(levels_[0].step.key);
         const JsonStep &step = levels_[1].step;
+        members_of_item_.clear();
         handler_.item(step.in_array ? section.element(step.index) : section.member(step.key), value);
         return false;
     }
 
     JsonLines &lines_;
     JsonItemHandler &handler_;
-    const Reached &reached_;
+    const char *const &reached_;
+    const char *counted_; // up to where lines are
+    std::size_t line_ = 1;
     std::vector<Level> levels_;
-    Place value_; // that began last
+    Place value_;                                  // that began last
+    std::unordered_set<JsonLines::Place> members_; // of the root and of sections
+    std::vector<JsonLines::Place> members_of_item_;
 };
 
 // "[json.exception...] parse error at line 1, column 2: syntax error while ...", with the place in the file's words.
@@ -200,13 +213,13 @@ void parse_json_items(std::string_view text, const std::string &file_name, JsonL
     constexpr int number_overflow = 406; // the library's documented id
     constexpr bool throws = true;
     constexpr bool ignore_comments = true;
-    Reached reached;
+    const char *reached = text.data();
     ItemParser parser(lines, handler, reached);
     const auto take = [&](int, json::parse_event_t event, const json &parsed) { return parser.take(event, parsed); };
     try {
         [[maybe_unused]] const json empty_sections =
-            json::parse(LineCountingIterator(text.data(), reached),
-                        LineCountingIterator(text.data() + text.size(), reached), take, throws, ignore_comments);
+            json::parse(TellingIterator(text.data(), reached), TellingIterator(text.data() + text.size(), reached),
+                        take, throws, ignore_comments);
     } catch (const json::parse_error &error) {
         throw failure_of(error, text, file_name);
     } catch (const json::out_of_range &error) {

@@ -1,7 +1,7 @@
 #include "cli/scene/npy_file.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/base/number.h"
+#include "cli/base/value_rule.h"
 
 #include <pt/pt.h>
 
@@ -13,12 +13,31 @@
 namespace cli {
 namespace {
 
+using nlohmann::json;
+
 static_assert(std::endian::native == std::endian::little, "NPY files are used as they are");
 
 constexpr std::string_view magic = "\x93NUMPY";
 
 std::uint32_t size_of(std::uint32_t type) {
     return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
+}
+
+// The head is a dictionary of Python, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }, which is JSON but
+// for its quotes, parentheses, capitals and last commas. What is no dictionary is discarded.
+json dictionary_of(std::string_view head) {
+    constexpr std::string_view python = "'()FT";
+    constexpr std::string_view in_json = "\"[]ft";
+    std::string text;
+    for (std::size_t i = 0; i < head.size(); ++i) {
+        const std::size_t next = std::min(head.find_first_not_of(' ', i + 1), head.size());
+        const bool is_last_comma =
+            head[i] == ',' && next < head.size() && std::string_view(")]}").find(head[next]) != std::string_view::npos;
+        const std::size_t kind = python.find(head[i]);
+        if (!is_last_comma)
+            text += kind == std::string_view::npos ? head[i] : in_json[kind];
+    }
+    return json::parse(text, nullptr, false);
 }
 
 class NpyHeader {
@@ -37,7 +56,7 @@ public:
             size |= std::size_t{static_cast<unsigned char>(file[version_place + 2 + i])} << (8 * i);
         if (file.size() < begin || file.size() - begin < size)
             refuse("ends within its head: it was cut short");
-        text_ = std::string_view(file).substr(begin, size);
+        head_ = dictionary_of(std::string_view(file).substr(begin, size));
         end_ = begin + size;
     }
 
@@ -45,7 +64,7 @@ public:
         NpyArray array;
         array.first = end_;
         array.type = type();
-        if (!value_of("fortran_order").starts_with("False"))
+        if (value_of("fortran_order") != false)
             refuse("is in column order: save numpy.ascontiguousarray(array)");
         const std::vector<std::size_t> shape = read_shape();
         if (shape.empty() || shape.size() > 2)
@@ -62,51 +81,37 @@ public:
 private:
     static constexpr std::size_t longest_row = 3;
 
-    // What stands behind a key of the dictionary of Python that the head is.
-    std::string_view value_of(std::string_view key) const {
-        const std::string quoted = "'" + std::string(key) + "':";
-        const std::size_t place = text_.find(quoted);
-        if (place == std::string_view::npos)
+    const json &value_of(const char *key) const {
+        const auto found = head_.is_object() ? head_.find(key) : head_.end();
+        if (found == head_.end())
             refuse("its head has no " + std::string(key));
-        const std::string_view rest = text_.substr(place + quoted.size());
-        return rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+        return *found;
     }
 
     std::uint32_t type() const {
-        const std::string_view value = value_of("descr");
-        const std::string_view code =
-            value.starts_with('\'') ? value.substr(1, value.find('\'', 1) - 1) : value.substr(0, value.find(','));
+        const json &code = value_of("descr");
         if (code == "<f4")
             return PT_TYPE_FLOAT32;
         if (code == "<f8")
             return PT_TYPE_FLOAT64;
         if (code == "|u1")
             return PT_TYPE_SRGB8;
-        refuse("has numbers of the type " + std::string(code.substr(0, 20)) +
+        refuse("has numbers of the type " +
+               (code.is_string() && shown(code) != json_kind(code.type()) ? code.get<std::string>()
+                                                                          : json_kind(code.type())) +
                ", must be <f4, <f8 or |u1: save array.astype(\"float32\")");
     }
 
-    // "(10, 3), ..."
     std::vector<std::size_t> read_shape() const {
-        std::string_view text = value_of("shape");
-        const std::size_t end = text.find(')');
-        if (!text.starts_with('(') || end == std::string_view::npos)
+        const json &shape = value_of("shape");
+        if (!shape.is_array() ||
+            !std::ranges::all_of(shape, [](const json &each) { return each.is_number_unsigned(); }))
             refuse("its head has a shape that is none");
-        text = text.substr(1, end - 1);
-        std::vector<std::size_t> shape;
-        while (!text.empty()) {
-            const std::size_t length = std::min(text.find(','), text.size());
-            const auto number = parse_number<std::size_t>(text.substr(0, length));
-            if (!number)
-                refuse("its head has a shape that is none");
-            shape.push_back(*number);
-            text.remove_prefix(std::min(text.find_first_not_of(", ", length), text.size()));
-        }
-        return shape;
+        return shape.get<std::vector<std::size_t>>();
     }
 
     const std::string &name_;
-    std::string_view text_;
+    json head_;
     std::size_t end_ = 0;
 };
 

@@ -39,7 +39,7 @@ class Refusals(ColumnsTest):
                 (good[:6] + b"\3" + good[7:], "has NPY version 3, must be 1 or 2"),
                 (good.replace(b"<f4", b">f4"), "has numbers of the type >f4, must be <f4, <f8 or |u1: save array"),
                 (good.replace(b"<f4", b"<i4"), "has numbers of the type <i4"),
-                (good.replace(b"'<f4'", b"[('x'"), "has numbers of the type [('x'"),
+                (good.replace(b"'<f4'", b"[('x'"), "its head has no descr"),
                 (good.replace(b"False", b"True "), "is in column order: save numpy.ascontiguousarray(array)"),
                 (good.replace(b"(3,)", b"()  "), "has 0 dimensions, must have 1 or 2"),
                 (good.replace(b"(3,)", b"(-1)"), "its head has a shape that is none"),

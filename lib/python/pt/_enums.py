@@ -123,7 +123,7 @@ class Uncertain(enum.IntFlag):
     RMSE = 1  # rmse comes from fewer than 8 pixels
     RELATIVE_RMSE = 2  # relative_rmse comes from fewer than 8 pixels
     UNSEEN = 4
-    UNMET = 8  # A lamp that matters is in view, and a pixel's samples are expected to meet it fewer than 8 times
+    UNMET = 8  # Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times
 
 
 class Result(enum.IntEnum):
