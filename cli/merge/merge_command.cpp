@@ -11,6 +11,7 @@
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
 #include "cli/render/render_output.h"
+#include "cli/render/render_report.h"
 
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,15 @@ namespace cli {
 namespace {
 
 using Ranges = std::vector<pt_sample_range>;
+
+// What a sum of films has, and what it lacks.
+struct MergeReport {
+    RenderReport picture; // as far as a film says it
+    pt_film_info info;
+    std::size_t part_count;
+    Ranges samples; // that all pixels have
+    Ranges missing; // of those that there should be, some pixel has not
+};
 
 void check(const MergeOptions &options) {
     const OutputOptions &output = options.output;
@@ -53,23 +63,6 @@ std::unique_ptr<FilmHandle> sum_of(const std::vector<std::string> &parts) {
     if (failed)
         throw Failure(*failed, "nothing was written");
     return sum;
-}
-
-// Whether all files could be written.
-bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
-    const OutputOptions &output = options.output;
-    const std::vector<float> radiance = film.read_image(PT_QUANTITY_RADIANCE);
-    const std::vector<float> standard_error =
-        output.standard_error.empty() ? std::vector<float>() : film.read_image(PT_QUANTITY_STANDARD_ERROR);
-    const Display display = display_of(options.display);
-    if (needs_tone_map(output))
-        report.picture.tone_map = display.tone_map(radiance);
-    report.picture.automatic_exposure = report.picture.tone_map && !display.exposure;
-    ImageWriter writer;
-    const std::size_t written = write_images(writer, output, report.picture, {radiance, standard_error, {}}).size();
-    const bool has_film = output.film.empty() || write_film([&] { return film.bytes(); }, output.film);
-    write_report_file(output.stats, json_text(stats_json(report)));
-    return has_film && written == output_count(output);
 }
 
 // From the first to the last sample of any pixel.
@@ -132,6 +125,69 @@ nlohmann::ordered_json json_of(const Ranges &ranges) {
     return list;
 }
 
+MergeReport merge_report(const FilmHandle &film, const MergeOptions &options) {
+    std::vector<Ranges> tiles;
+    for (std::uint32_t i = 0; i < film.info().tile_count; ++i)
+        tiles.push_back(film.ranges(i));
+    const pt_sample_range hull = hull_of(tiles);
+    MergeReport report{picture_of(film, film.info(), hull), film.info(), options.parts.size(), {}, {}};
+    report.samples = missing_of(hull, missing_in_any(hull, tiles));
+    report.missing = missing_in_any(wanted_range(options, hull), tiles);
+    return report;
+}
+
+nlohmann::ordered_json stats_json(const MergeReport &report) {
+    const pt_film_info &info = report.info;
+    nlohmann::ordered_json stats{{"version", version_text()},
+                                 {"films", report.part_count},
+                                 {"width", info.width},
+                                 {"height", info.height},
+                                 {"rectangle", {info.x, info.y, info.columns, info.rows}},
+                                 {"tiles", info.tile_count},
+                                 {"spp", report.picture.stats.sample_count},
+                                 {"samples", json_of(report.samples)},
+                                 {"missing", json_of(report.missing)},
+                                 {"seed", info.seed},
+                                 {"max_path_length", info.max_path_length},
+                                 {"sampler", samplers.name(info.sampler)},
+                                 {"estimator", estimators.name(info.estimator)},
+                                 {"device", info.device}};
+    stats.update(error_json(report.picture.stats));
+    stats.update(nlohmann::ordered_json{{"rejected_samples", report.picture.stats.rejected_samples},
+                                        {"tone_map", tone_map_json(report.picture)}});
+    return stats;
+}
+
+// "8 films of 320x160 pixels: 64 spp, samples [0, 64)", and a line of what is missing, if anything is.
+std::string summary_text(const MergeReport &report) {
+    return concat(report.part_count, report.part_count == 1 ? " film of " : " films of ", report.info.columns, "x",
+                  report.info.rows, " pixels: ", report.picture.stats.sample_count, " spp, samples ",
+                  ranges_text(report.samples));
+}
+
+std::string missing_text(const MergeReport &report) {
+    return report.missing.empty() ? ""
+                                  : concat(sample_count_of(report.missing),
+                                           " samples per pixel are missing: ", ranges_text(report.missing));
+}
+
+// Whether all files could be written.
+bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
+    const OutputOptions &output = options.output;
+    const std::vector<float> radiance = film.read_image(PT_QUANTITY_RADIANCE);
+    const std::vector<float> standard_error =
+        output.standard_error.empty() ? std::vector<float>() : film.read_image(PT_QUANTITY_STANDARD_ERROR);
+    const Display display = display_of(options.display);
+    if (needs_tone_map(output))
+        report.picture.tone_map = display.tone_map(radiance);
+    report.picture.automatic_exposure = report.picture.tone_map && !display.exposure;
+    ImageWriter writer;
+    const std::size_t written = write_images(writer, output, report.picture, {radiance, standard_error, {}}).size();
+    const bool has_film = output.film.empty() || write_film([&] { return film.bytes(); }, output.film);
+    write_report_file(output.stats, json_text(stats_json(report)));
+    return has_film && written == output_count(output);
+}
+
 } // namespace
 
 int run_merge(const MergeOptions &options) {
@@ -172,51 +228,6 @@ void add_merge_options(CLI::App &command, MergeOptions &options) {
     add_scene_options(command, options.display, false);
     add_png_bits(command, options.output.png_bits);
     add_quiet(command, options.output.quiet)->group("Messages");
-}
-
-MergeReport merge_report(const FilmHandle &film, const MergeOptions &options) {
-    std::vector<Ranges> tiles;
-    for (std::uint32_t i = 0; i < film.info().tile_count; ++i)
-        tiles.push_back(film.ranges(i));
-    const pt_sample_range hull = hull_of(tiles);
-    MergeReport report{picture_of(film, film.info(), hull), film.info(), options.parts.size(), {}, {}};
-    report.samples = missing_of(hull, missing_in_any(hull, tiles));
-    report.missing = missing_in_any(wanted_range(options, hull), tiles);
-    return report;
-}
-
-nlohmann::ordered_json stats_json(const MergeReport &report) {
-    const pt_film_info &info = report.info;
-    nlohmann::ordered_json stats{{"version", version_text()},
-                                 {"films", report.part_count},
-                                 {"width", info.width},
-                                 {"height", info.height},
-                                 {"rectangle", {info.x, info.y, info.columns, info.rows}},
-                                 {"tiles", info.tile_count},
-                                 {"spp", report.picture.stats.sample_count},
-                                 {"samples", json_of(report.samples)},
-                                 {"missing", json_of(report.missing)},
-                                 {"seed", info.seed},
-                                 {"max_path_length", info.max_path_length},
-                                 {"sampler", samplers.name(info.sampler)},
-                                 {"estimator", estimators.name(info.estimator)},
-                                 {"device", info.device}};
-    stats.update(error_json(report.picture.stats));
-    stats.update(nlohmann::ordered_json{{"rejected_samples", report.picture.stats.rejected_samples},
-                                        {"tone_map", tone_map_json(report.picture)}});
-    return stats;
-}
-
-std::string summary_text(const MergeReport &report) {
-    return concat(report.part_count, report.part_count == 1 ? " film of " : " films of ", report.info.columns, "x",
-                  report.info.rows, " pixels: ", report.picture.stats.sample_count, " spp, samples ",
-                  ranges_text(report.samples));
-}
-
-std::string missing_text(const MergeReport &report) {
-    return report.missing.empty() ? ""
-                                  : concat(sample_count_of(report.missing),
-                                           " samples per pixel are missing: ", ranges_text(report.missing));
 }
 
 } // namespace cli
