@@ -210,6 +210,8 @@ std::optional<std::size_t> JsonLines::find(const JsonPath &path) const {
 }
 
 void parse_json_items(std::string_view text, const std::string &file_name, JsonLines &lines, JsonItemHandler &handler) {
+    if (text.empty()) // for which versions of nlohmann-json have different words
+        throw Failure(ExitCode::scene, file_name + ":1:1: syntax error: the file is empty");
     constexpr int number_overflow = 406; // the library's documented id
     constexpr bool throws = true;
     constexpr bool ignore_comments = true;
