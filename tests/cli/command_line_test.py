@@ -7,6 +7,7 @@ import glob
 import json
 import os
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -83,6 +84,24 @@ class Usage(CommandLineTest):
 
     def test_a_format_too_small_for_the_picture(self):
         self.expect(2, "render", COURSEWORK, "-o", "a.jpg", "--size", "65501x1", error="65500")
+        self.assertEqual(self.files(), [])
+
+    def test_files_of_any_name_stand_behind_two_dashes(self):
+        shutil.copy(COURSEWORK, self.path("-s.json"))
+        arguments = ["render", "-o", "a.png", "--spp", "1", "--size", "2x2"]
+        self.expect(2, *arguments, "-s.json")
+        self.assertEqual(self.files(), ["-s.json"])
+        self.expect(0, *arguments, "--", "-s.json")
+        self.assertEqual(self.files(), ["-s.json", "a.png"])
+        self.expect(2, *arguments, "--", "-s.json", "--spp", error='unexpected argument "./--spp"')
+
+    def test_failing_allocations_end_the_program(self):
+        # Each run fails at another one of those that parsing takes, and says so, or does without it.
+        codes = []
+        for number in range(1, 3000, 61):
+            codes.append(self.run_pt("render", COURSEWORK, "-o", "a.png", "--gamma", "0", FAKE_PT_ALLOCATION=number))
+            self.assertRegex(self.errors, {1: r"\Apt: out of memory(, or an internal error)?\n\Z", 2: "--gamma"}[codes[-1]])
+        self.assertGreater(codes.count(1), 20)
         self.assertEqual(self.files(), [])
 
     def test_a_negative_exposure_is_a_value(self):

@@ -5,7 +5,8 @@
 // four, counted from 1 over all calls; FAKE_PT_FAIL=name:1 gives the device a name that is not UTF-8;
 // FAKE_PT_SCENE_SIGNAL=number makes it get one while it hands over the scene;
 // FAKE_PT_LOG=function makes a function send a line to the log. FAKE_PT_MESSAGE is the message of failures, and
-// FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about.
+// FAKE_PT_RULE=subject,index,member,component,with,value,rule the rule that they are about. FAKE_PT_ALLOCATION=number
+// makes the program's allocation of that number fail, counted from the beginning of main.
 #include <pt/accuracy.h>
 #include <pt/devices.h>
 #include <pt/errors.h>
@@ -14,12 +15,15 @@
 #include <pt/shaders.h>
 #include <pt/stats.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <limits>
+#include <new>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -105,11 +109,33 @@ double fake_error(std::uint32_t sample_count) {
     return sample_count < 16 ? std::numeric_limits<double>::infinity() : 1.0 / sample_count;
 }
 
+// Whether it is the allocation that is to fail. Main begins with a terminate handler of its own.
+bool is_failing_allocation() {
+    static const std::terminate_handler before_main = std::get_terminate();
+    static const char *const wanted = std::getenv("FAKE_PT_ALLOCATION");
+    static std::atomic<long> left = wanted == nullptr ? 0 : std::atol(wanted);
+    return left > 0 && std::get_terminate() != before_main && --left == 0;
+}
+
 std::uint32_t rows_of(const pt_render &render) {
     return render.row_count == 0 ? render.height - render.first_row : render.row_count;
 }
 
 } // namespace
+
+void *operator new(std::size_t size) {
+    void *const memory = is_failing_allocation() ? nullptr : std::malloc(size);
+    if (memory == nullptr) {
+        throw std::bad_alloc();
+    }
+    return memory;
+}
+void operator delete(void *memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void *memory, std::size_t /*size*/) noexcept {
+    std::free(memory);
+}
 
 std::uint32_t pt_version() {
     return PT_VERSION;
