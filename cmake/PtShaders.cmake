@@ -1,5 +1,5 @@
 # pt_embed_shader(TARGET SOURCE): compiles a compute shader to SPIR-V at build time, checks it with spirv-val, and gives
-# TARGET a header <name>.spv.h with the words as `constexpr std::uint32_t <name>_spirv[]`. Included files are tracked.
+# TARGET a header <name>.spv.h whose function <name>_spirv() returns the words. Included files are tracked.
 find_program(PT_GLSLANG NAMES glslang glslangValidator REQUIRED)
 find_program(PT_SPIRV_VAL NAMES spirv-val REQUIRED)
 

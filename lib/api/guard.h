@@ -41,23 +41,14 @@ private:
     std::shared_ptr<const BrokenRules> broken_rules_;
 };
 
-// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception from a
-// caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may be
-// written in C. Samples taken before it stay, as if the callback had asked to stop.
-template <typename Call>
-pt_result guard(LastError &last_error, Call &&call) noexcept {
+// The pt_result of the exception that is being handled. Not inline: every call of the C interface ends in it.
+[[gnu::noinline]] inline pt_result failure(LastError &last_error) noexcept {
     const auto failed = [&](pt_result code, std::string_view message) {
         last_error.store(message);
         return code;
     };
-    const DefaultRounding rounding;
     try {
-        if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
-            call();
-            return PT_OK;
-        } else {
-            return call();
-        }
+        throw;
     } catch (const Error &error) {
         last_error.store(error.what(), error.broken_rules());
         return error.code();
@@ -67,6 +58,24 @@ pt_result guard(LastError &last_error, Call &&call) noexcept {
         return failed(PT_ERROR_INTERNAL, error.what());
     } catch (...) {
         return failed(PT_ERROR_INTERNAL, "an exception of unknown type");
+    }
+}
+
+// Runs a call of the C interface, which returns a pt_result or nothing (for PT_OK), or throws. An exception from a
+// caller's callback ends here too, as PT_ERROR_INTERNAL with its message: it must not reach the caller, who may be
+// written in C. Samples taken before it stay, as if the callback had asked to stop.
+template <typename Call>
+pt_result guard(LastError &last_error, Call &&call) noexcept {
+    const DefaultRounding rounding;
+    try {
+        if constexpr (std::is_void_v<std::invoke_result_t<Call>>) {
+            call();
+            return PT_OK;
+        } else {
+            return call();
+        }
+    } catch (...) {
+        return failure(last_error);
     }
 }
 

@@ -43,21 +43,27 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
-// from an older header, is read as if zeros followed; a longer one, from a newer header, must not ask for what is
-// unknown here.
-template <typename T>
-T copy_in(const T *user, const char *name, std::int64_t index = -1) {
-    const std::uint32_t size = struct_size_of(user, name, index);
-    const auto *bytes = reinterpret_cast<const unsigned char *>(user);
-    for (std::size_t i = sizeof(T); i < size; ++i)
+// Of a struct of which this library knows known bytes: others, from a newer header, must not ask for what is unknown
+// here.
+inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
+                          std::int64_t index) {
+    const auto *bytes = static_cast<const unsigned char *>(user);
+    for (std::size_t i = known; i < size; ++i)
         if (bytes[i] != 0)
             throw Error(PT_ERROR_UNSUPPORTED,
                         wrong_size(name, index, size,
                                    "byte " + std::to_string(i) + " is set, but this library knows only the first " +
-                                       std::to_string(sizeof(T)) + " bytes of the struct"));
+                                       std::to_string(known) + " bytes of the struct"));
+}
+
+// The caller's struct as this library knows it. The rule is that of Linux' copy_struct_from_user: a shorter struct,
+// from an older header, is read as if zeros followed; all that is unknown of a longer one must be zero.
+template <typename T>
+T copy_in(const T *user, const char *name, std::int64_t index = -1) {
+    const std::uint32_t size = struct_size_of(user, name, index);
+    require_known(user, size, sizeof(T), name, index);
     T copy{};
-    std::memcpy(&copy, bytes, std::min<std::size_t>(size, sizeof(T)));
+    std::memcpy(&copy, user, std::min<std::size_t>(size, sizeof(T)));
     copy.struct_size = sizeof(T);
     return copy;
 }

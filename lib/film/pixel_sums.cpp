@@ -140,14 +140,6 @@ private:
 
 } // namespace
 
-std::span<std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) {
-    return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
-}
-
-std::span<const std::uint32_t> PixelSums::plane(std::uint32_t part, std::size_t index) const {
-    return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
-}
-
 void PixelSums::clear() noexcept {
     std::ranges::fill(words_, 0U);
 }

@@ -53,8 +53,12 @@ public:
     void clear() noexcept;
 
     // One word of every pixel: a plane of a part, as in gpu_layout.h.
-    std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index);
-    std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const;
+    std::span<std::uint32_t> plane(std::uint32_t part, std::size_t index) {
+        return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+    }
+    std::span<const std::uint32_t> plane(std::uint32_t part, std::size_t index) const {
+        return std::span(words_).subspan((std::size_t{part} * gpu::FILM_WORDS + index) * pixel_count_, pixel_count_);
+    }
 
     void add(const PixelSums &other) noexcept;
 

@@ -107,6 +107,13 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
     return std::move(compilation.words);
 }
 
+// Of the words of each kernel, in the order of the members.
+KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
+    const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
+    const auto &of = *kept;
+    return {of[0], of[1], of[2], of[3], of[4], of[5], of[6], of[7], of[8], kept};
+}
+
 } // namespace
 
 bool KernelCode::operator==(const KernelCode &other) const {
@@ -117,9 +124,12 @@ bool KernelCode::operator==(const KernelCode &other) const {
            std::ranges::equal(coverage, other.coverage);
 }
 
+// Unpacked when first asked for, in a millisecond, and kept for all contexts.
 KernelCode embedded_code() {
-    return {pathtrace_spirv, commit_spirv,   fold_spirv,      add_spirv,      resolve_spirv,
-            estimate_spirv,  accuracy_spirv, first_hit_spirv, coverage_spirv, nullptr};
+    static const KernelCode code =
+        code_of({pathtrace_spirv(), commit_spirv(), fold_spirv(), add_spirv(), resolve_spirv(), estimate_spirv(),
+                 accuracy_spirv(), first_hit_spirv(), coverage_spirv()});
+    return code;
 }
 
 std::string digest_of(const KernelCode &code) {
@@ -133,12 +143,11 @@ KernelCode ShaderSource::read() const {
     if (is_embedded())
         return embedded_code();
     const pt_compile_glsl_fn compiler = load_compiler(directory_);
-    auto compiled = std::make_shared<std::vector<std::vector<std::uint32_t>>>();
+    std::vector<std::vector<std::uint32_t>> compiled;
     for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp",
                                    "estimate.comp", "accuracy.comp", "first_hit.comp", "coverage.comp"})
-        compiled->push_back(compile(compiler, directory_, name));
-    return {(*compiled)[0], (*compiled)[1], (*compiled)[2], (*compiled)[3], (*compiled)[4],
-            (*compiled)[5], (*compiled)[6], (*compiled)[7], (*compiled)[8], compiled};
+        compiled.push_back(compile(compiler, directory_, name));
+    return code_of(std::move(compiled));
 }
 
 } // namespace pt

@@ -21,7 +21,7 @@ struct KernelCode {
     std::span<const std::uint32_t> accuracy;
     std::span<const std::uint32_t> first_hit;
     std::span<const std::uint32_t> coverage;
-    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> compiled; // what these refer to; empty if embedded
+    std::shared_ptr<const std::vector<std::vector<std::uint32_t>>> words; // what these refer to
 
     // The same words, wherever they are.
     bool operator==(const KernelCode &other) const;

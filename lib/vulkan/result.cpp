@@ -1,6 +1,8 @@
 // Translation table; see result.h.
 #include "lib/vulkan/result.h"
 
+#include <string>
+
 namespace pt::vulkan {
 
 pt_result result_of(vk::Result result) {
@@ -28,6 +30,11 @@ pt_result result_of(vk::Result result) {
     default:
         return PT_ERROR_INTERNAL;
     }
+}
+
+void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done) {
+    const auto result = static_cast<vk::Result>(error.code().value());
+    throw Error(result_of(result), std::string(what_was_being_done) + ": " + vk::to_string(result));
 }
 
 } // namespace pt::vulkan

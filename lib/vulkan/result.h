@@ -4,7 +4,7 @@
 #include "lib/base/error.h"
 #include "lib/vulkan/api.h"
 
-#include <string>
+#include <string_view>
 #include <utility>
 
 namespace pt::vulkan {
@@ -12,14 +12,16 @@ namespace pt::vulkan {
 // The pt_result that a VkResult stands for; others are PT_ERROR_INTERNAL.
 pt_result result_of(vk::Result result);
 
-// Runs a function; what Vulkan throws becomes a pt::Error that says what was being done.
+// Throws the pt::Error of what Vulkan threw, which says what was being done.
+[[noreturn]] void throw_translated(const vk::SystemError &error, std::string_view what_was_being_done);
+
+// Runs a function; what Vulkan throws is translated.
 template <typename Function>
-decltype(auto) translated(const std::string &what_was_being_done, Function &&function) {
+decltype(auto) translated(std::string_view what_was_being_done, Function &&function) {
     try {
         return std::forward<Function>(function)();
     } catch (const vk::SystemError &error) {
-        const auto result = static_cast<vk::Result>(error.code().value());
-        throw Error(result_of(result), what_was_being_done + ": " + vk::to_string(result));
+        throw_translated(error, what_was_being_done);
     }
 }
 

@@ -158,7 +158,7 @@ TEST_F(BorrowedDeviceTest, ADeviceThatHangsKeepsWhatItsWorkUses) {
                        .invocations = 0,
                        .queue_depth = 1});
         const ComputePipeline pipeline(
-            device, recurrence_spirv,
+            device, recurrence_spirv(),
             std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
             std::array{1664525U, 1013904223U});
         constexpr std::uint32_t groups = 4;

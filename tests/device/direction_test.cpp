@@ -33,7 +33,7 @@ std::vector<glm::vec4> draw(const Case &test_case, std::uint32_t seed) {
         std::uint32_t seed, count;
     } push{glm::vec4(glm::normalize(test_case.axis), 0.0F), test_case.kind, static_cast<float>(test_case.exponent),
            seed, direction_samples};
-    return Probe(directions_spirv, sizeof push).run<glm::vec4>({}, direction_samples, push, direction_samples);
+    return Probe(directions_spirv(), sizeof push).run<glm::vec4>({}, direction_samples, push, direction_samples);
 }
 
 // P(cosine of the angle to the axis < c) for each kind; uniform_sphere takes the z axis.

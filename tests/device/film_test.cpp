@@ -75,7 +75,7 @@ TEST(Film, DeviceSumsAreExact) {
         std::uint32_t per_pixel, count, film_part;
     } push{per_pixel, pixels, 1};
     const std::vector<glm::vec4> samples = awkward_samples();
-    Probe probe(film_sums_spirv, sizeof push);
+    Probe probe(film_sums_spirv(), sizeof push);
     const std::vector<std::uint32_t> film =
         probe.run<std::uint32_t>(samples, pixels * pt::PixelSums::words_per_pixel, push, pixels);
     EXPECT_TRUE(std::all_of(film.begin(), film.begin() + pixels * pt::gpu::FILM_WORDS,
@@ -111,7 +111,7 @@ TEST(Film, WindowsHoldTheMostSamplesThatAnInvocationGathers) {
     std::vector<glm::vec4> samples;
     for (const float extreme : extremes)
         samples.insert(samples.end(), push.per_pixel, glm::vec4(extreme));
-    const auto film = Probe(film_sums_spirv, sizeof push)
+    const auto film = Probe(film_sums_spirv(), sizeof push)
                           .run<std::uint32_t>(samples, push.count * pt::PixelSums::words_per_pixel, push, push.count);
     for (std::uint32_t pixel = 0; pixel < push.count; ++pixel) {
         const Wide sum = push.per_pixel * multiple_of_2_to_minus_60(extremes[pixel]);
@@ -141,7 +141,7 @@ protected:
         const std::array<std::uint32_t, 3> push = {sample_count, 1, 0};
         const std::vector<glm::vec4> samples(sample_count, glm::vec4(value));
         std::vector<std::uint32_t> words(pt::PixelSums::words_per_pixel);
-        const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv, bindings, sizeof push, {});
+        const pt::vulkan::ComputePipeline pipeline(device(), film_sums_spirv(), bindings, sizeof push, {});
         Buffer unused(device(), BufferUse::UniformOrStorage, 256, "unused");
         Buffer film(device(), BufferUse::Storage, words.size() * sizeof(std::uint32_t), "film");
         Buffer input(device(), BufferUse::Storage, samples.size() * sizeof(glm::vec4), "samples");

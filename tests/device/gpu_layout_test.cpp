@@ -33,7 +33,7 @@ TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     frame.sample_count = 22;
     frame.split_pass = 23;
     frame.start_scale = 24;
-    const auto seen = Probe(push_layout_spirv, sizeof frame).run<float>({}, 24, frame, 1);
+    const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 24, frame, 1);
     for (int i = 0; i < 24; ++i)
         EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));
 }

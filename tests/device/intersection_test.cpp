@@ -54,7 +54,7 @@ std::vector<Met> follow(const Ball &ball, const std::vector<Ray> &rays, Held hel
     const auto count = static_cast<std::uint32_t>(rays.size());
     auto constants = pt::specialization_constants(gpu_scene.features);
     constants[pt::gpu::ID_KNOWN_SIDES] = 0;
-    Probe probe(intersection_spirv, sizeof count, constants);
+    Probe probe(intersection_spirv(), sizeof count, constants);
     probe.set_scene(gpu_scene.words);
     std::vector<glm::vec4> input;
     for (const Ray &ray : rays) {

@@ -4,8 +4,8 @@
 
 #include "lib/film/pixel_sums.h"
 #include "lib/kernel/gpu_scene.h"
+#include "lib/kernel/shader_source.h"
 #include "lib/kernel/specialised_code.h"
-#include "pathtrace.spv.h"
 #include "tests/device/film_words.h"
 #include "tests/device/probe.h"
 #include "tests/device/scene_constants.h"
@@ -64,7 +64,7 @@ public:
     // The same by a kernel that the driver specialises, which takes ten times as long to build.
     FilmWords film_by_driver(std::uint32_t source) const {
         const auto values = with_scene_source(constants(), source, words());
-        Probe probe(pathtrace_spirv, sizeof frame_, values);
+        Probe probe(pt::embedded_code().pathtrace, sizeof frame_, values);
         set_scene_for(probe, source, words());
         return film_by(probe);
     }
@@ -72,7 +72,7 @@ public:
     // That kernel, for several films.
     Probe probe_of_kernel(const Constants &constants, std::uint32_t source, const std::vector<glm::vec4> &words) const {
         const auto values = with_scene_source(constants, source, words);
-        Probe probe(pt::specialised_code(pathtrace_spirv, values), sizeof frame_, values);
+        Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, values), sizeof frame_, values);
         set_scene_for(probe, source, words);
         return probe;
     }
@@ -83,7 +83,7 @@ public:
         Constants of_scene = this->constants();
         of_scene[pt::gpu::ID_WALK_TRIPS] = walk_trips;
         const auto constants = with_scene_source(of_scene, pt::gpu::SCENE_IN_STORAGE, words());
-        Probe probe(pt::specialised_code(pathtrace_spirv, constants), sizeof frame_, constants);
+        Probe probe(pt::specialised_code(pt::embedded_code().pathtrace, constants), sizeof frame_, constants);
         probe.set_scene(words());
         return probe;
     }

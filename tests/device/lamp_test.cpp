@@ -56,7 +56,7 @@ std::vector<Drawn> draw(const std::vector<Lamp> &lamps, const Viewpoint &from, s
         scene[i] = glm::vec4(lamps[i].centre, lamps[i].radius);
         scene[lamps.size() + i] = glm::vec4(lamps[i].radiance);
     }
-    Probe probe(lamps_spirv, sizeof push, constants);
+    Probe probe(lamps_spirv(), sizeof push, constants);
     probe.set_scene(scene);
     return probe.run<Drawn>({}, count, push, count);
 }

@@ -31,7 +31,7 @@ class TreeProbe {
 public:
     explicit TreeProbe(const pt::GpuScene &scene) :
         lamp_count_(scene.features.lamp_count),
-        probe_(lamps_spirv, sizeof(Push), constants(scene)) {
+        probe_(lamps_spirv(), sizeof(Push), constants(scene)) {
         probe_.set_scene(scene.words);
     }
 

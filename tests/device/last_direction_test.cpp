@@ -118,7 +118,7 @@ TEST(LastDirection, IsOfEachBranchAsOftenAsItIsWorth) {
         std::uint32_t count;
     } push{};
     push.count = numbers;
-    Probe probe(reservoir_spirv, sizeof push);
+    Probe probe(reservoir_spirv(), sizeof push);
     for (const glm::vec4 &worths : {glm::vec4(1, 1, 1, 1), glm::vec4(1, 2, 3, 4), glm::vec4(8, 1, 0, 1),
                                     glm::vec4(0, 0, 5, 0), glm::vec4(0, 1e-20F, 3e-20F, 0)}) {
         push.worths = worths;

@@ -106,7 +106,7 @@ std::vector<glm::vec4> evaluate(const std::vector<glm::vec4> &directions, double
            static_cast<float>(exponent),
            probability,
            static_cast<std::uint32_t>(directions.size())};
-    return Probe(reflection_spirv, sizeof push).run<glm::vec4>(directions, push.count, push, push.count);
+    return Probe(reflection_spirv(), sizeof push).run<glm::vec4>(directions, push.count, push, push.count);
 }
 
 struct Integrals {

@@ -24,7 +24,7 @@ public:
     Recurrence(pt::vulkan::Device &device, std::uint32_t group_count) :
         device_(device),
         group_count_(group_count),
-        pipeline_(device, recurrence_spirv,
+        pipeline_(device, recurrence_spirv(),
                   std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer}, 4,
                   std::array{multiplier, increment}),
         offset_(device, pt::vulkan::BufferUse::UniformOrStorage, 1U << 17, "offset"),

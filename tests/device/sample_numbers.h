@@ -76,7 +76,7 @@ inline Blocks take_from(const Table &table, std::uint32_t sampler, const Request
     constants[pt::gpu::ID_BRANCH_COUNT] = branches;
     constants[pt::gpu::ID_MAX_PATH_LENGTH] = most_blocks; // one block for each vertex without a lamp
     constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
-    Probe probe(sample_numbers_spirv, sizeof request, constants);
+    Probe probe(sample_numbers_spirv(), sizeof request, constants);
     probe.set_points(table);
     return as_integers(probe.run<glm::vec4>({}, request.invocations(), request, request.invocations()));
 }

@@ -53,7 +53,7 @@ TEST_P(SceneWords, AreReadByIndexAndAmongOthers) {
         glm::vec4 word, among;
     };
     const Words words = numbered(longest_scene(GetParam()));
-    Probe probe = probe_of(scene_words_spirv, 2 * sizeof(std::uint32_t), constants, words);
+    Probe probe = probe_of(scene_words_spirv(), 2 * sizeof(std::uint32_t), constants, words);
     for (const std::uint32_t first : {0U, 5U}) {
         const std::array push = {static_cast<std::uint32_t>(words.size()), first};
         const auto reads = probe.run<Read>({}, words.size(), push, push[0]);
@@ -176,7 +176,7 @@ TEST_P(SceneWords, OfEverySurfaceAreWhereItsBlocksSay) {
         constants[gpu::ID_PLANES_EMIT] = variant.planes_emit;
         const Blocks blocks(variant, GetParam());
         Words words = surface_words_of(variant, blocks);
-        Probe probe = probe_of(surface_words_spirv, sizeof point, constants, words);
+        Probe probe = probe_of(surface_words_spirv(), sizeof point, constants, words);
         const auto reads = probe.run<SurfaceRead>({}, surfaces, point, 1);
         EXPECT_EQ(reads, expected(variant, blocks, words))
             << "gloss " << variant.gloss << ", motion " << variant.motion << ", curvature " << variant.curvature

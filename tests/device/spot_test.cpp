@@ -69,7 +69,7 @@ std::vector<DrawnSpot> draw_spots(const std::vector<SpotOf> &spots, std::uint32_
         scene[4 * surface_count + i] = {std::bit_cast<float>(pt::gpu::MATERIAL_INDEX_BITS + spots[i].lamp),
                                         std::bit_cast<float>(pt::gpu::MATERIAL_INDEX_BITS + spots[i].surface), 0.5F,
                                         spots[i].glossiness};
-    Probe probe(spots_spirv, sizeof push, constants);
+    Probe probe(spots_spirv(), sizeof push, constants);
     probe.set_scene(scene);
     return probe.run<DrawnSpot>({}, count, push, count);
 }

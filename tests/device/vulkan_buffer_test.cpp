@@ -59,7 +59,7 @@ TEST_F(VulkanTest, CountsWhatTransfersTake) {
 }
 
 TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
-    const ComputePipeline pipeline(device(), recurrence_spirv,
+    const ComputePipeline pipeline(device(), recurrence_spirv(),
                                    std::array{vk::DescriptorType::eUniformBuffer, vk::DescriptorType::eStorageBuffer},
                                    4, {});
     Buffer buffer(device(), BufferUse::UniformOrStorage, 1024, "test");
@@ -76,7 +76,7 @@ TEST_F(VulkanTest, ADescriptorSetMayReplaceAnother) {
 TEST_F(VulkanTest, ADynamicOffsetChoosesThePartOfAStreamedBuffer) {
     constexpr std::array bindings = {vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eStorageBuffer};
     constexpr std::array keep_the_sum = {1U, 0U};
-    const ComputePipeline pipeline(device(), recurrence_spirv, bindings, 4, keep_the_sum);
+    const ComputePipeline pipeline(device(), recurrence_spirv(), bindings, 4, keep_the_sum);
     const std::uint32_t range = device().limits().max_uniform_range;
     Buffer offsets(device(), BufferUse::Streamed, std::uint64_t{3} * range, "offsets");
     Buffer values(device(), BufferUse::Storage, 64 * 4, "values");

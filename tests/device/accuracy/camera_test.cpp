@@ -53,7 +53,7 @@ constexpr Real bound = (2.9L + 2 + 15.5L) * half_ulp;
 TEST(AccuracyCamera, OfDirections) {
     Comparison direction("camera_direction", "length");
     const std::vector<Item> all = items();
-    Probe probe(camera_items_spirv, sizeof(ItemRange));
+    Probe probe(camera_items_spirv(), sizeof(ItemRange));
     const std::vector<glm::vec4> results = evaluate<glm::vec4>(probe, all);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Item &item = all[i];

@@ -92,7 +92,7 @@ TEST(AccuracyIntegers, AreExact) {
     std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
     constants[pt::gpu::ID_SPHERE_COUNT] = 1;
     constants[pt::gpu::ID_POINT_BLOCKS] = probe_point_blocks;
-    Probe probe(integer_items_spirv, sizeof(ItemRange), constants);
+    Probe probe(integer_items_spirv(), sizeof(ItemRange), constants);
     std::vector<Result> results = evaluate<Result>(probe, all);
     const Differences none = differences(all, results);
     EXPECT_EQ(none.hash, 0U);

@@ -167,7 +167,7 @@ Wrong compare_all(const std::vector<Item> &all, std::uint32_t inside, const std:
     std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
     constants[pt::gpu::ID_INSIDE] = inside;
     constants[pt::gpu::ID_SPHERE_COUNT] = 1;
-    Probe probe(distance_items_spirv, sizeof(ItemRange), constants);
+    Probe probe(distance_items_spirv(), sizeof(ItemRange), constants);
     const std::vector<Result> results = evaluate<Result>(probe, all);
     Wrong wrong;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -216,7 +216,7 @@ TEST(AccuracyIntersect, WherePathsAreNeverInsideNoneMayBe) {
     std::erase_if(inside, [](const Item &item) { return exact_sphere(item).met != 1; });
     std::vector<std::uint32_t> constants(pt::gpu::CONSTANT_COUNT);
     constants[pt::gpu::ID_SPHERE_COUNT] = 1;
-    Probe probe(distance_items_spirv, sizeof(ItemRange), constants);
+    Probe probe(distance_items_spirv(), sizeof(ItemRange), constants);
     const std::vector<Result> results = evaluate<Result>(probe, inside);
     std::size_t lost = 0;
     for (std::size_t i = 0; i < inside.size(); ++i) {

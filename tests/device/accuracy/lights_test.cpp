@@ -136,7 +136,7 @@ struct AccuracyLights : testing::Test {
             scene.emplace_back(lamp.centre, lamp.radius);
         for (const Lamp &lamp : lamps_)
             scene.emplace_back(lamp.radiance);
-        Probe probe(lamp_items_spirv, sizeof(ItemRange), constants);
+        Probe probe(lamp_items_spirv(), sizeof(ItemRange), constants);
         probe.set_scene(scene);
         results_ = evaluate<Result>(probe, items_);
     }

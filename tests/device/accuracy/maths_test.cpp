@@ -78,7 +78,7 @@ TEST(AccuracyMaths, ASingleErrorIsSeen) {
 // Negative control: a kernel that leaves out one value.
 TEST(AccuracyMaths, AnUnwrittenValueIsSeen) {
     std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 1.0F);
-    const std::vector<float> values = pt::evaluate(probe_device(), accuracy_skips_spirv, arguments);
+    const std::vector<float> values = pt::evaluate(probe_device(), accuracy_skips_spirv(), arguments);
     for (std::size_t i = 0; i < values.size(); ++i)
         EXPECT_EQ(std::isnan(values[i]), i == 100) << i;
     const pt::ElementaryFunction identity{"identity", [](double x) { return x; }, 0.5, 1.0F, 2.0F, {}};
@@ -89,7 +89,7 @@ TEST(AccuracyMaths, AnUnwrittenValueIsSeen) {
 TEST(AccuracyMaths, ValuesBeyondTheEndAreAnError) {
     const std::vector<float> arguments(4 * pt::gpu::WORKGROUP_SIZE, 2.0F); // 2: write one further
     try {
-        pt::evaluate(probe_device(), accuracy_skips_spirv, arguments);
+        pt::evaluate(probe_device(), accuracy_skips_spirv(), arguments);
         FAIL() << "nothing was thrown";
     } catch (const pt::Error &error) {
         EXPECT_EQ(error.code(), PT_ERROR_INTERNAL);

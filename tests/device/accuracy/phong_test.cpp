@@ -72,7 +72,7 @@ Probe phong_probe() {
     constants[pt::gpu::ID_MAX_PATH_LENGTH] = 2;
     constants[pt::gpu::ID_ESTIMATOR] = PT_ESTIMATOR_MIS;
     constants[pt::gpu::ID_GLOSS] = 1;
-    return {phong_items_spirv, sizeof(ItemRange), constants};
+    return {phong_items_spirv(), sizeof(ItemRange), constants};
 }
 
 // A number and how far from it float32 may be.

@@ -60,7 +60,7 @@ Direction mirrored_up(const Direction &direction, const Item &item, const glm::v
 class AccuracySampling : public testing::Test {
 protected:
     std::vector<Item> items_ = items();
-    Probe probe_{sampling_items_spirv, sizeof(ItemRange)};
+    Probe probe_{sampling_items_spirv(), sizeof(ItemRange)};
     std::vector<Result> results_ = evaluate<Result>(probe_, items_);
 };
 

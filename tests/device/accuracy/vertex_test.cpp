@@ -83,7 +83,7 @@ TEST(AccuracyVertex, OfPoints) {
     constants[pt::gpu::ID_SPHERE_COUNT] = sphere_count;
     constants[pt::gpu::ID_PLANE_COUNT] = plane_count;
     constants[pt::gpu::ID_SCENE_SOURCE] = pt::gpu::SCENE_IN_UNIFORM;
-    Probe probe(vertex_items_spirv, sizeof(ItemRange), constants);
+    Probe probe(vertex_items_spirv(), sizeof(ItemRange), constants);
     probe.set_scene(all_surfaces);
     const std::vector<Result> results = evaluate<Result>(probe, all);
 

@@ -1,0 +1,16 @@
+"""Tests that the shared library, stripped, stays small: what is installed with every wheel and package. Arguments: the strip
+program, the library."""
+
+import os
+import subprocess
+import sys
+import tempfile
+
+MOST = 1_200_000  # bytes
+
+with tempfile.TemporaryDirectory() as folder:
+    stripped = os.path.join(folder, "libpt.so")
+    subprocess.run([sys.argv[1], "-o", stripped, sys.argv[2]], check=True)
+    size = os.path.getsize(stripped)
+print(f"{size} bytes stripped, of {MOST} at most")
+sys.exit(size > MOST)
