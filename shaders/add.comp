@@ -1,5 +1,4 @@
-// Adds the sums of pixels of another film to a film: one invocation per pixel. Both parts of the other film may belong
-// to one of this.
+// Adds the sums of pixels of another film to a film, part by part: one invocation per pixel.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -21,7 +20,7 @@ void main()
     uint to_stride = add.strip_pixel_count;
     [[unroll]] for (uint part = 0u; part < FILM_PARTS; ++part) {
         uint from = part * FILM_WORDS * from_stride + add.added_first_pixel + gl_GlobalInvocationID.x;
-        uint to = add.parts[part] * FILM_WORDS * to_stride + add.first_pixel + gl_GlobalInvocationID.x;
+        uint to = part * FILM_WORDS * to_stride + add.first_pixel + gl_GlobalInvocationID.x;
         uvec4 rare;
         [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {
             uint first = channel * FILM_SUM_WORDS;

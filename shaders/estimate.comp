@@ -14,10 +14,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
-// Of a film whose tiles have different numbers of samples: those in the older and in the newer part of each tile, and
-// what its samples alone say of the sum of its values' relative errors squared, and of that of light that none of them
-// met.
-layout(constant_id = 0) const uint UNEVEN = 0u;
+// Of each tile the samples in the older and in the newer part, and what its samples alone say of the sum of its values'
+// relative errors squared, and of that of light that none of them met.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_errors;
 
@@ -298,15 +296,15 @@ void main()
     const uint first_column = sums_up_tile ? tile_place.y / TILE_SIZE * REGION_SIZE + tile_place.x : 0u;
 
     // How many samples pixels have.
-    const uvec2 expected = UNEVEN == 1u ? tile_samples.counts[film_tile(first_place)] : estimate.sample_counts;
+    const uvec2 expected = tile_samples.counts[film_tile(first_place)];
     const float sample_count = float(expected.x + expected.y);
     uvec2 counts[TILE_SIZE];
     Findings findings = Findings(uvec2(0u), 0u, 0u);
     PartCount parts[FILM_PARTS][TILE_SIZE];
     [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
         uint pixel = first_pixel + min(i, last) * estimate.film_width;
-        parts[0][i] = part_count(estimate.older_part, pixel, estimate.strip_pixel_count);
-        parts[1][i] = part_count(1u - estimate.older_part, pixel, estimate.strip_pixel_count);
+        parts[0][i] = part_count(0u, pixel, estimate.strip_pixel_count);
+        parts[1][i] = part_count(1u, pixel, estimate.strip_pixel_count);
     }
     [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i) {
         counts[i] = uvec2(parts[0][i].accepted, parts[1][i].accepted);
@@ -331,8 +329,8 @@ void main()
             uvec4 sums[FILM_PARTS][PIXELS_ASKED_FOR];
             [[unroll]] for (uint i = 0u; i < PIXELS_ASKED_FOR; ++i) {
                 uint pixel = first_pixel + min(first + i, last) * estimate.film_width;
-                sums[0][i] = part_sum(estimate.older_part, channel, pixel, estimate.strip_pixel_count);
-                sums[1][i] = part_sum(1u - estimate.older_part, channel, pixel, estimate.strip_pixel_count);
+                sums[0][i] = part_sum(0u, channel, pixel, estimate.strip_pixel_count);
+                sums[1][i] = part_sum(1u, channel, pixel, estimate.strip_pixel_count);
             }
             [[unroll]] for (uint i = 0u; i < PIXELS_ASKED_FOR; ++i)
                 if (first + i < pixels) {
@@ -395,13 +393,11 @@ void main()
                     squares[RELATIVE_SQUARE][i] += square;
                 met_again += alone && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
                 unseen += unseen_square(mean, near.largest, sample_count, relative.offset);
-                if (UNEVEN == 1u) {
-                    const float level = mean_besides_and_without_largest(tile_set, mean);
-                    own += vec2(once && stands_out(mean, level, relative)
-                                    ? square_as_lamp(standard_errors[i], mean, relative)
-                                    : relative_square(standard_errors[i], mean, lessers[i], level, relative),
-                                unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
-                }
+                const float level = mean_besides_and_without_largest(tile_set, mean);
+                own += vec2(once && stands_out(mean, level, relative)
+                                ? square_as_lamp(standard_errors[i], mean, relative)
+                                : relative_square(standard_errors[i], mean, lessers[i], level, relative),
+                            unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
             }
         barrier(); // before the next channel's means
     }
@@ -443,7 +439,7 @@ void main()
     write_region_error(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
     // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
-    if (UNEVEN == 1u && sums_up_tile && all(lessThan(tile_place, size)))
+    if (sums_up_tile && all(lessThan(tile_place, size)))
         tile_errors.squares[film_tile(region_place + tile_place)] =
             of_tile.findings.unknown > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : of_tile.own;
 }

@@ -1,5 +1,5 @@
 // Exact sums of samples: 128-bit fixed point, so that addition commutes and associates. Used by pathtrace.comp,
-// commit.comp, fold.comp and add.comp; gpu_layout.h has the layout, lib/film/film.cpp reads it.
+// fold.comp and add.comp; gpu_layout.h has the layout, lib/film/film.cpp reads it.
 #ifndef FILM_GLSL
 #define FILM_GLSL
 

@@ -1,5 +1,4 @@
-// Adds a part of the film to the one that the frame names and empties it: one invocation per pixel of the strip, or of
-// the tiles of a list.
+// Adds a part of the film to the one that the frame names and empties it: one invocation per pixel of tiles.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -10,18 +9,16 @@ layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FrameConstants frame; };
 
 #include "film.glsl"
-#include "tile_list.glsl"
-
-layout(constant_id = 0) const uint OF_LIST = 0u;
+#include "tile_pixel.glsl"
 
 void main()
 {
-    uint pixel_in_strip;
-    if (!has_pixel(OF_LIST == 1u, pixel_in_strip))
+    TilePixel at = tile_pixel();
+    if (!at.exists)
         return;
     uint stride = frame.strip_pixel_count;
-    uint kept = frame.film_part * FILM_WORDS * stride + pixel_in_strip;
-    uint emptied = (1u - frame.film_part) * FILM_WORDS * stride + pixel_in_strip;
+    uint kept = frame.film_part * FILM_WORDS * stride + at.in_strip;
+    uint emptied = (1u - frame.film_part) * FILM_WORDS * stride + at.in_strip;
     uvec4 moved; // of the rare words
     uvec4 rare;
     [[unroll]] for (uint channel = 0u; channel < 3u; ++channel) {

@@ -36,8 +36,8 @@ PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
 PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
 PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_SHARERS = 15;         // invocations that share a pixel's samples; 0: pixels are those of a list of tiles
-PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and sharers, may add to a pixel at the same time
+PT_CONSTANT ID_ONE_LAST_DIRECTION = 15; // 1: of the branches one takes the last direction (shaders/last_direction.glsl)
+PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and invocations of one, may add to a pixel at the same time
 PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
 PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, next after the lamps
 PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
@@ -64,8 +64,7 @@ PT_CONSTANT ID_UNROLLED = 37;        // surfaces over which loops are unrolled, 
 PT_CONSTANT ID_INTEGER_ORDER = 38;   // 1: integers are compared faster than floats (shaders/maths.glsl)
 PT_CONSTANT ID_UNIFORM_READS = 39;   // 1: words of the scene buffer, which has few, are read by the uniform binding
 PT_CONSTANT ID_KEEP_SHIFTS = 40;     // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
-PT_CONSTANT ID_ONE_LAST_DIRECTION = 41; // 1: of the branches one takes the last direction (shaders/last_direction.glsl)
-PT_CONSTANT CONSTANT_COUNT = 42;
+PT_CONSTANT CONSTANT_COUNT = 41;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -142,7 +141,6 @@ PT_FUNCTION uint row_blocks(uint table_blocks, uint shared_count, uint branches)
 PT_CONSTANT BINDING_SCENE_UNIFORM = 0;
 PT_CONSTANT BINDING_SCENE_STORAGE = 1;
 PT_CONSTANT BINDING_FILM = 2;
-PT_CONSTANT BINDING_PASS = 3;
 PT_CONSTANT BINDING_POINTS = 4;
 PT_CONSTANT BINDING_TREE_NODES = 5;
 PT_CONSTANT BINDING_TREE_SPHERES = 6;
@@ -333,15 +331,15 @@ struct FrameConstants {
     vec3 camera_forward; // as long as the image plane is far away in pixels; of parallel rays a unit vector
     uint height;         // of the image, pixels
     uvec2 seed;          // well mixed words made from pt_render.seed
-    uint strip_first_pixel; // index of the strip's first pixel in the image, row by row
+    uint film_first_pixel;  // index of the film's first pixel in the image, row by row
+    uint strip_first_pixel; // of the strip's, in the film
     uint strip_pixel_count;
-    uint first_pixel; // of this slice, in the strip; or the first of its entries in the list of tiles
-    uint pixel_count;
+    uint first_entry;  // of this dispatch in the list of tiles
     uint film_part;    // to which the samples of this dispatch are added
     uint is_first;     // 1: the part has no samples of these pixels yet; of a fold, that such a dispatch follows
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
-    uint split_pass;   // 1: keep the one sample per pixel aside, 0: add the samples to the film
+    uint share;        // samples that an invocation takes, at the most; those along y have the next ones
     float start_scale; // camera rays start this times their distance from the image's middle in pixels off the origin
 };
 
@@ -350,7 +348,6 @@ PT_CONSTANT ANY_COUNT = 0xffffffffu;
 // Of resolve.comp. Pixels are counted row by row over the film.
 struct ResolveConstants {
     uvec2 sample_counts; // that each pixel must have in the older and in the newer part; ANY_COUNT: not looked at
-    uint older_part;     // of the two in memory
     int exponent;        // of the unit in which sums are counted, as a power of two, in radiance
     uint quantity;       // PT_QUANTITY_* of pt.h
     uint film_width;
@@ -402,8 +399,6 @@ struct CoverageConstants {
 
 // Of estimate.comp, for a strip of whole rows.
 struct EstimateConstants {
-    uvec2 sample_counts; // that each pixel must have in the older and in the newer part, if all have as many
-    uint older_part;     // of the two in memory
     uint film_width;
     uint strip_pixel_count;
     uint row_count;
@@ -414,7 +409,6 @@ struct EstimateConstants {
 
 // Of add.comp: consecutive pixels of one strip, and as many of what is added to them.
 struct AddConstants {
-    uvec2 parts; // in memory, to which those of what is added are added
     uint strip_pixel_count;
     uint first_pixel; // in the strip
     uint pixel_count;
@@ -427,15 +421,14 @@ struct AddConstants {
 static_assert(sizeof(FrameConstants) == 96 && sizeof(FrameConstants) <= 128);
 static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
 static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
-static_assert(offsetof(FrameConstants, strip_first_pixel) == 56 && offsetof(FrameConstants, split_pass) == 88);
-static_assert(offsetof(FrameConstants, start_scale) == 92);
+static_assert(offsetof(FrameConstants, film_first_pixel) == 56 && offsetof(FrameConstants, start_scale) == 92);
 static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
-static_assert(sizeof(ResolveConstants) == 52 && offsetof(ResolveConstants, row_words) == 48);
+static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_words) == 44);
 static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
-static_assert(sizeof(EstimateConstants) == 36 && sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
-static_assert(sizeof(AddConstants) == 28 && offsetof(AddConstants, added_stride) == 24);
+static_assert(sizeof(EstimateConstants) == 24 && sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
+static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);
 } // namespace pt::gpu
 #endif
 #undef PT_CONSTANT

@@ -27,8 +27,8 @@ uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newe
 {
     if (resolve.quantity == QUANTITY_SAMPLE_COUNT)
         return floatBitsToUint(float(older.done + newer.done));
-    uvec4 sum_older = part_sum(resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
-    uvec4 sum_newer = part_sum(1u - resolve.older_part, channel, pixel_in_strip, resolve.strip_pixel_count);
+    uvec4 sum_older = part_sum(0u, channel, pixel_in_strip, resolve.strip_pixel_count);
+    uvec4 sum_newer = part_sum(1u, channel, pixel_in_strip, resolve.strip_pixel_count);
     if (resolve.quantity == QUANTITY_RADIANCE)
         return mean_bits(add_with_carry(sum_older, sum_newer), older.accepted + newer.accepted, resolve.exponent);
     if (!knows_error(older, newer))
@@ -47,8 +47,8 @@ void main()
     uint pixel_in_strip = pixel - resolve.strip_first_pixel;
     if (pixel_in_strip >= resolve.strip_pixel_count)
         return;
-    PartCount older = part_count(resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
-    PartCount newer = part_count(1u - resolve.older_part, pixel_in_strip, resolve.strip_pixel_count);
+    PartCount older = part_count(0u, pixel_in_strip, resolve.strip_pixel_count);
+    PartCount newer = part_count(1u, pixel_in_strip, resolve.strip_pixel_count);
     if (resolve.sample_counts.x != ANY_COUNT && uvec2(older.done, newer.done) != resolve.sample_counts)
         atomicAdd(findings.lost_pixels, 1u);
     uint first_word = resolve.first_word + row * resolve.row_words + column * PIXEL_WORDS;

@@ -31,7 +31,6 @@ layout(constant_id = ID_STARTS_AHEAD) const uint STARTS_AHEAD = 1;
 layout(constant_id = ID_ORTHOGRAPHIC) const uint ORTHOGRAPHIC = 0;
 layout(constant_id = ID_LAMP_TREE_LEVELS) const uint LAMP_TREE_LEVELS = 0;
 layout(constant_id = ID_LAMP_TREE_WORDS) const uint LAMP_TREE_WORDS = 0;
-layout(constant_id = ID_SHARERS) const uint SHARERS = 1;
 layout(constant_id = ID_OVERLAP) const uint OVERLAP = 0;
 layout(constant_id = ID_TREE) const uint TREE = 0;
 layout(constant_id = ID_TREE_LAMPS) const uint TREE_LAMPS = 0;

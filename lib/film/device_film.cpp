@@ -70,8 +70,7 @@ DeviceFilm::DeviceFilm(vulkan::Device &device, std::uint32_t width, std::uint32_
     for (std::uint32_t first = 0; first < pixel_count();) {
         const std::uint32_t count = std::min(strip_pixels(width, max_strip_pixels), pixel_count() - first);
         const std::uint64_t words_bytes = count * PixelSums::words_per_pixel * sizeof(std::uint32_t);
-        strips_.push_back(
-            {first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film"), std::nullopt});
+        strips_.push_back({first, count, vulkan::Buffer(device, vulkan::BufferUse::Storage, words_bytes, "film")});
         first += count;
     }
 }
@@ -80,40 +79,12 @@ bool DeviceFilm::is_host_memory() const {
     return std::ranges::all_of(strips_, [](const Strip &strip) { return strip.words.host_bytes().data() != nullptr; });
 }
 
-// All pixels are cleared before any is used, so it does not matter that a strip's words are plane after plane: a share
-// of its pixels stands for the same share of its bytes.
-void DeviceFilm::clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count) {
-    for (const Strip &strip : strips_) {
-        const Overlap pixels(strip, first_pixel, pixel_count);
-        if (pixels.count == 0)
-            continue;
-        const auto clear_share = [&](const vulkan::Buffer &buffer) {
-            const std::uint64_t share = buffer.size() / strip.pixel_count; // bytes
-            buffer.clear(commands, (pixels.first - strip.first_pixel) * share, pixels.count * share);
-        };
-        clear_share(strip.words);
-        if (strip.pass)
-            clear_share(*strip.pass);
-    }
-    parts_ = {};
-}
-
-void DeviceFilm::make_pass(vulkan::Device &device) {
-    if (has_pass())
-        return;
-    require_memory(device, pixel_count() * sizeof(glm::vec4), "a sample that is split over submissions");
-    for (Strip &strip : strips_)
-        if (!strip.pass)
-            strip.pass.emplace(device, vulkan::BufferUse::Storage, strip.pixel_count * sizeof(glm::vec4), "split pass");
-}
-
-void DeviceFilm::clear_pass(const vk::raii::CommandBuffer &commands) {
+void DeviceFilm::clear(const vk::raii::CommandBuffer &commands) const {
     for (const Strip &strip : strips_)
-        if (strip.pass)
-            strip.pass->clear(commands, 0, strip.pass->size());
+        strip.words.clear(commands, 0, strip.words.size());
 }
 
-void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums) {
+void DeviceFilm::read(std::uint32_t first_pixel, PixelSums &sums) {
     for (Strip &strip : strips_) {
         const Overlap pixels(strip, first_pixel, sums.pixel_count());
         if (pixels.count == 0)
@@ -126,10 +97,6 @@ void DeviceFilm::read(std::uint32_t first_pixel, std::uint64_t split, PixelSums 
                      word_offset(strip, part, plane, pixels.first)});
         strip.words.download(pieces);
     }
-    if (parts_.older() != older_part)
-        sums.swap_parts();
-    if (!parts_.empty() && parts_.split() != split)
-        sums.fold_into(parts_.split() < split ? older_part : newer_part);
 }
 
 bool DeviceFilm::has_whole_regions() const {
@@ -155,10 +122,9 @@ void DeviceFilm::copy_to(const vk::raii::CommandBuffer &commands, const PixelRan
     }
 }
 
-void DeviceFilm::write(const PixelSums &sums, const PartUse &parts) {
+void DeviceFilm::write(const PixelSums &sums) {
     for (Strip &strip : strips_)
         write_sums(strip, strip.words, 0, sums);
-    parts_ = parts;
 }
 
 DeviceFilm::NewSums::NewSums(vulkan::Device &device, DeviceFilm &film) : device_(device), film_(film) {
@@ -173,12 +139,11 @@ void DeviceFilm::NewSums::write(std::uint32_t first_pixel, const PixelSums &sums
         write_sums(film_.strips_[i], words_[i], first_pixel, sums);
 }
 
-void DeviceFilm::NewSums::replace(const PartUse &parts) {
+void DeviceFilm::NewSums::replace() {
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (std::size_t i = 0; i < words_.size(); ++i)
             film_.strips_[i].words.copy(commands, words_[i], words_[i].size());
     });
-    film_.set_parts(parts);
 }
 
 std::uint64_t DeviceFilm::rejected_samples() {
@@ -216,31 +181,27 @@ void require_all(const PixelSums &sums, std::size_t first, std::size_t count, co
         require_samples(sums.samples_of(first + i), expected);
 }
 
-// Of consecutive pixels of a film; where tiles differ, from the edge of one to the next.
+// Of consecutive pixels of a film.
 void require_all(const PixelSums &sums, std::uint32_t first_pixel, const TileSamples &samples) {
     std::vector<PartCounts> expected;
     for (const SampleSet &set : samples.sets())
         expected.push_back(part_counts(set));
-    const TileGrid &grid = samples.grid();
-    for (std::size_t done = 0; done < sums.pixel_count();) {
-        const std::uint32_t y = (first_pixel + static_cast<std::uint32_t>(done)) / grid.width;
-        const std::uint32_t x = (first_pixel + static_cast<std::uint32_t>(done)) % grid.width;
-        const std::size_t left = sums.pixel_count() - done;
-        const std::size_t count =
-            samples.even() ? left : std::min<std::size_t>({left, gpu::TILE_SIZE - x % gpu::TILE_SIZE, grid.width - x});
-        require_all(sums, done, count, expected[samples.set_of(samples.even() ? 0 : grid.tile_at(x, y))]);
-        done += count;
-    }
+    if (samples.even())
+        require_all(sums, 0, sums.pixel_count(), expected.front());
+    else
+        samples.grid().for_each_run(first_pixel, sums.pixel_count(),
+                                    [&](std::size_t first, std::size_t count, std::size_t tile) {
+                                        require_all(sums, first, count, expected[samples.set_of(tile)]);
+                                    });
 }
 
 // others: of one film at a time, kept from call to call.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t first_pixel,
                 PixelSums &sums, PixelSums &others) {
-    const std::uint64_t split = split_of(samples.hull());
-    films.front()->read(first_pixel, split, sums);
+    films.front()->read(first_pixel, sums);
     for (DeviceFilm *film : films.subspan(1)) {
         others.resize(sums.pixel_count());
-        film->read(first_pixel, split, others);
+        film->read(first_pixel, others);
         sums.add(others);
     }
     require_all(sums, first_pixel, samples);

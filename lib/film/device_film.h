@@ -1,7 +1,6 @@
 // The film in a device's memory: exact sums of samples, in strips. Owned by RenderDevice.
 #pragma once
 
-#include "lib/film/film_parts.h"
 #include "lib/film/pixel_sums.h"
 #include "lib/film/tile_samples.h"
 #include "lib/vulkan/buffer.h"
@@ -11,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,11 +27,9 @@ public:
     struct Strip {
         std::uint32_t first_pixel;
         std::uint32_t pixel_count;
-        vulkan::Buffer words;               // gpu::FILM_WORDS planes of each part
-        std::optional<vulkan::Buffer> pass; // one vec4 per pixel: samples of a split pass, if there has been one
+        vulkan::Buffer words; // gpu::FILM_WORDS planes of the older part, then of the newer
     };
 
-    // Without passes.
     static constexpr std::uint64_t bytes_per_pixel = PixelSums::words_per_pixel * sizeof(std::uint32_t);
 
     // Its memory has to be cleared before it is used. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY, or PT_ERROR_UNSUPPORTED for
@@ -49,35 +45,20 @@ public:
     // Whether the host sees its memory, in place.
     bool is_host_memory() const;
 
-    // Records that the sums of a range of pixels become 0. All pixels are to be cleared, in any order, before the film
-    // takes samples.
-    void clear(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, std::uint32_t pixel_count);
-
-    // Makes room for split passes, if there is none. Throws PT_ERROR_OUT_OF_DEVICE_MEMORY. Before the first one it has
-    // to be cleared.
-    void make_pass(vulkan::Device &device);
-    bool has_pass() const { return strips_.back().pass.has_value(); }
-
-    // Records that nothing of a split pass is left.
-    void clear_pass(const vk::raii::CommandBuffer &commands);
-
-    // Which part holds which samples. Whoever adds samples keeps it up to date.
-    const PartUse &parts() const { return parts_; }
-    void set_parts(const PartUse &parts) { parts_ = parts; }
+    // Records that all sums become 0.
+    void clear(const vk::raii::CommandBuffer &commands) const;
 
     // Whether its strips are whole rows of regions, as estimates of its error want them (gpu_layout.h).
     bool has_whole_regions() const;
 
-    // Records that the words of consecutive pixels become those of a buffer: planes without gaps, part by part as in
-    // memory.
+    // Records that the words of consecutive pixels become those of a buffer: planes without gaps, part by part.
     void copy_to(const vk::raii::CommandBuffer &commands, const PixelRange &pixels, const vulkan::Buffer &to) const;
 
-    // Sets the sums of its first pixels, all of them in parts as used.
-    void write(const PixelSums &sums, const PartUse &parts);
+    // Sets the sums of its first pixels.
+    void write(const PixelSums &sums);
 
-    // Sets the sums of as many consecutive pixels, in the parts of a film with this split that has these samples and
-    // others.
-    void read(std::uint32_t first_pixel, std::uint64_t split, PixelSums &sums);
+    // Receives the sums of as many consecutive pixels.
+    void read(std::uint32_t first_pixel, PixelSums &sums);
 
     // Sums of all pixels that are to replace those of a film: in memory of their own, so that whatever fails before
     // leaves the film as it was.
@@ -86,11 +67,11 @@ public:
         // Throws PT_ERROR_OUT_OF_DEVICE_MEMORY.
         NewSums(vulkan::Device &device, DeviceFilm &film);
 
-        // Sets those of consecutive pixels, part by part as in memory.
+        // Sets those of consecutive pixels.
         void write(std::uint32_t first_pixel, const PixelSums &sums);
 
         // In a single submission, once all have been written.
-        void replace(const PartUse &parts);
+        void replace();
 
     private:
         vulkan::Device &device_;
@@ -105,7 +86,6 @@ private:
     std::uint32_t width_;
     std::uint32_t height_;
     std::vector<Strip> strips_;
-    PartUse parts_;
 };
 
 // Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the

@@ -31,26 +31,8 @@ PartCounts part_counts(const SampleSet &samples) {
     return {older, samples.count() - older};
 }
 
-std::uint64_t end_of_run(const SampleRange &hull, std::uint64_t sample) {
-    const SampleRange with_sample = hull_of(hull, {sample, sample + 1});
-    const std::uint64_t split = split_of(with_sample);
-    if (sample < split)
-        return split;
-    const std::uint64_t more_zeros = 2 * (split & ~(split - 1));
-    return multiple_from(with_sample.end, more_zeros);
-}
-
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample) {
     return before.empty() || (sample < split ? split <= before.first : before.end <= split);
-}
-
-void PartUse::extend(const SampleRange &range) {
-    const std::uint64_t before = split();
-    const bool folded = needs_fold(range);
-    hull_ = hull_of(hull_, range);
-    if (folded)
-        older_ = before < split() ? 0 : 1;
-    holds_samples_ = true;
 }
 
 } // namespace pt

@@ -29,47 +29,8 @@ std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// The end of the samples from an index on that can be added to a film one after the other while neither the part that
-// they belong to nor the split changes. hull: of the samples before.
-std::uint64_t end_of_run(const SampleRange &hull, std::uint64_t sample);
-
-// Whether a sample is added to a part that has none yet. before: from the first to the last that the film has; split:
-// with the sample. Where the split has moved, all samples of before are on one side of it.
+// Whether a sample is added to a part that has none yet. before: from the first to the last that there are; split: with
+// the sample. Where the split has moved, all samples of before are on one side of it.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
-
-// How the parts of a film in a device's memory are used: the older part may be either. Where the split moves, one part
-// is folded into the other first.
-class PartUse {
-public:
-    bool empty() const { return !holds_samples_; }
-    std::uint64_t split() const { return split_of(hull_); }
-
-    // From the first to the last of the samples; empty if there are none.
-    SampleRange hull() const { return holds_samples_ ? hull_ : SampleRange{}; }
-
-    // Whether samples within this range can be added only after part 1 has been added to part 0 and emptied.
-    bool needs_fold(const SampleRange &range) const {
-        return holds_samples_ && split_of(hull_of(hull_, range)) != split();
-    }
-
-    // Samples are added within this range, after a fold if it takes one.
-    void extend(const SampleRange &range);
-
-    // Where tiles of the film have samples of their own, and so splits: all samples lie within this range, and the
-    // parts in memory stay what they are.
-    void cover(const SampleRange &hull) {
-        hull_ = hull;
-        holds_samples_ = !hull.empty();
-    }
-
-    // The part in memory with the older samples, and that of a sample within the range so far.
-    std::uint32_t older() const { return older_; }
-    std::uint32_t part_of(std::uint64_t sample) const { return sample < split() ? older_ : 1 - older_; }
-
-private:
-    SampleRange hull_; // of the samples of all films that are rendered together
-    std::uint32_t older_ = 0;
-    bool holds_samples_ = false;
-};
 
 } // namespace pt

@@ -36,10 +36,6 @@ std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pi
     return canonical_tiles(tiles);
 }
 
-bool is_even(const FilmHeader &film, const Rectangle &pixels) {
-    return film.tiles.size() == 1 && film.tiles.front().pixels == pixels;
-}
-
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels) {
     TileSamples samples({pixels.width, pixels.height});
     const TileMap map(tiles);

@@ -12,9 +12,6 @@ namespace pt {
 // The tiles of a film of these pixels of an image, as few as may be.
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// Whether a film has just these pixels, all with the same samples.
-bool is_even(const FilmHeader &film, const Rectangle &pixels);
-
 // What tiles that lie in these pixels of an image say of a grid over them; nothing if they cut tiles of that grid.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 

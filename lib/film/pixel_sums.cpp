@@ -155,15 +155,10 @@ void PixelSums::add_part(std::uint32_t to_part, std::size_t to_first, const Pixe
               {from.plane(from_part, 0).data() + first, from.pixel_count_}, count);
 }
 
-void PixelSums::fold_into(std::uint32_t part) noexcept {
-    add_part(part, 0, *this, 1 - part, 0, pixel_count_);
+void PixelSums::fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept {
+    add_part(part, first, *this, 1 - part, first, count);
     for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
-        std::ranges::fill(plane(1 - part, i), 0U);
-}
-
-void PixelSums::swap_parts() {
-    for (std::size_t i = 0; i < gpu::FILM_WORDS; ++i)
-        std::ranges::swap_ranges(plane(0, i), plane(1, i));
+        std::ranges::fill(plane(1 - part, i).subspan(first, count), 0U);
 }
 
 void PixelSums::copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept {

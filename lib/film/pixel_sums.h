@@ -66,10 +66,9 @@ public:
     void add_part(std::uint32_t to_part, std::size_t to_first, const PixelSums &from, std::uint32_t from_part,
                   std::size_t first, std::size_t count) noexcept;
 
-    // Adds the one part to the other and empties it.
-    void fold_into(std::uint32_t part) noexcept;
-
-    void swap_parts();
+    // Adds the other part to this one and empties it, in all pixels or in consecutive ones.
+    void fold_into(std::uint32_t part) noexcept { fold_into(part, 0, pixel_count_); }
+    void fold_into(std::uint32_t part, std::size_t first, std::size_t count) noexcept;
 
     // Sets consecutive pixels to those of others.
     void copy(const PixelSums &from, std::size_t first, std::size_t count, std::size_t to_first) noexcept;

@@ -29,6 +29,20 @@ struct TileGrid {
         return std::size_t{y / gpu::TILE_SIZE} * columns() + x / gpu::TILE_SIZE;
     }
 
+    // Calls function(first, count, tile) for consecutive pixels of the film, counted from the first of them, that lie
+    // in one row of a tile each.
+    template <typename Function>
+    void for_each_run(std::uint32_t first_pixel, std::size_t pixel_count, const Function &function) const {
+        for (std::size_t done = 0; done < pixel_count;) {
+            const std::uint32_t y = (first_pixel + static_cast<std::uint32_t>(done)) / width;
+            const std::uint32_t x = (first_pixel + static_cast<std::uint32_t>(done)) % width;
+            const std::size_t count =
+                std::min<std::size_t>({pixel_count - done, gpu::TILE_SIZE - x % gpu::TILE_SIZE, width - x});
+            function(done, count, tile_at(x, y));
+            done += count;
+        }
+    }
+
     bool operator==(const TileGrid &) const = default;
 };
 

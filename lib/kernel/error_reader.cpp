@@ -81,7 +81,7 @@ RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::
 
 } // namespace
 
-vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code, bool uneven) {
+vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code) {
     constexpr std::array bindings = {vulkan::no_binding,
                                      vulkan::no_binding,
                                      vk::DescriptorType::eStorageBuffer,
@@ -90,19 +90,16 @@ vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<cons
                                      vk::DescriptorType::eStorageBuffer};
     static_assert(gpu::BINDING_FILM == 2 && gpu::BINDING_RESOLVED == 3 && gpu::BINDING_TILE_COUNTS == 4 &&
                   gpu::BINDING_TILE_SQUARES == 5);
-    return {device, code, bindings, sizeof(gpu::EstimateConstants), std::array{uneven ? 1U : 0U}};
+    return {device, code, bindings, sizeof(gpu::EstimateConstants), {}};
 }
 
-ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, bool uneven,
-                         DeviceFilm &film) :
+ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film) :
     device_(device),
     estimate_(estimate),
     film_(film),
     regions_(device, vulkan::BufferUse::HostRead, most_region_bytes(film), "error of an image"),
-    tile_counts_(device, vulkan::BufferUse::HostWritten, (uneven ? film.grid().count() : 1) * sizeof(gpu::uvec2),
-                 "samples of tiles"),
-    tile_squares_(device, vulkan::BufferUse::HostRead, (uneven ? film.grid().count() : 1) * sizeof(glm::vec2),
-                  "errors of tiles") {
+    tile_counts_(device, vulkan::BufferUse::HostWritten, film.grid().count() * sizeof(gpu::uvec2), "samples of tiles"),
+    tile_squares_(device, vulkan::BufferUse::HostRead, film.grid().count() * sizeof(glm::vec2), "errors of tiles") {
     for (DeviceFilm::Strip &strip : film.strips()) {
         const std::array<vulkan::Buffer *, 6> buffers = {nullptr,   nullptr,       &strip.words,
                                                          &regions_, &tile_counts_, &tile_squares_};
@@ -127,39 +124,36 @@ void ErrorReader::collect_tiles(const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
     const double factor = 1.0 / (static_cast<double>(units.scale) * static_cast<double>(units.scale) * units.factor);
     const auto *const of_tiles = reinterpret_cast<const glm::vec2 *>(tile_squares_.host_bytes().data());
-    for (std::size_t tile = 0; tile < query.tile_squares.size(); ++tile)
-        query.tile_squares[tile] =
+    for (std::size_t tile = 0; tile < query.by_tile.size(); ++tile)
+        query.by_tile[tile] =
             static_cast<double>(of_tiles[tile].x) * factor + static_cast<double>(of_tiles[tile].y) / units.factor;
 }
 
 void ErrorReader::read(const ErrorQuery &query, const Receive &receive) {
-    if (query.uneven)
-        list_counts(*query.uneven);
+    list_counts(query.samples);
     for (std::size_t i = 0; i < sets_.size(); ++i) {
-        device_.submit(
-            [&](const vk::raii::CommandBuffer &commands) { record_strip(commands, i, film_.parts(), query); });
+        device_.submit([&](const vk::raii::CommandBuffer &commands) { record_strip(commands, i, query); });
         collect_strip(i, query, receive);
     }
     collect_tiles(query);
 }
 
-void ErrorReader::record(const vk::raii::CommandBuffer &commands, const PartUse &parts, const ErrorQuery &query) const {
-    record_strip(commands, 0, parts, query);
+void ErrorReader::record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query) {
+    list_counts(query.samples);
+    record_strip(commands, 0, query);
 }
 
 void ErrorReader::collect(const ErrorQuery &query, const Receive &receive) const {
     collect_strip(0, query, receive);
+    collect_tiles(query);
 }
 
-void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const PartUse &parts,
+void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip,
                                const ErrorQuery &query) const {
     const RelativeUnits units(query.unit);
-    const auto &[older, newer] = query.samples;
     const std::uint32_t width = film_.width();
     const std::uint32_t pixel_count = film_.strips()[strip].pixel_count;
     gpu::EstimateConstants constants{};
-    constants.sample_counts = {static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer)};
-    constants.older_part = parts.older();
     constants.film_width = width;
     constants.strip_pixel_count = pixel_count;
     constants.row_count = pixel_count / width;

@@ -18,19 +18,15 @@ namespace pt {
 
 // Of which samples the error is asked for.
 struct ErrorQuery {
-    double unit;        // of the film, a power of two, in radiance
-    PartCounts samples; // that every pixel has
-
-    // Instead, where tiles differ, those of each; and by tiles of the film receives what ErrorEstimator says of them.
-    const TileSamples *uneven = nullptr;
-    std::span<double> tile_squares = {};
+    double unit;                 // of the film, a power of two, in radiance
+    const TileSamples &samples;  // that the film has
+    std::span<double> by_tile{}; // receives what is expected of each tile (region_errors.h), if it is not empty
 };
 
 class ErrorReader {
 public:
-    // All must outlive it. estimate: of estimate_pipeline(), for films of this kind. The film's strips must be whole
-    // rows of regions.
-    ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, bool uneven, DeviceFilm &film);
+    // All must outlive it. estimate: of estimate_pipeline(). The film's strips must be whole rows of regions.
+    ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &estimate, DeviceFilm &film);
 
     using Receive = std::function<void(const RegionErrors &)>;
 
@@ -39,13 +35,12 @@ public:
     void read(const ErrorQuery &query, const Receive &receive);
 
     // The same in two steps, where the film is one strip: records it behind the commands that make the film what it is
-    // asked about, with its parts used so; and takes it in, once these have ended.
-    void record(const vk::raii::CommandBuffer &commands, const PartUse &parts, const ErrorQuery &query) const;
+    // asked about, while no other such commands are under way; and takes it in, once these have ended.
+    void record(const vk::raii::CommandBuffer &commands, const ErrorQuery &query);
     void collect(const ErrorQuery &query, const Receive &receive) const;
 
 private:
-    void record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const PartUse &parts,
-                      const ErrorQuery &query) const;
+    void record_strip(const vk::raii::CommandBuffer &commands, std::size_t strip, const ErrorQuery &query) const;
     void list_counts(const TileSamples &samples);
     void collect_tiles(const ErrorQuery &query) const;
     void collect_strip(std::size_t strip, const ErrorQuery &query, const Receive &receive) const;
@@ -54,12 +49,11 @@ private:
     const vulkan::ComputePipeline &estimate_;
     DeviceFilm &film_;
     vulkan::Buffer regions_;                  // of a strip
-    vulkan::Buffer tile_counts_;              // by tiles of the film, of a film that is uneven
+    vulkan::Buffer tile_counts_;              // by tiles of the film
     vulkan::Buffer tile_squares_;             // likewise
     std::vector<vulkan::DescriptorSet> sets_; // one per strip
 };
 
-// uneven: for films whose tiles have different samples.
-vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code, bool uneven);
+vulkan::ComputePipeline estimate_pipeline(vulkan::Device &device, std::span<const std::uint32_t> code);
 
 } // namespace pt

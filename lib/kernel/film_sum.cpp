@@ -55,14 +55,11 @@ FilmSum::FilmSum(const std::vector<Source> &sources, const vulkan::ComputePipeli
     }
 }
 
-void FilmSum::gather(std::uint32_t first_row, const PixelRange &wanted, const SampleRange &hull) {
+void FilmSum::gather(std::uint32_t first_row, const PixelRange &wanted) {
     const std::uint32_t first_pixel = first_row * film_.width();
-    PartUse parts;
-    parts.extend(hull);
     vulkan::SubmissionsUnderWay at_home(home_.device, home_.device.policy().queue_depth);
     at_home.start([&](const vk::raii::CommandBuffer &commands) {
-        film_.clear(commands, 0, film_.pixel_count());
-        film_.set_parts(parts);
+        film_.clear(commands);
         vulkan::barrier_between_commands(commands);
         add_own(commands, first_pixel, wanted);
     });
@@ -70,25 +67,11 @@ void FilmSum::gather(std::uint32_t first_row, const PixelRange &wanted, const Sa
     at_home.finish_all();
 }
 
-// The parts of the sum to which those of a film belong: one or the other for both, where samples of other films have
-// moved the split.
-gpu::uvec2 FilmSum::parts_for(const DeviceFilm &film) const {
-    const std::uint64_t split = film_.parts().split();
-    const std::uint32_t older = film_.parts().older();
-    const PartUse &parts = film.parts();
-    if (parts.split() != split)
-        return gpu::uvec2(parts.split() < split ? older : 1 - older);
-    return parts.older() == older ? gpu::uvec2(0, 1) : gpu::uvec2(1, 0);
-}
-
 void FilmSum::add_own(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel,
                       const PixelRange &wanted) const {
-    if (home_.film.parts().empty())
-        return;
     for (std::size_t i = 0; i < own_sets_.size(); ++i) {
         const DeviceFilm::Strip &strip = home_.film.strips()[i];
-        add(commands, first_pixel, wanted,
-            {{strip.first_pixel, strip.pixel_count}, strip.pixel_count, parts_for(home_.film), own_sets_[i]});
+        add(commands, first_pixel, wanted, {{strip.first_pixel, strip.pixel_count}, strip.pixel_count, own_sets_[i]});
     }
 }
 
@@ -114,8 +97,6 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
     };
     std::list<Fetch> fetches;
     for (const Distant &distant : others_) {
-        if (distant.source.film.parts().empty())
-            continue;
         Fetch &fetch = fetches.emplace_back(distant);
         for (std::uint32_t i = 0; i < std::min<std::size_t>(piece_count, distant.slots.size()); ++i)
             start(fetch, i);
@@ -130,8 +111,7 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
             stream_copy(fetch.slot(index).host_bytes().first(words_bytes(pixels.count)),
                         slots_[slot].host_memory().data());
             at_home.start([&](const vk::raii::CommandBuffer &commands) {
-                add(commands, first_pixel, wanted,
-                    {pixels, pixels.count, parts_for(fetch.distant.source.film), slot_sets_[slot]});
+                add(commands, first_pixel, wanted, {pixels, pixels.count, slot_sets_[slot]});
             });
             slot = (slot + 1) % slots_.size();
             if (const auto next = static_cast<std::uint32_t>(index + fetch.distant.slots.size()); next < piece_count)
@@ -143,7 +123,6 @@ void FilmSum::add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t fir
 void FilmSum::add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
                   const Added &added) const {
     gpu::AddConstants constants{};
-    constants.parts = added.parts;
     constants.added_stride = added.stride;
     for (std::size_t i = 0; i < added.sets.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];

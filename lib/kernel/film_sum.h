@@ -30,9 +30,9 @@ public:
     // Of so many rows.
     DeviceFilm &film() { return film_; }
 
-    // Makes it the sum of the films' rows from one on, with parts as of a film with samples in this hull. Of pixels
-    // that are not wanted, which are counted as in the films, it says nothing.
-    void gather(std::uint32_t first_row, const PixelRange &wanted, const SampleRange &hull);
+    // Makes it the sum of the films' rows from one on. Of pixels that are not wanted, which are counted as in the
+    // films, it says nothing.
+    void gather(std::uint32_t first_row, const PixelRange &wanted);
 
 private:
     // A film of another device on its way, in pieces of consecutive pixels.
@@ -45,7 +45,6 @@ private:
     struct Added {
         PixelRange pixels;                           // of the films
         std::uint32_t stride;                        // words of a plane
-        gpu::uvec2 parts;                            // of the sum, in memory
         std::span<const vulkan::DescriptorSet> sets; // one per strip of the sum
     };
 
@@ -53,7 +52,6 @@ private:
     void add_others(vulkan::SubmissionsUnderWay &at_home, std::uint32_t first_pixel, const PixelRange &wanted);
     void add(const vk::raii::CommandBuffer &commands, std::uint32_t first_pixel, const PixelRange &wanted,
              const Added &added) const;
-    gpu::uvec2 parts_for(const DeviceFilm &film) const;
 
     Source home_;
     const vulkan::ComputePipeline &add_;

@@ -45,10 +45,23 @@ std::uint32_t samples_of_dispatch(const vulkan::Device &device, const Features &
     return static_cast<std::uint32_t>(std::min<std::uint64_t>({budget / trips, rows, gpu::FILM_MAX_GATHERED}));
 }
 
-// Invocations that share a pixel's samples, so that a small image keeps the device busy.
-std::uint32_t sharers_of_pixel(const vulkan::Device &device, std::uint32_t pixel_count) {
-    constexpr std::uint32_t most = 8; // each adds to the film, and needs some samples to make that worth it
-    return std::clamp(device.policy().invocations / pixel_count, 1U, most);
+// Row by row; those of tiles side by side, and then of rows of the film, at once.
+std::vector<PixelRange> pixels_of_tiles(const TileGrid &grid, std::span<const std::uint32_t> tiles) {
+    std::vector<PixelRange> ranges;
+    const auto add = [&](const PixelRange &next) {
+        if (!ranges.empty() && ranges.back().first + ranges.back().count == next.first)
+            ranges.back().count += next.count;
+        else
+            ranges.push_back(next);
+    };
+    for (std::size_t i = 0; i < tiles.size();) {
+        Rectangle side_by_side = grid.pixels(tiles[i]);
+        for (++i; i < tiles.size() && tiles[i] == tiles[i - 1] + 1 && grid.pixels(tiles[i]).x > 0; ++i)
+            side_by_side.width += grid.pixels(tiles[i]).width;
+        for (std::uint32_t row = 0; row < side_by_side.height; ++row)
+            add({(side_by_side.y + row) * grid.width + side_by_side.x, side_by_side.width});
+    }
+    return ranges;
 }
 
 } // namespace
@@ -63,28 +76,30 @@ Kernel::Kernel(vulkan::Device &device, TracePipelines &pipelines, DeviceFilm &fi
     layout_(pt::point_layout(features_)),
     sampler_(settings.sampler),
     seed_(settings.seed),
-    first_pixel_(settings.first_row * settings.width),
     frame_(gpu_scene_->frame),
     table_bytes_(device.limits().max_uniform_range),
-    sharers_(sharers_of_pixel(device, film.pixel_count())),
     max_dispatch_samples_(samples_of_dispatch(device, features_, layout_, table_bytes_)),
     overlap_(device.policy().invocations > 0),
     scene_(device, vulkan::BufferUse::UniformOrStorage, checked_scene_bytes(device, gpu_scene_->words.size()), "scene"),
     tree_(tree),
     points_(device, vulkan::BufferUse::Streamed,
             std::uint64_t{table_bytes_} * (layout_.row_blocks() > 0 ? max_tables * device.policy().queue_depth : 1),
-            "points of a slice") {}
+            "points of a slice"),
+    tile_lists_(device, film.grid()) {
+    frame_.film_first_pixel = settings.first_row * settings.width;
+}
 
-// No kernel touches the pass before there is one.
 void Kernel::bind_film(const vulkan::ComputePipeline &trace) {
-    if (sets_.empty())
-        for (const DeviceFilm::Strip &strip : film_.strips())
-            sets_.push_back(bound(trace, strip, strip.words));
+    if (!sets_.empty())
+        return;
+    std::vector<vulkan::DescriptorSet> sets; // none is kept if one fails
+    for (const DeviceFilm::Strip &strip : film_.strips())
+        sets.push_back(bound(trace, strip));
+    sets_ = std::move(sets);
 }
 
 // What reads the tree is not in the kernel of a scene without one, but its bindings are.
-vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip,
-                                    const vulkan::Buffer &pass) const {
+vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip) const {
     const vulkan::Buffer &tree = tree_ ? *tree_ : scene_;
     const std::uint64_t node_bytes = tree_ ? gpu_scene_->tree->node_words().size_bytes() : vulkan::texel_bytes;
     const std::uint64_t first_sphere = tree_ ? node_bytes : 0;
@@ -92,11 +107,11 @@ vulkan::DescriptorSet Kernel::bound(const vulkan::ComputePipeline &trace, const 
     const std::array ranges = {vulkan::BufferRange(scene_),
                                vulkan::BufferRange(scene_),
                                vulkan::BufferRange(strip.words),
-                               vulkan::BufferRange(pass),
+                               vulkan::BufferRange(),
                                vulkan::BufferRange(points_),
                                vulkan::BufferRange(tree.handle(), 0, node_bytes),
                                vulkan::BufferRange(tree.handle(), first_sphere, sphere_bytes),
-                               vulkan::BufferRange(tile_lists_ ? *tile_lists_ : scene_)};
+                               vulkan::BufferRange(tile_lists_.buffer())};
     return trace.bind(ranges);
 }
 
@@ -109,25 +124,19 @@ void Kernel::show(std::shared_ptr<const GpuScene> scene, const RenderSettings &s
     gpu_scene_ = std::move(scene);
     sampler_ = settings.sampler;
     seed_ = settings.seed;
-    first_pixel_ = settings.first_row * settings.width;
     frame_ = gpu_scene_->frame;
+    frame_.film_first_pixel = settings.first_row * settings.width;
     scene_is_old_ = true;
     seconds_ = 0.0;
 }
 
-void Kernel::build(TracePipelines &pipelines, bool by_tile) const {
-    pipelines.trace(features_, sharers_, gpu_scene_->words, seconds_);
-    pipelines.commit();
+void Kernel::build(TracePipelines &pipelines) const {
+    pipelines.trace(features_, gpu_scene_->words, seconds_);
     pipelines.fold();
-    if (by_tile) {
-        pipelines.trace(features_, TracePipelines::of_tile_list, gpu_scene_->words, seconds_);
-        pipelines.fold_tiles();
-    }
 }
 
 void Kernel::dispatch_nothing() {
-    const std::array pipelines = {&pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_),
-                                  &pipelines_.commit(), &pipelines_.fold()};
+    const std::array pipelines = {&pipelines_.trace(features_, gpu_scene_->words, seconds_), &pipelines_.fold()};
     bind_film(*pipelines.front());
     device_.submit([&](const vk::raii::CommandBuffer &commands) {
         for (const vulkan::ComputePipeline *pipeline : pipelines)
@@ -139,26 +148,23 @@ std::uint32_t Kernel::max_samples() const {
     return max_dispatch_samples_ * max_full_dispatches;
 }
 
-// The samples of a slice as batches of one dispatch each, all of one part of the film as the slice leaves it: the split
-// moves once at the most, before them. Their tables are free: slices end in the order in which they were started, and
-// there is room for all that are under way.
-std::vector<Kernel::Batch> Kernel::next_batches(const SampleRange &samples, std::uint64_t split, SampleRange before) {
+// One dispatch each, of one part of the film as the slice leaves it. Their tables are free: slices end in the order in
+// which they were started, and there is room for all that are under way.
+std::vector<Kernel::Batch> Kernel::next_batches(const TileSlice &slice) {
+    const std::uint64_t split = slice.split();
+    SampleRange before = slice.before;
     std::vector<Batch> batches;
-    for (std::uint64_t sample = samples.first; sample < samples.end; sample = batches.back().range().end) {
-        const std::uint64_t end_in_part = sample < split ? std::min(split, samples.end) : samples.end;
+    for (std::uint64_t sample = slice.samples.first; sample < slice.samples.end; sample = batches.back().range().end) {
+        const bool is_older = sample < split;
+        const std::uint64_t end_in_part = is_older ? std::min(split, slice.samples.end) : slice.samples.end;
         const std::uint64_t count = std::min<std::uint64_t>(max_dispatch_samples_, end_in_part - sample);
-        batches.push_back(next_batch({sample, sample + count}));
-        batches.back().begins_part = begins_part(before, split, sample);
+        batches.push_back({static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(count),
+                           next_table_ * table_bytes_, is_older ? older_part : newer_part,
+                           begins_part(before, split, sample)});
+        next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
         before = hull_of(before, batches.back().range());
     }
     return batches;
-}
-
-Kernel::Batch Kernel::next_batch(const SampleRange &samples) {
-    const Batch batch{static_cast<std::uint32_t>(samples.first), static_cast<std::uint32_t>(samples.count()),
-                      next_table_ * table_bytes_, false};
-    next_table_ = (next_table_ + 1) % static_cast<std::uint32_t>(points_.size() / table_bytes_);
-    return batch;
 }
 
 void Kernel::upload_points(const std::vector<Batch> &batches) {
@@ -172,42 +178,45 @@ void Kernel::upload_points(const std::vector<Batch> &batches) {
     }
 }
 
-// Whether a dispatch need not read what it adds to. Those that overlap add by atomic operations.
-std::uint32_t Kernel::overwrites(const FilmTarget &target) const {
-    return target.is_empty && !overlap_ ? 1 : 0;
-}
-
 // Where nothing is under way that may read the film, slices or an image for a caller who does not wait for it, and what
 // is emptied will be overwritten.
 bool Kernel::folds_on_host() const {
     return !overlap_ && film_.is_host_memory() && device_.is_at_rest();
 }
 
-// Records a kernel over the part of a range of pixels that lies in each strip.
+// Invocations that share the samples of a pixel, so that a few tiles keep the device busy.
+std::uint32_t Kernel::sharers_of(std::size_t tile_count, std::uint32_t sample_count) const {
+    constexpr std::uint32_t least_samples = 4; // of each, which makes its adding to the film worth it
+    const std::size_t wanted = device_.policy().invocations / (tile_count * gpu::WORKGROUP_SIZE);
+    return static_cast<std::uint32_t>(std::clamp<std::size_t>(wanted, 1, std::max(sample_count / least_samples, 1U)));
+}
+
+// Over the tiles that each strip has a part of.
 void Kernel::dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                      const Slice &slice, const Batch &batch, const FilmTarget &target,
-                      std::uint32_t invocations_per_pixel) const {
-    gpu::FrameConstants frame = frame_;
-    frame.split_pass = slice.whole ? 0 : 1;
-    frame.film_part = target.part;
-    frame.is_first = overwrites(target);
-    frame.first_sample = batch.first_sample;
-    frame.sample_count = batch.sample_count;
-    const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-    const std::vector<vulkan::DescriptorSet> &sets = pass_sets_.empty() ? sets_ : pass_sets_;
-    for (std::size_t i = 0; i < sets.size(); ++i) {
+                      std::span<const std::uint32_t> tiles, gpu::FrameConstants frame,
+                      std::uint32_t table_offset) const {
+    const TileGrid grid = film_.grid();
+    const std::uint32_t first_entry = frame.first_entry;
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
         const DeviceFilm::Strip &strip = film_.strips()[i];
-        const std::uint32_t first = std::max(slice.first_pixel, strip.first_pixel);
-        const std::uint32_t end = std::min(slice_end, strip.first_pixel + strip.pixel_count);
-        if (first >= end)
-            continue;
-        frame.strip_first_pixel = first_pixel_ + strip.first_pixel;
+        const std::uint32_t first_row = strip.first_pixel / grid.width;
+        const std::uint32_t last_row = (strip.first_pixel + (strip.pixel_count - 1)) / grid.width;
+        const auto first_with_row = [&](std::uint32_t row) {
+            const auto lies_above = [&](std::uint32_t tile) { return tile / grid.columns() < row / gpu::TILE_SIZE; };
+            return static_cast<std::uint32_t>(std::ranges::partition_point(tiles, lies_above) - tiles.begin());
+        };
+        const std::uint32_t end = first_with_row(last_row + gpu::TILE_SIZE);
+        frame.strip_first_pixel = strip.first_pixel;
         frame.strip_pixel_count = strip.pixel_count;
-        frame.first_pixel = first - strip.first_pixel;
-        frame.pixel_count = end - first;
-        const std::uint32_t groups = (frame.pixel_count + gpu::WORKGROUP_SIZE - 1) / gpu::WORKGROUP_SIZE;
-        pipeline.dispatch(commands, sets[i], std::as_bytes(std::span(&frame, 1)), groups, {{batch.table_offset}},
-                          invocations_per_pixel);
+        const std::uint32_t most = device_.limits().max_workgroup_count;
+        std::uint32_t count = 0;
+        for (std::uint32_t first = first_with_row(first_row); first < end; first += count) {
+            count = std::min(end - first, most);
+            frame.first_entry = first_entry + first;
+            const std::uint32_t sharers = (frame.sample_count + frame.share - 1) / frame.share;
+            pipeline.dispatch(commands, sets_[i], std::as_bytes(std::span(&frame, 1)), count, {{table_offset}},
+                              sharers);
+        }
     }
 }
 
@@ -223,98 +232,55 @@ bool Kernel::scene_fits_commands() const {
     return gpu_scene_->words.size() * sizeof(glm::vec4) <= vulkan::max_recorded_bytes;
 }
 
-// Where the film's split moves, its parts are folded first.
-vulkan::Device::Ticket Kernel::start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
-                                     bool on_cleared_film, const Behind &behind) {
-    const Slice all_pixels{0, film_.pixel_count(), 1, true};
-    PartUse parts = on_cleared_film ? PartUse{} : film_.parts();
-    const SampleRange samples{first_sample, std::uint64_t{first_sample} + slice.sample_count};
-    const SampleRange extended = hull_of(hull, samples);
-    const bool folds = slice.whole && parts.needs_fold(extended);
-    const std::vector<Batch> batches = next_batches(samples, split_of(extended), parts.hull());
-    if (slice.whole)
-        parts.extend(extended);
+// Where the split moves, all samples so far are on one side of it.
+vulkan::Device::Ticket Kernel::start(const TileSlice &slice, bool on_cleared_film, const Behind &behind) {
+    const std::vector<Batch> batches = slice.takes ? next_batches(slice) : std::vector<Batch>();
     upload_points(batches);
     upload_scene();
-    const bool makes_pass = !slice.whole && !film_.has_pass();
-    if (!slice.whole)
-        prepare_pass();
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
-    bind_film(trace);
+    const vulkan::ComputePipeline &fold = pipelines_.fold();
+    bind_film(fold);
+    const vulkan::ComputePipeline *const trace =
+        batches.empty() ? nullptr : &pipelines_.trace(features_, gpu_scene_->words, seconds_);
+    gpu::FrameConstants frame = frame_;
+    frame.first_entry = tile_lists_.first_entry(slice.tiles);
+    const FilmPart kept = split_of(slice.before) < slice.split() ? older_part : newer_part;
     const bool refills = std::ranges::any_of(batches, &Batch::begins_part);
-    HostFold host_fold(film_, 0);
-    const bool is_folded = folds && refills && folds_on_host() && host_fold.fold({{0, film_.pixel_count()}});
+    HostFold host_fold(film_, kept);
+    const bool is_folded =
+        slice.moves_split() && refills && folds_on_host() && host_fold.fold(pixels_of_tiles(film_.grid(), slice.tiles));
     const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
         if (scene_is_old_)
             scene_.write(commands, std::as_bytes(std::span(gpu_scene_->words)));
         if (on_cleared_film)
-            film_.clear(commands, 0, film_.pixel_count());
-        else if (makes_pass)
-            film_.clear_pass(commands);
-        if (scene_is_old_ || on_cleared_film || makes_pass)
+            film_.clear(commands);
+        if (scene_is_old_ || on_cleared_film)
             vulkan::barrier_between_commands(commands);
-        if (folds && !is_folded) {
-            dispatch(commands, pipelines_.fold(), all_pixels, batches.front(), {0, refills}, 1);
+        if (slice.moves_split() && !is_folded) {
+            frame.film_part = kept;
+            frame.is_first = overwrites(refills);
+            frame.sample_count = frame.share = 1;
+            dispatch(commands, fold, slice.tiles, frame, 0);
             vulkan::barrier_between_commands(commands);
         }
         for (const Batch &batch : batches) {
             if (&batch != &batches.front() && !overlap_)
                 vulkan::barrier_between_commands(commands);
-            dispatch(commands, trace, slice, batch, {parts.part_of(batch.first_sample), batch.begins_part}, sharers_);
+            frame.film_part = batch.part;
+            frame.is_first = overwrites(batch.begins_part);
+            frame.first_sample = batch.first_sample;
+            frame.sample_count = batch.sample_count;
+            const std::uint32_t sharers = sharers_of(slice.tiles.size(), batch.sample_count);
+            frame.share = (batch.sample_count + sharers - 1) / sharers;
+            dispatch(commands, *trace, slice.tiles, frame, batch.table_offset);
         }
         if (behind) {
             vulkan::barrier_between_commands(commands);
-            behind(commands, parts);
+            behind(commands);
         }
     });
     host_fold.keep();
     scene_is_old_ = false;
-    film_.set_parts(parts);
     return ticket;
-}
-
-vulkan::Device::Ticket Kernel::start_fold(const SampleRange &hull) {
-    const Slice all_pixels{0, film_.pixel_count(), 1, true};
-    bind_film(pipelines_.fold());
-    PartUse parts = film_.parts();
-    parts.extend(hull);
-    const vulkan::Device::Ticket ticket = device_.start(
-        [&](const vk::raii::CommandBuffer &commands) { dispatch(commands, pipelines_.fold(), all_pixels, {}, {}, 1); });
-    film_.set_parts(parts);
-    return ticket;
-}
-
-// Folds range by range too, which is safe because the film is read only after the pass has been added to all pixels.
-vulkan::Device::Ticket Kernel::commit(const Slice &range, std::uint32_t sample, const SampleRange &hull) {
-    const Batch batch{sample, 1, 0, false};
-    const SampleRange extended = hull_of(hull, batch.range());
-    PartUse parts = film_.parts();
-    const bool folds = parts.needs_fold(extended);
-    parts.extend(extended);
-    const vulkan::Device::Ticket ticket = device_.start([&](const vk::raii::CommandBuffer &commands) {
-        if (folds) {
-            dispatch(commands, pipelines_.fold(), range, batch, {}, 1);
-            vulkan::barrier_between_commands(commands);
-        }
-        dispatch(commands, pipelines_.commit(), range, batch, {parts.part_of(sample), false}, 1);
-    });
-    if (range.first_pixel + range.pixel_count == film_.pixel_count())
-        film_.set_parts(parts);
-    return ticket;
-}
-
-// All that the pass needs before it starts, so that adding it cannot fail for lack of something.
-void Kernel::prepare_pass() {
-    pipelines_.commit();
-    pipelines_.fold();
-    film_.make_pass(device_);
-    if (!pass_sets_.empty())
-        return;
-    const vulkan::ComputePipeline &trace = pipelines_.trace(features_, sharers_, gpu_scene_->words, seconds_);
-    std::vector<vulkan::DescriptorSet> sets;
-    for (const DeviceFilm::Strip &strip : film_.strips())
-        sets.push_back(bound(trace, strip, *strip.pass));
-    pass_sets_ = std::move(sets);
 }
 
 double Kernel::finish(vulkan::Device::Ticket ticket, double expected_seconds) {

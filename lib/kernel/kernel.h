@@ -6,18 +6,18 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
+#include "lib/kernel/tile_lists.h"
+#include "lib/kernel/tile_slice.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "lib/render/render_settings.h"
-#include "lib/render/schedule.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,9 +38,9 @@ public:
     bool can_show(const GpuScene &scene) const;
     void show(std::shared_ptr<const GpuScene> scene, const RenderSettings &settings);
 
-    // Builds what this kernel runs of pipelines of the same device, be they other ones than its own; by_tile: for lists
-    // of tiles too. Throws PT_ERROR_SHADER if the driver refuses that.
-    void build(TracePipelines &pipelines, bool by_tile) const;
+    // Builds what this kernel runs of pipelines of the same device, be they other ones than its own. Throws
+    // PT_ERROR_SHADER if the driver refuses that.
+    void build(TracePipelines &pipelines) const;
 
     // Dispatches no work at all: some drivers compile a kernel no sooner than it is dispatched. None may be under way.
     void dispatch_nothing();
@@ -48,72 +48,42 @@ public:
     // The samples that one submission may add to a pixel.
     std::uint32_t max_samples() const;
 
-    // Records what follows the samples in their submission; parts: of the film, as they are used then.
-    using Behind = std::function<void(const vk::raii::CommandBuffer &, const PartUse &parts)>;
+    // Records what follows the samples in their submission.
+    using Behind = std::function<void(const vk::raii::CommandBuffer &)>;
 
-    // Starts to take the samples of a slice, of which first_sample is the index of the first; those of a split pass are
-    // kept aside. hull: of the samples that this device and others that render the same have begun before. At most the
-    // device's queue_depth of slices may be under way. on_cleared_film: all pixels of the film are cleared first.
-    vulkan::Device::Ticket start(const Slice &slice, std::uint32_t first_sample, const SampleRange &hull,
-                                 bool on_cleared_film, const Behind &behind = {});
-
-    // Starts to add a range of a split pass of that sample to the film, once all of the pass has been started. The film
-    // holds whole samples again with the range that ends it.
-    vulkan::Device::Ticket commit(const Slice &range, std::uint32_t sample, const SampleRange &hull);
-
-    // Where samples are added.
-    struct FilmTarget {
-        std::uint32_t part; // in memory
-        bool is_empty;      // of samples of these pixels
-    };
-
-    // Samples of some tiles of a film that has whole rows of regions.
-    struct TileWork {
-        std::span<const std::uint32_t> tiles; // ascending
-        SampleRange samples;                  // all of one part of the film; none, if there is only to fold
-        FilmTarget target;
-        std::optional<std::uint32_t> fold_into; // the part in memory that takes in the other one first
-    };
-
-    // Starts to take them; like start().
-    vulkan::Device::Ticket start_tiles(const TileWork &work);
-
-    // Starts to bring the film's parts to the split of samples that others have begun.
-    vulkan::Device::Ticket start_fold(const SampleRange &hull);
+    // Starts to take the samples of a slice. At most the device's queue_depth of slices may be under way.
+    // on_cleared_film: all pixels of the film are cleared first.
+    vulkan::Device::Ticket start(const TileSlice &slice, bool on_cleared_film, const Behind &behind = {});
 
     // Waits for a slice of start() and returns the seconds it took, or where these are not known what comes nearest to
     // those expected.
     double finish(vulkan::Device::Ticket ticket, double expected_seconds = 0.0);
 
 private:
-    // Samples that a dispatch takes, and where the table of their points is.
+    // Samples that a dispatch takes, all of one part of the film, and where the table of their points is.
     struct Batch {
         std::uint32_t first_sample;
         std::uint32_t sample_count;
         std::uint32_t table_offset; // bytes
-        bool begins_part;           // of the film, which has no samples of this device's yet
+        FilmPart part;
+        bool begins_part; // which has no samples of these pixels yet
 
         SampleRange range() const { return {first_sample, std::uint64_t{first_sample} + sample_count}; }
     };
 
-    Batch next_batch(const SampleRange &samples);
-    std::vector<Batch> next_batches(const SampleRange &samples, std::uint64_t split, SampleRange before);
+    std::vector<Batch> next_batches(const TileSlice &slice);
     void upload_points(const std::vector<Batch> &batches);
     void bind_film(const vulkan::ComputePipeline &trace);
-    void prepare_pass();
-    void prepare_tiles();
-    std::uint32_t list_tiles(std::span<const std::uint32_t> tiles);
-    void dispatch_tiles(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
-                        std::span<const std::uint32_t> tiles, std::uint32_t first_entry, gpu::FrameConstants frame,
-                        std::uint32_t table_offset, std::uint32_t sharers) const;
-    vulkan::DescriptorSet bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip,
-                                const vulkan::Buffer &pass) const;
+    vulkan::DescriptorSet bound(const vulkan::ComputePipeline &trace, const DeviceFilm::Strip &strip) const;
     void upload_scene();
     bool scene_fits_commands() const;
-    void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline, const Slice &slice,
-                  const Batch &batch, const FilmTarget &target, std::uint32_t invocations_per_pixel) const;
-    std::uint32_t overwrites(const FilmTarget &target) const;
+    void dispatch(const vk::raii::CommandBuffer &commands, const vulkan::ComputePipeline &pipeline,
+                  std::span<const std::uint32_t> tiles, gpu::FrameConstants frame, std::uint32_t table_offset) const;
+    std::uint32_t sharers_of(std::size_t tile_count, std::uint32_t sample_count) const;
     bool folds_on_host() const;
+
+    // Whether a dispatch need not read the part that it adds to. Those that overlap add by atomic operations.
+    std::uint32_t overwrites(bool part_is_empty) const { return part_is_empty && !overlap_ ? 1 : 0; }
 
     vulkan::Device &device_;
     TracePipelines &pipelines_;
@@ -123,23 +93,18 @@ private:
     PointLayout layout_;
     std::uint32_t sampler_;
     std::uint64_t seed_;
-    std::uint32_t first_pixel_; // of the film, in the image
     gpu::FrameConstants frame_;
     std::uint32_t table_bytes_;          // of the points that a dispatch sees
-    std::uint32_t sharers_;              // invocations to a pixel
     std::uint32_t max_dispatch_samples_; // per pixel
     bool overlap_;                       // dispatches may add to the film at the same time
     vulkan::Buffer scene_;
-    vulkan::Buffer *tree_;                         // NULL if there is none
-    vulkan::Buffer points_;                        // tables of the slices under way
-    std::vector<vulkan::DescriptorSet> sets_;      // one per strip of the film
-    std::vector<vulkan::DescriptorSet> pass_sets_; // likewise with the pass, if there has been one
-    std::optional<vulkan::Buffer> tile_lists_;     // of the slices under way, if there has been one of tiles
-    std::vector<vulkan::DescriptorSet> tile_sets_; // with them
-    std::uint32_t next_tile_list_ = 0;             // in tile_lists_, which is used in turn
-    std::uint32_t next_table_ = 0;                 // in points_, which is used in turn
-    bool scene_is_old_ = true;                     // the buffer does not have the scene yet
-    double seconds_ = 0.0;                         // of all slices of the scene so far
+    vulkan::Buffer *tree_;  // NULL if there is none
+    vulkan::Buffer points_; // tables of the slices under way
+    TileLists tile_lists_;
+    std::vector<vulkan::DescriptorSet> sets_; // one per strip of the film
+    std::uint32_t next_table_ = 0;            // in points_, which is used in turn
+    bool scene_is_old_ = true;                // the buffer does not have the scene yet
+    double seconds_ = 0.0;                    // of all slices of the scene so far
 };
 
 } // namespace pt

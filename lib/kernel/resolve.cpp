@@ -23,7 +23,6 @@ gpu::ResolveConstants resolve_constants(const ImageQuery &query, const DeviceFil
     if (query.samples)
         constants.sample_counts = {static_cast<std::uint32_t>((*query.samples)[older_part]),
                                    static_cast<std::uint32_t>((*query.samples)[newer_part])};
-    constants.older_part = film.parts().older();
     constants.exponent = std::ilogb(query.unit) - static_cast<int>(gpu::FILM_FRACTION_BITS);
     constants.quantity = query.quantity;
     constants.film_width = film.width();

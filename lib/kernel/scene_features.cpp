@@ -290,7 +290,6 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
     constants[gpu::ID_TABLE_BLOCKS] = layout.block_count();
     constants[gpu::ID_BRANCH_COUNT] = layout.branches;
     constants[gpu::ID_CURVATURE] = features.curvature ? 1 : 0;
-    constants[gpu::ID_SHARERS] = 1;
     constants[gpu::ID_OVERLAP] = 0;
     constants[gpu::ID_UNROLLED] = gpu::CONSTANT_SCENE_WORDS; // all for which words may be constants
     constants[gpu::ID_INSIDE] = features.inside ? 1 : 0;

@@ -3,7 +3,6 @@
 
 #include "accuracy.spv.h"
 #include "add.spv.h"
-#include "commit.spv.h"
 #include "coverage.spv.h"
 #include "estimate.spv.h"
 #include "first_hit.spv.h"
@@ -111,30 +110,28 @@ std::vector<std::uint32_t> compile(pt_compile_glsl_fn compiler, const std::strin
 KernelCode code_of(std::vector<std::vector<std::uint32_t>> words) {
     const auto kept = std::make_shared<const std::vector<std::vector<std::uint32_t>>>(std::move(words));
     const auto &of = *kept;
-    return {of[0], of[1], of[2], of[3], of[4], of[5], of[6], of[7], of[8], kept};
+    return {of[0], of[1], of[2], of[3], of[4], of[5], of[6], of[7], kept};
 }
 
 } // namespace
 
 bool KernelCode::operator==(const KernelCode &other) const {
-    return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(commit, other.commit) &&
-           std::ranges::equal(fold, other.fold) && std::ranges::equal(add, other.add) &&
-           std::ranges::equal(resolve, other.resolve) && std::ranges::equal(estimate, other.estimate) &&
-           std::ranges::equal(accuracy, other.accuracy) && std::ranges::equal(first_hit, other.first_hit) &&
-           std::ranges::equal(coverage, other.coverage);
+    return std::ranges::equal(pathtrace, other.pathtrace) && std::ranges::equal(fold, other.fold) &&
+           std::ranges::equal(add, other.add) && std::ranges::equal(resolve, other.resolve) &&
+           std::ranges::equal(estimate, other.estimate) && std::ranges::equal(accuracy, other.accuracy) &&
+           std::ranges::equal(first_hit, other.first_hit) && std::ranges::equal(coverage, other.coverage);
 }
 
 // Unpacked when first asked for, in a millisecond, and kept for all contexts.
 KernelCode embedded_code() {
-    static const KernelCode code =
-        code_of({pathtrace_spirv(), commit_spirv(), fold_spirv(), add_spirv(), resolve_spirv(), estimate_spirv(),
-                 accuracy_spirv(), first_hit_spirv(), coverage_spirv()});
+    static const KernelCode code = code_of({pathtrace_spirv(), fold_spirv(), add_spirv(), resolve_spirv(),
+                                            estimate_spirv(), accuracy_spirv(), first_hit_spirv(), coverage_spirv()});
     return code;
 }
 
 std::string digest_of(const KernelCode &code) {
     Digest digest;
-    for (const auto &words : {code.pathtrace, code.commit, code.fold})
+    for (const auto &words : {code.pathtrace, code.fold})
         digest.add(words);
     return digest.text();
 }
@@ -144,8 +141,8 @@ KernelCode ShaderSource::read() const {
         return embedded_code();
     const pt_compile_glsl_fn compiler = load_compiler(directory_);
     std::vector<std::vector<std::uint32_t>> compiled;
-    for (const char *const name : {"pathtrace.comp", "commit.comp", "fold.comp", "add.comp", "resolve.comp",
-                                   "estimate.comp", "accuracy.comp", "first_hit.comp", "coverage.comp"})
+    for (const char *const name : {"pathtrace.comp", "fold.comp", "add.comp", "resolve.comp", "estimate.comp",
+                                   "accuracy.comp", "first_hit.comp", "coverage.comp"})
         compiled.push_back(compile(compiler, directory_, name));
     return code_of(std::move(compiled));
 }

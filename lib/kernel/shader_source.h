@@ -13,7 +13,6 @@ namespace pt {
 // The SPIR-V of all kernels.
 struct KernelCode {
     std::span<const std::uint32_t> pathtrace;
-    std::span<const std::uint32_t> commit;
     std::span<const std::uint32_t> fold;
     std::span<const std::uint32_t> add;
     std::span<const std::uint32_t> resolve;
@@ -34,7 +33,7 @@ std::string digest_of(const KernelCode &code);
 
 class ShaderSource {
 public:
-    // A folder with pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp,
+    // A folder with pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp, accuracy.comp,
     // first_hit.comp, coverage.comp and what they include; empty: the embedded code.
     explicit ShaderSource(std::string directory) : directory_(std::move(directory)) {}
 

@@ -18,16 +18,14 @@ namespace pt {
 namespace {
 
 constexpr std::array bindings = {vk::DescriptorType::eUniformBuffer,        vk::DescriptorType::eStorageBuffer,
-                                 vk::DescriptorType::eStorageBuffer,        vk::DescriptorType::eStorageBuffer,
+                                 vk::DescriptorType::eStorageBuffer,        vulkan::no_binding,
                                  vk::DescriptorType::eUniformBufferDynamic, vk::DescriptorType::eUniformTexelBuffer,
                                  vk::DescriptorType::eUniformTexelBuffer,   vk::DescriptorType::eStorageBuffer};
 
-std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features,
-                                                 std::uint32_t sharers) {
+std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, const Features &features) {
     const auto constants = specialization_constants(features);
     std::vector<std::uint32_t> result(constants.begin(), constants.end());
     result[gpu::ID_POINT_BLOCKS] = device.limits().max_uniform_range / std::uint32_t{sizeof(glm::uvec4)};
-    result[gpu::ID_SHARERS] = sharers;
     set_device_constants(result, device.policy());
     result[gpu::ID_WALK_TRIPS] = features.tree ? device.policy().walk_trips : 0;
     const bool fits = SceneBlocks(features).word_count <= gpu::UNIFORM_SCENE_WORDS;
@@ -43,12 +41,6 @@ std::vector<std::uint32_t> with_scene(std::vector<std::uint32_t> constants, std:
         for (int i = 0; i < 4; ++i)
             constants.push_back(std::bit_cast<std::uint32_t>(word[i]));
     return constants;
-}
-
-// Those by which one kernel for ranges of pixels and one for lists of tiles are told apart do not count.
-bool are_of_one_scene(std::vector<std::uint32_t> a, const std::vector<std::uint32_t> &b) {
-    a[gpu::ID_SHARERS] = b[gpu::ID_SHARERS];
-    return a == b;
 }
 
 } // namespace
@@ -91,7 +83,7 @@ const vulkan::ComputePipeline *TracePipelines::find(const std::vector<std::uint3
 void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, double seconds) {
     if (!own_)
         return;
-    if (are_of_one_scene(own_->constants, constants)) {
+    if (own_->constants == constants) {
         own_->used_seconds += std::max(seconds - own_->last_seconds, 0.0);
         own_->last_seconds = seconds;
     } else {
@@ -100,16 +92,14 @@ void TracePipelines::note_own(const std::vector<std::uint32_t> &constants, doubl
     }
 }
 
-const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::uint32_t sharers,
-                                                     std::span<const glm::vec4> words, double seconds) {
-    std::vector<std::uint32_t> constants = constants_of_features(device_, features, sharers);
+const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, std::span<const glm::vec4> words,
+                                                     double seconds) {
+    std::vector<std::uint32_t> constants = constants_of_features(device_, features);
     if (device_.policy().scene_in_constants && features.scene_in_uniform && words.size() <= gpu::CONSTANT_SCENE_WORDS) {
         std::vector<std::uint32_t> own = with_scene(constants, words);
         note_own(own, seconds); // own_ is this scene's afterwards, or nobody's
         if (const vulkan::ComputePipeline *const kept = find(own))
             return *kept;
-        if (own_) // has one already, for other pixels
-            return build(std::move(own));
         if (kept_.empty() || ahead_ || (!as_they_are_ && clock_.is_time(seconds))) {
             OwnKernel next{own, seconds, 0.0};
             const vulkan::ComputePipeline &built = build(std::move(own));
@@ -122,23 +112,10 @@ const vulkan::ComputePipeline &TracePipelines::trace(const Features &features, s
     return build(std::move(constants));
 }
 
-const vulkan::ComputePipeline &TracePipelines::commit() {
-    if (!commit_)
-        commit_.emplace(device_, code_.commit, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
-    return *commit_;
-}
-
 const vulkan::ComputePipeline &TracePipelines::fold() {
     if (!fold_)
         fold_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), std::span<const std::uint32_t>{});
     return *fold_;
-}
-
-const vulkan::ComputePipeline &TracePipelines::fold_tiles() {
-    constexpr std::array of_list = {1U};
-    if (!fold_tiles_)
-        fold_tiles_.emplace(device_, code_.fold, bindings, sizeof(gpu::FrameConstants), of_list);
-    return *fold_tiles_;
 }
 
 } // namespace pt

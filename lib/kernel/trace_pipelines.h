@@ -1,4 +1,4 @@
-// The specialised pipelines of pathtrace.comp, and those of commit.comp and fold.comp, kept from scene to scene.
+// The specialised pipelines of pathtrace.comp, and that of fold.comp, kept from scene to scene.
 // Owned by RenderDevice, used by Kernel.
 #pragma once
 
@@ -26,9 +26,6 @@ public:
     // each with a kernel of one scene's own perhaps. Work under way uses the last two at most.
     static constexpr std::size_t most_kept = 8;
 
-    // Instead of a number of sharers: pixels are those of a list of tiles, and each dispatch says how many share them.
-    static constexpr std::uint32_t of_tile_list = 0;
-
     // The device must outlive the pipelines.
     explicit TracePipelines(vulkan::Device &device, KernelCode code = embedded_code());
 
@@ -37,12 +34,10 @@ public:
 
     // The kernel for scenes with these features, or where that is faster for this scene alone. Both give the same bits.
     // The first scene gets one of its own at once, as it has to wait for some kernel anyway; others do once they have
-    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. Whether
-    // pixels are a range or those of a list makes no other scene. sharers: invocations to a pixel, or of_tile_list;
-    // words: the scene buffer; seconds: for which this scene has been rendered so far with nothing about it changed,
-    // the camera neither. The reference holds until the next call.
-    const vulkan::ComputePipeline &trace(const Features &features, std::uint32_t sharers,
-                                         std::span<const glm::vec4> words, double seconds);
+    // been rendered for a while (own_kernel_clock.h), since building takes as long as many small images do. words: the
+    // scene buffer; seconds: for which this scene has been rendered so far with nothing about it changed, the camera
+    // neither. The reference holds until the next call.
+    const vulkan::ComputePipeline &trace(const Features &features, std::span<const glm::vec4> words, double seconds);
 
     // While it is there, every scene gets a kernel of its own at once: whoever prepares kernels has the time.
     class Ahead {
@@ -59,12 +54,8 @@ public:
     // Whether scenes wait for kernels of their own until this is taken back: polls build nothing.
     void keep_kernels_as_they_are(bool keep) { as_they_are_ = keep; }
 
-    // The kernel that adds a split pass to the film.
-    const vulkan::ComputePipeline &commit();
-
-    // The kernel that adds one part of the film to the other, in a range of pixels or in a list of tiles.
+    // The kernel that adds one part of the film to the other.
     const vulkan::ComputePipeline &fold();
-    const vulkan::ComputePipeline &fold_tiles();
 
 private:
     // A pipeline and what it is specialised to.
@@ -92,9 +83,7 @@ private:
     std::optional<OwnKernel> own_;
     bool ahead_ = false;
     bool as_they_are_ = false;
-    std::optional<vulkan::ComputePipeline> commit_;
     std::optional<vulkan::ComputePipeline> fold_;
-    std::optional<vulkan::ComputePipeline> fold_tiles_;
 };
 
 } // namespace pt

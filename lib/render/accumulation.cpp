@@ -2,61 +2,162 @@
 #include "lib/render/accumulation.h"
 
 #include <algorithm>
+#include <thread>
+#include <utility>
 
 namespace pt {
 
-Accumulation::Accumulation(const Devices &devices, const SampleSet &samples, std::uint32_t first_sample,
-                           std::uint32_t wanted, const Progress &progress, const Cancellation &cancellation,
+Accumulation::Accumulation(const Devices &devices, TileSamples samples, std::uint32_t first_sample,
+                           std::uint64_t wanted, const Progress &progress, const Cancellation &cancellation,
                            DeviceWork &work) :
-    SampleDealing(devices, {std::uint64_t{wanted} * devices.front()->pixel_count() - devices.front()->pass_pixels()},
-                  progress, cancellation, work),
-    first_sample_(first_sample),
-    dealt_(samples) {
-    if (const SampleRange pass = devices.front()->pass(); !pass.empty())
-        dealt_.add(pass);
+    devices_(devices),
+    work_(work),
+    progress_(progress),
+    cancellation_(cancellation),
+    wanted_(std::max<std::uint64_t>(wanted, 1)),
+    samples_(std::move(samples)),
+    first_sample_(first_sample) {}
+
+bool Accumulation::set_goal(std::span<const std::uint32_t> tiles, const TileTasks::Goal &goal) {
+    return set(TileTasks(samples_, first_sample_, tiles, goal), std::nullopt);
 }
 
-bool Accumulation::run(const Goal &goal, Clock::time_point until) {
-    goal_ = goal;
-    return go_on(until);
+bool Accumulation::set_goal_of_all(std::span<const std::uint32_t> all_tiles, std::uint64_t goal,
+                                   std::optional<double> unit_of_error) {
+    return set(TileTasks(samples_.of(0), first_sample_, all_tiles, goal), unit_of_error);
 }
 
-SampleSet Accumulation::samples() const {
-    SampleSet whole = dealt_;
-    if (const SampleRange pass = devices().front()->pass(); !pass.empty())
-        whole.remove(pass);
-    return whole;
+bool Accumulation::set(TileTasks tasks, std::optional<double> unit_of_error) {
+    tasks_ = std::move(tasks);
+    unit_of_error_ = unit_of_error;
+    has_estimate_ = false;
+    return !tasks_.empty();
 }
 
+// Where the time is over, what has ended by now is taken in before anything is dealt, and what is dealt is left to the
+// next call: so a call comes to an end however short the slices are, and one that finds nothing under way waits for
+// nothing.
+bool Accumulation::run(Clock::time_point until) {
+    const bool begins = !is_under_way();
+    for (const auto &device : devices_)
+        device->look();
+    deal();
+    if (begins && Clock::now() >= until)
+        return !is_under_way();
+    while (RenderDevice *const device = next_to_finish(until)) {
+        finish_slice(*device);
+        if (Clock::now() < until)
+            deal();
+    }
+    deal();
+    return !is_under_way();
+}
+
+// Starts what there is room for. A cancellation may be asked for at any time, and counts from here on.
 void Accumulation::deal() {
-    for (const auto &device : devices())
-        while (deal_to(*device)) {
-        }
+    if (cancellation_.is_asked())
+        stop();
+    if (begun_)
+        start_begun();
+    for (bool dealt = true; dealt;) {
+        dealt = false;
+        for (const auto &device : devices_)
+            dealt |= deal_to(*device);
+    }
 }
 
-// Starts a device's next slice, if it has room for one and there is one.
 bool Accumulation::deal_to(RenderDevice &device) {
-    const bool finishes_pass = !device.pass().empty() && !(stopped() && devices().size() == 1);
-    const bool goes_on =
-        !stopped() && (device.film_is_behind() || (device.pass().empty() && dealt_.count() < goal_.count));
-    if (!device.has_room() || !(finishes_pass || goes_on))
+    if (tasks_.empty() || (stopped_ && !tasks_.is_within_samples()) || !device.has_room())
         return false;
-    SampleRange next = dealt_.next_missing(first_sample_);
-    next.end = std::min(next.end, next.first + (goal_.count - std::min(goal_.count, dealt_.count())));
-    dealt_.prepare_add(); // what is started must be counted
-    const auto [begun, estimates] = device.start(next, dealt_.hull(), estimate_after(next));
-    dealt_.add({next.first, next.first + begun});
-    has_estimate_ = estimates;
+    const TileSlice slice = tasks_.next(device.schedule());
+    if (!has_room_for(slice, device))
+        return false;
+    const bool is_last = tasks_.ends_all(slice.tiles.size());
+    // Before anything is started: what is must be counted.
+    Begun next{slice, &device, samples_,
+               is_last && unit_of_error_ && devices_.size() == 1 && device.estimates_behind()};
+    next.samples.add(slice.tiles, slice.samples);
+    if (tasks_.ends_samples(slice.tiles.size()))
+        next.samples.tidy();
+    begun_ = std::move(next);
+    try {
+        start_begun();
+    } catch (...) {
+        if (!begun_->is_partly_started)
+            begun_.reset();
+        throw;
+    }
     return true;
 }
 
-// Of the films with these samples, if they are the last ones. What a device tells of its own film alone is no use.
-std::optional<ErrorQuery> Accumulation::estimate_after(const SampleRange &samples) const {
-    if (!goal_.unit_of_error || devices().size() > 1 || dealt_.count() + samples.count() < goal_.count)
-        return std::nullopt;
-    SampleSet all = dealt_;
-    all.add(samples);
-    return ErrorQuery{*goal_.unit_of_error, part_counts(all)};
+// All devices may have to make room for the samples that one of them takes.
+bool Accumulation::has_room_for(const TileSlice &slice, const RenderDevice &taker) const {
+    return taker.has_room() && (!slice.moves_split() ||
+                                std::ranges::all_of(devices_, [](const auto &device) { return device->has_room(); }));
+}
+
+// One device takes the samples of the slice. The others fold, so that the films of all have the same samples in each
+// part, and add up part by part.
+void Accumulation::start_begun() {
+    const ErrorQuery estimate{unit_of_error_.value_or(1.0), begun_->samples};
+    for (; begun_->next_device < devices_.size(); ++begun_->next_device) {
+        RenderDevice &device = *devices_[begun_->next_device];
+        TileSlice slice = begun_->slice;
+        slice.takes = &device == begun_->taker;
+        if (!slice.takes && !slice.moves_split())
+            continue;
+        device.start(slice, begun_->is_estimated ? &estimate : nullptr);
+        begun_->is_partly_started = true;
+    }
+    samples_ = std::move(begun_->samples);
+    has_estimate_ = begun_->is_estimated;
+    tasks_.leave_behind(begun_->slice.tiles.size());
+    begun_.reset();
+}
+
+bool Accumulation::is_under_way() const {
+    return std::ranges::any_of(devices_, [](const auto &device) { return !device->is_idle(); });
+}
+
+bool Accumulation::complete() noexcept {
+    stop();
+    try {
+        return run(Clock::time_point::max());
+    } catch (...) {
+        for (const auto &device : devices_)
+            device->drain();
+        return false;
+    }
+}
+
+double Accumulation::fraction() const {
+    return std::min(static_cast<double>(done_) / static_cast<double>(wanted_), 1.0);
+}
+
+// The device whose slice ends first, if one does by that time. Of several it is the first that is seen to be done, for
+// Vulkan waits for no more than one.
+RenderDevice *Accumulation::next_to_finish(Clock::time_point until) const {
+    constexpr std::chrono::microseconds pause{50}; // a thousandth of a slice
+    if (devices_.size() == 1)
+        return !devices_.front()->is_idle() && devices_.front()->is_done(until) ? devices_.front().get() : nullptr;
+    while (is_under_way()) {
+        for (const auto &device : devices_)
+            if (!device->is_idle() && device->is_done(Clock::time_point::min()))
+                return device.get();
+        if (Clock::now() >= until)
+            return nullptr;
+        std::this_thread::sleep_for(pause);
+    }
+    return nullptr;
+}
+
+void Accumulation::finish_slice(RenderDevice &device) {
+    const auto [tile_samples, seconds] = device.finish();
+    ++work_.submit_count;
+    work_.seconds += seconds;
+    done_ += tile_samples;
+    if (progress_.function && !stopped_)
+        stopped_ = progress_.function(progress_.user, fraction()) != 0;
 }
 
 } // namespace pt

@@ -1,5 +1,5 @@
 // Whether samples are under way, and whether somebody wants no more of them. The one part of a context that every
-// thread may touch at any time. Owned by Renderer, looked at by SampleDealing.
+// thread may touch at any time. Owned by Renderer, looked at by Accumulation.
 #pragma once
 
 #include <atomic>

@@ -29,11 +29,6 @@ std::vector<DeviceFilm *> FilmView::films(const Devices &devices) {
     return films;
 }
 
-// Whether the first film has all samples, in parts that no sample of another has moved.
-bool FilmView::is_one_film(const TileSamples &samples) const {
-    return devices_.size() == 1 && home().film().parts().split() == split_of(samples.hull());
-}
-
 // As few bands of whole rows of regions as there may be, all of one size but for the last.
 std::vector<FilmView::Band> FilmView::bands() const {
     const std::uint32_t width = home().film().width();
@@ -76,7 +71,7 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
     }
     ImageRows rows(image);
     const auto put = [&](std::span<const std::byte> pixels) { rows.put(pixels); };
-    if (is_one_film(samples)) {
+    if (is_one_film()) {
         home().image_reader().read(query, put);
         return;
     }
@@ -88,7 +83,7 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
         if (first >= end)
             continue;
         Sum &sum = this->sum(band.row_count);
-        sum.rows.gather(band.first_row, {first * width, (end - first) * width}, samples.hull());
+        sum.rows.gather(band.first_row, {first * width, (end - first) * width});
         ImageQuery in_band = query;
         in_band.pixels.y = first - band.first_row;
         in_band.pixels.height = end - first;
@@ -96,8 +91,8 @@ void FilmView::read(const Image &image, const ImageQuery &query, const TileSampl
     }
 }
 
-std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query, const TileSamples &samples) {
-    if (!home().device().policy().resolve_on_device || !is_one_film(samples))
+std::optional<std::span<std::byte>> FilmView::map(const ImageQuery &query) {
+    if (!home().device().policy().resolve_on_device || !is_one_film())
         return std::nullopt;
     return home().image_reader().map(query);
 }
@@ -120,33 +115,25 @@ bool FilmView::reads_on_device() const {
 }
 
 // Regions come in one order, whoever sums them up: an image has the same estimate on one device and on several.
-void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded) {
-    const ErrorQuery query{unit, part_counts(samples.of(0)), nullptr, {}};
+void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples,
+                        std::vector<double> &tile_squares, bool is_recorded) {
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
-    if (!reads_on_device())
-        read_films(films(devices_), samples, piece_pixels,
-                   [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
-    else if (!is_one_film(samples))
-        estimate_bands(query, samples, add);
+    if (!reads_on_device()) {
+        if (samples.even())
+            read_films(films(devices_), samples, piece_pixels,
+                       [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
+        else
+            std::ranges::for_each(uneven_errors_.regions(samples, unit, reader_of(samples)), add);
+        return;
+    }
+    tile_squares.resize(samples.grid().count());
+    const ErrorQuery query{unit, samples, tile_squares};
+    if (!is_one_film())
+        estimate_bands(query, add);
     else if (is_recorded)
         home().error_reader().collect(query, add);
     else
         home().error_reader().read(query, add);
-}
-
-void FilmView::estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
-                              std::vector<double> &tile_squares) {
-    const auto add = [&](const RegionErrors &region) { estimator.add(region); };
-    if (reads_on_device()) {
-        tile_squares.resize(samples.grid().count());
-        const ErrorQuery query{unit, {}, &samples, tile_squares};
-        if (is_one_film(samples))
-            home().uneven_error_reader().read(query, add);
-        else
-            estimate_bands(query, samples, add);
-        return;
-    }
-    std::ranges::for_each(uneven_errors_.regions(samples, unit, reader_of(samples)), add);
 }
 
 std::span<const double> FilmView::tile_squares(double unit, const TileSamples &samples) {
@@ -160,27 +147,18 @@ UnevenErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
 }
 
 // Each band is a film of its own, with tiles of its own.
-void FilmView::estimate_bands(const ErrorQuery &query, const TileSamples &samples,
-                              const ErrorReader::Receive &receive) {
+void FilmView::estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive) {
     films(devices_);
-    const std::uint32_t width = home().film().width();
+    const TileGrid &grid = query.samples.grid();
     for (const Band &band : bands()) {
         Sum &sum = this->sum(band.row_count);
-        sum.rows.gather(band.first_row, {band.first_row * width, band.row_count * width}, samples.hull());
-        std::optional<ErrorReader> &reader = query.uneven ? sum.uneven_error : sum.error;
-        if (!reader)
-            reader.emplace(home().device(),
-                           query.uneven ? home().uneven_estimate_pipeline() : home().estimate_pipeline(),
-                           query.uneven != nullptr, sum.rows.film());
-        ErrorQuery of_band = query;
-        TileSamples band_samples;
-        if (query.uneven) {
-            band_samples = samples.rows(band.first_row, band.row_count);
-            of_band.uneven = &band_samples;
-            of_band.tile_squares =
-                query.tile_squares.subspan(samples.grid().tile_at(0, band.first_row), band_samples.grid().count());
-        }
-        reader->read(of_band, receive);
+        sum.rows.gather(band.first_row, {band.first_row * grid.width, band.row_count * grid.width});
+        if (!sum.error)
+            sum.error.emplace(home().device(), home().estimate_pipeline(), sum.rows.film());
+        const TileSamples samples = query.samples.rows(band.first_row, band.row_count);
+        sum.error->read(
+            {query.unit, samples, query.by_tile.subspan(grid.tile_at(0, band.first_row), samples.grid().count())},
+            receive);
     }
 }
 

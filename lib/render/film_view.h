@@ -35,16 +35,13 @@ public:
 
     // Likewise, without gaps, in memory of the first device, where that makes the image; it stays until the film is
     // replaced, or the next call. Elsewhere none.
-    std::optional<std::span<std::byte>> map(const ImageQuery &query, const TileSamples &samples);
+    std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator all that is known of the error of films with the same samples in all tiles. is_recorded: it
-    // is there already, of a submission that took the samples on the only device. Throws likewise.
-    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, bool is_recorded);
-
-    // Of films with any samples. tile_squares: receives what is expected of each of their tiles (region_errors.h),
-    // where a kernel finds both at once.
-    void estimate_tiles(ErrorEstimator &estimator, double unit, const TileSamples &samples,
-                        std::vector<double> &tile_squares);
+    // Gives the estimator all that is known of the films' error. tile_squares: receives what is expected of each of
+    // their tiles (region_errors.h), where a kernel finds both at once. is_recorded: it is there already, of a
+    // submission that took the samples on the only device. Throws likewise.
+    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, std::vector<double> &tile_squares,
+                  bool is_recorded);
 
     // Whether the host finds what is expected of tiles, without the error of the image: it takes less time.
     bool finds_tile_squares_alone() const { return !reads_on_device(); }
@@ -70,7 +67,6 @@ private:
         FilmSum rows;
         ImageReader image;
         std::optional<ErrorReader> error;
-        std::optional<ErrorReader> uneven_error;
     };
 
     // Rows of the films that meet on the first device at a time.
@@ -81,10 +77,10 @@ private:
 
     RenderDevice &home() const { return *devices_.front(); }
     bool reads_on_device() const;
-    bool is_one_film(const TileSamples &samples) const;
+    bool is_one_film() const { return devices_.size() == 1; }
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
-    void estimate_bands(const ErrorQuery &query, const TileSamples &samples, const ErrorReader::Receive &receive);
+    void estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive);
     UnevenErrors::ReadRows reader_of(const TileSamples &samples) const;
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 

@@ -12,10 +12,6 @@ namespace pt {
 
 namespace {
 
-// Pixels of the film that a device empties, or adds a sample to, in the time of a ray-surface test: a few hundred bytes
-// in the time of a few additions, by far.
-constexpr double film_pixels_per_test = 1.0 / 64.0;
-
 // With another kernel tests may take longer than those that were measured.
 constexpr double share_assumed_of_learnt = 0.125;
 
@@ -57,24 +53,17 @@ DeviceFilm RenderDevice::make_film(const RenderSettings &settings) {
 void RenderDevice::set_film(DeviceFilm film) {
     drop_bound(); // to the old film
     film_ = std::move(film);
-    ScheduleLimits limits{};
-    limits.target_seconds = target_seconds_;
-    limits.first_slice_paths = target_seconds_ * tests_per_second_ * film_pixels_per_test;
-    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
-    film_schedule_.emplace(film_->pixel_count(), limits);
     discard_samples();
 }
 
 void RenderDevice::discard_samples() noexcept {
-    pass_pixels_ = 0;
-    uncommitted_pixels_ = 0;
-    uncleared_pixels_ = film_ ? film_->pixel_count() : 0;
+    film_is_void_ = true;
 }
 
 std::unique_ptr<TracePipelines> RenderDevice::make_pipelines(const KernelCode &code) {
     auto pipelines = std::make_unique<TracePipelines>(device_, code);
     if (kernel_)
-        kernel_->build(*pipelines, false);
+        kernel_->build(*pipelines);
     return pipelines;
 }
 
@@ -92,7 +81,6 @@ void RenderDevice::drop_bound() noexcept {
     image_reader_.reset();
     buffer_writer_.reset();
     error_reader_.reset();
-    uneven_error_reader_.reset();
 }
 
 void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePipelines> pipelines) noexcept {
@@ -101,7 +89,6 @@ void RenderDevice::set_pipelines(const KernelCode &code, std::unique_ptr<TracePi
     coverage_.reset();
     resolve_.reset();
     estimate_.reset();
-    uneven_estimate_.reset();
     add_.reset();
     pipelines_ = std::move(pipelines);
     code_ = code;
@@ -135,8 +122,7 @@ void RenderDevice::prepare(const std::shared_ptr<const GpuScene> &scene, const R
     limits.first_slice_paths =
         target_seconds_ * tests_per_second_ / surface_tests_per_path(kernel_->features(), scene->tree.get());
     limits.max_samples = kernel_->max_samples();
-    limits.pixel_granularity = gpu::WORKGROUP_SIZE;
-    schedule_.emplace(film_->pixel_count(), limits);
+    schedule_.emplace(limits);
 }
 
 // A tree is uploaded once, whatever kernels come to use it.
@@ -165,7 +151,7 @@ void RenderDevice::plant(const std::shared_ptr<const SphereTree> &tree) {
 void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings) {
     const TracePipelines::Ahead ahead(*pipelines_);
     prepare(scene, settings);
-    kernel_->build(*pipelines_, false);
+    kernel_->build(*pipelines_);
     kernel_->dispatch_nothing();
     if (device_.policy().resolve_on_device) {
         resolve_pipelines().of(PT_FORMAT_RGB32F);
@@ -173,21 +159,17 @@ void RenderDevice::prepare_ahead(const std::shared_ptr<const GpuScene> &scene, c
     }
 }
 
-void RenderDevice::prepare_for_polls(bool by_tile, bool with_errors) {
-    kernel_->build(*pipelines_, by_tile);
-    if (with_errors && device_.policy().resolve_on_device) {
+void RenderDevice::prepare_for_polls(bool with_errors) {
+    kernel_->build(*pipelines_);
+    if (with_errors && device_.policy().resolve_on_device)
         estimate_pipeline();
-        if (by_tile)
-            uneven_estimate_pipeline();
-    }
     pipelines_->keep_kernels_as_they_are(true);
 }
 
 DeviceFilm &RenderDevice::film() {
-    while (film_is_behind()) {
-        start_film_work();
-        finish();
-    }
+    if (film_is_void_)
+        device_.submit([&](const vk::raii::CommandBuffer &commands) { film_->clear(commands); });
+    film_is_void_ = false;
     return *film_;
 }
 
@@ -232,14 +214,8 @@ ResolvePipelines &RenderDevice::resolve_pipelines() {
 
 const vulkan::ComputePipeline &RenderDevice::estimate_pipeline() {
     if (!estimate_)
-        estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate, false));
+        estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate));
     return *estimate_;
-}
-
-const vulkan::ComputePipeline &RenderDevice::uneven_estimate_pipeline() {
-    if (!uneven_estimate_)
-        uneven_estimate_.emplace(pt::estimate_pipeline(device_, code_.estimate, true));
-    return *uneven_estimate_;
 }
 
 const vulkan::ComputePipeline &RenderDevice::add_pipeline() {
@@ -255,119 +231,32 @@ ErrorReader &RenderDevice::error_reader() {
 
 ErrorReader &RenderDevice::bound_error_reader() {
     if (!error_reader_)
-        error_reader_.emplace(device_, estimate_pipeline(), false, *film_);
+        error_reader_.emplace(device_, estimate_pipeline(), *film_);
     return *error_reader_;
 }
 
-ErrorReader &RenderDevice::uneven_error_reader() {
-    film();
-    if (!uneven_error_reader_)
-        uneven_error_reader_.emplace(device_, uneven_estimate_pipeline(), true, *film_);
-    return *uneven_error_reader_;
-}
-
-void RenderDevice::discard_pass() {
-    device_.submit([&](const vk::raii::CommandBuffer &commands) { film_->clear_pass(commands); });
-    pass_pixels_ = 0;
-}
-
-RenderDevice::Started RenderDevice::start(const SampleRange &samples, const SampleRange &hull,
-                                          const std::optional<ErrorQuery> &estimate) {
-    if (!film_is_behind() || (can_clear_at_once() && !samples.empty()))
-        return start_samples(samples, hull, estimate);
-    start_film_work();
-    return {0, false};
-}
-
-// In the submission that takes the first samples.
-bool RenderDevice::can_clear_at_once() const {
-    return uncleared_pixels_ == film_->pixel_count() && film_schedule_->next(1, 0).whole;
-}
-
-void RenderDevice::start_film_work() {
-    std::uint32_t &pixels_left = uncleared_pixels_ > 0 ? uncleared_pixels_ : uncommitted_pixels_;
-    const Slice slice = film_schedule_->next(1, film_->pixel_count() - pixels_left);
-    const vulkan::Device::Ticket ticket = uncleared_pixels_ > 0
-                                              ? device_.start([&](const vk::raii::CommandBuffer &commands) {
-                                                    film_->clear(commands, slice.first_pixel, slice.pixel_count);
-                                                })
-                                              : kernel_->commit(slice, pass_sample_, pass_hull_);
-    under_way_.push_back({slice, ticket, true});
-    pixels_left -= slice.pixel_count;
-}
-
-RenderDevice::Started RenderDevice::start_samples(const SampleRange &samples, const SampleRange &hull,
-                                                  const std::optional<ErrorQuery> &estimate) {
-    const bool in_pass = pass_pixels_ > 0;
-    const auto remaining = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(samples.count(), 1, UINT32_MAX));
-    const Slice slice = schedule_->next(remaining, pass_pixels_);
-    const std::uint32_t first_sample = in_pass ? pass_sample_ : static_cast<std::uint32_t>(samples.first);
-    const bool estimates = estimate && slice.whole && slice.sample_count == samples.count() &&
-                           device_.policy().resolve_on_device && film_->strips().size() == 1;
+// A void film has nothing to make room in. It is cleared with the first samples that it takes.
+void RenderDevice::start(const TileSlice &slice, const ErrorQuery *estimate) {
+    if (!slice.takes && film_is_void_)
+        return;
     Kernel::Behind behind;
-    if (estimates)
-        behind = [&reader = bound_error_reader(), &estimate](const auto &commands, const PartUse &parts) {
-            reader.record(commands, parts, *estimate);
+    if (estimate)
+        behind = [&reader = bound_error_reader(), estimate](const auto &commands) {
+            reader.record(commands, *estimate);
         };
-    under_way_.push_back({slice, kernel_->start(slice, first_sample, hull, uncleared_pixels_ > 0, behind), false});
-    uncleared_pixels_ = 0;
-    if (!slice.whole) {
-        const std::uint32_t slice_end = slice.first_pixel + slice.pixel_count;
-        const bool is_complete = slice_end == film_->pixel_count();
-        pass_pixels_ = is_complete ? 0 : slice_end;
-        uncommitted_pixels_ = is_complete ? slice_end : 0;
-        pass_sample_ = first_sample;
-        pass_hull_ = hull;
-    }
-    return {in_pass ? 0 : slice.sample_count, estimates};
-}
-
-std::uint64_t RenderDevice::affordable_samples(std::size_t tile_count, std::uint64_t most) const {
-    const double paths = static_cast<double>(tile_count) * gpu::WORKGROUP_SIZE;
-    const double affordable = std::max(schedule_->budget() / paths, 1.0);
-    return std::min(
-        {static_cast<std::uint64_t>(std::min(affordable, 0x1p32)), most, std::uint64_t{kernel_->max_samples()}});
-}
-
-std::size_t RenderDevice::affordable_tiles(std::uint64_t sample_count) const {
-    const double paths = static_cast<double>(sample_count) * gpu::WORKGROUP_SIZE;
-    return static_cast<std::size_t>(std::clamp(schedule_->budget() / paths, 1.0, 0x1p32));
-}
-
-void RenderDevice::start_tiles(const TileSlice &slice) {
-    const std::uint64_t split = slice.split();
-    const std::uint32_t older = film_->parts().older();
-    Kernel::TileWork work{slice.tiles,
-                          slice.takes ? slice.samples : SampleRange{},
-                          {slice.samples.first < split ? older : 1 - older, slice.takes && slice.begins_part()},
-                          std::nullopt};
-    if (slice.moves_split())
-        work.fold_into = split_of(slice.before) < split ? older : 1 - older;
-    const Slice measured{0, static_cast<std::uint32_t>(slice.tiles.size()) * gpu::WORKGROUP_SIZE,
-                         static_cast<std::uint32_t>(slice.samples.count()), true};
-    under_way_.push_back({measured, kernel_->start_tiles(work), !slice.takes});
-}
-
-void RenderDevice::fold_to(const SampleRange &hull) {
-    if (film_->parts().needs_fold(hull))
-        device_.finish(kernel_->start_fold(hull));
-}
-
-void RenderDevice::cover(const SampleRange &hull) {
-    PartUse parts = film_->parts();
-    parts.cover(hull);
-    film_->set_parts(parts);
+    const std::uint64_t tile_samples = slice.takes ? slice.tiles.size() * slice.samples.count() : 0;
+    under_way_.push_back({tile_samples, kernel_->start(slice, film_is_void_, behind)});
+    film_is_void_ = false;
 }
 
 RenderDevice::Finished RenderDevice::finish() {
     const Work work = under_way_.front();
-    Schedule &schedule = *(work.on_film ? film_schedule_ : schedule_);
-    const double expected = schedule.expected_seconds(work.slice);
-    const double seconds =
-        work.on_film ? device_.finish(work.ticket, expected) : kernel_->finish(work.ticket, expected);
+    const double paths = paths_of(1, work.tile_samples);
+    const double seconds = kernel_->finish(work.ticket, schedule_->expected_seconds(paths));
     under_way_.erase(under_way_.begin());
-    schedule.measured(work.slice, seconds);
-    return {work.on_film ? 0 : std::uint64_t{work.slice.pixel_count} * work.slice.sample_count, seconds};
+    if (work.tile_samples > 0)
+        schedule_->measured(paths, seconds);
+    return {work.tile_samples, seconds};
 }
 
 void RenderDevice::drain() noexcept {

@@ -22,22 +22,9 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace pt {
-
-// Samples of some tiles, which lie in one part of the film.
-struct TileSlice {
-    std::span<const std::uint32_t> tiles; // ascending
-    SampleRange before;                   // from the first to the last sample that they have; empty if they have none
-    SampleRange samples;
-    bool takes; // them, instead of making room for them alone: where another device takes them
-
-    std::uint64_t split() const { return split_of(before.empty() ? samples : hull_of(before, samples)); }
-    bool moves_split() const { return !before.empty() && split_of(before) != split(); }
-    bool begins_part() const { return pt::begins_part(before, split(), samples.first); }
-};
 
 class RenderDevice {
 public:
@@ -53,15 +40,13 @@ public:
     vulkan::Device &device() { return device_; }
     const vulkan::Device &device() const { return device_; }
 
-    // Brought up to date first, so that it holds the whole samples that this device has taken. Idle.
+    // With the samples that this device has taken. Idle.
     DeviceFilm &film();
-    std::uint32_t pixel_count() const { return film_->pixel_count(); }
 
-    // Of the film, brought up to date.
+    // Of the film.
     ImageReader &image_reader();
     BufferWriter &buffer_writer();
     ErrorReader &error_reader();
-    ErrorReader &uneven_error_reader(); // of tiles that may have different samples
 
     // Pixels of what camera rays meet first, of the image; see FirstHits::read(). Idle.
     void read_first_hits(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings,
@@ -74,7 +59,6 @@ public:
     // Kernels for other films than this device's own.
     ResolvePipelines &resolve_pipelines();
     const vulkan::ComputePipeline &estimate_pipeline();
-    const vulkan::ComputePipeline &uneven_estimate_pipeline();
     const vulkan::ComputePipeline &add_pipeline();
 
     // Takes over kernels that the caller has kept, and hands over those that are built.
@@ -99,55 +83,20 @@ public:
     // The same, with all that the kernel will need, as fast as it can be.
     void prepare_ahead(const std::shared_ptr<const GpuScene> &scene, const RenderSettings &settings);
 
-    // Builds all that samples of the scene need from here on, until the next prepare(): of tiles, and where errors are
-    // looked at.
-    void prepare_for_polls(bool by_tile, bool with_errors);
-
-    // Pixels of a pass of one sample over all pixels that slices started so far have taken; 0 between passes.
-    std::uint32_t pass_pixels() const { return pass_pixels_; }
-
-    // The sample of the pass under way, or no sample.
-    SampleRange pass() const {
-        return pass_pixels_ > 0 ? SampleRange{pass_sample_, std::uint64_t{pass_sample_} + 1} : SampleRange{};
-    }
-
-    // Ends the pass under way, of which the film has nothing. Idle.
-    void discard_pass();
+    // Builds all that samples of the scene need from here on, until the next prepare(), and what looks at errors.
+    void prepare_for_polls(bool with_errors);
 
     bool has_room() const { return under_way_.size() < device_.policy().queue_depth; }
     bool is_idle() const { return under_way_.empty(); }
 
-    // Whether the film needs work before it takes the next sample: to be emptied, or to have a pass added whose samples
-    // are complete. Not within a pass.
-    bool film_is_behind() const { return uncleared_pixels_ + uncommitted_pixels_ > 0; }
+    const Schedule &schedule() const { return *schedule_; }
 
-    // Starts a slice: of the work on the film, if it is behind, the next of the pass under way, or one of the first of
-    // these samples, if there are any; clearing the film may be a part of it. hull: of those that this device and
-    // others have begun before. estimate: if it is given, and the slice takes all of the samples, the error of the film
-    // with them is estimated behind it where that can be, for error_reader().collect(). has_room() must hold.
-    struct Started {
-        std::uint32_t samples; // that the slice has begun: 0 for the film and within a pass
-        bool estimates;
-    };
-    Started start(const SampleRange &samples, const SampleRange &hull,
-                  const std::optional<ErrorQuery> &estimate = std::nullopt);
+    // Whether the error of the film can be estimated in the submission that takes samples.
+    bool estimates_behind() const { return device_.policy().resolve_on_device && film_->strips().size() == 1; }
 
-    // Of a slice of so many tiles how many samples are affordable, of those that there are; and of so many samples how
-    // many tiles: 1 at least.
-    std::uint64_t affordable_samples(std::size_t tile_count, std::uint64_t most) const;
-    std::size_t affordable_tiles(std::uint64_t sample_count) const;
-
-    // Starts a slice of tiles. has_room() must hold, film_is_behind() and a pass under way must not.
-    void start_tiles(const TileSlice &slice);
-
-    // Brings the parts of a film with the same samples in all tiles to the split of those of other films too. Idle.
-    void fold_to(const SampleRange &hull);
-
-    // Whether the film's tiles lie each in one of its strips.
-    bool has_whole_regions() const { return film_->has_whole_regions(); }
-
-    // All tiles have samples within this range alone.
-    void cover(const SampleRange &hull);
+    // Starts a slice. has_room() must hold. estimate: if it is given, the error of the film with these samples is
+    // estimated behind them, for error_reader().collect(); estimates_behind() must hold.
+    void start(const TileSlice &slice, const ErrorQuery *estimate = nullptr);
 
     // Whether finish() would not wait, having waited for that until a time. Not idle.
     bool is_done(vulkan::Device::Clock::time_point until) { return device_.is_done(under_way_.front().ticket, until); }
@@ -158,7 +107,7 @@ public:
     // Waits for the slice that was started first. seconds: where nobody saw it end, what comes nearest to what was
     // expected of it.
     struct Finished {
-        std::uint64_t paths; // samples in all its pixels; 0 of work on the film
+        std::uint64_t tile_samples; // tiles times samples; 0 where another device took them
         double seconds;
     };
     Finished finish();
@@ -168,18 +117,13 @@ public:
 
 private:
     struct Work {
-        Slice slice;
+        std::uint64_t tile_samples;
         vulkan::Device::Ticket ticket;
-        bool on_film; // takes no samples
     };
 
-    bool can_clear_at_once() const;
     void plant(const std::shared_ptr<const SphereTree> &tree);
     void drop_kernel() noexcept;
     void drop_bound() noexcept; // the kernel and whatever else has descriptor sets with the film
-    void start_film_work();
-    Started start_samples(const SampleRange &samples, const SampleRange &hull,
-                          const std::optional<ErrorQuery> &estimate);
     ErrorReader &bound_error_reader();
 
     vulkan::Device device_;
@@ -188,27 +132,20 @@ private:
     double target_seconds_;
     double tests_per_second_;                 // that it is taken to manage with a kernel that has not been measured
     std::optional<ResolvePipelines> resolve_; // of the code, once an image was read
-    std::optional<vulkan::ComputePipeline> estimate_;        // likewise, once an error was asked for
-    std::optional<vulkan::ComputePipeline> uneven_estimate_; // likewise
-    std::optional<vulkan::ComputePipeline> add_;             // once films of several devices met on this one
+    std::optional<vulkan::ComputePipeline> estimate_; // likewise, once an error was asked for
+    std::optional<vulkan::ComputePipeline> add_;      // once films of several devices met on this one
     std::optional<DeviceFilm> film_;
     std::optional<ImageReader> image_reader_; // of the film, likewise
     std::optional<BufferWriter> buffer_writer_;
     std::optional<ErrorReader> error_reader_;
-    std::optional<ErrorReader> uneven_error_reader_;
     std::shared_ptr<const SphereTree> tree_; // that is in the buffer
     std::optional<vulkan::Buffer> tree_buffer_;
     std::optional<FirstHits> first_hits_; // of the code, once they were asked for
     std::optional<Coverage> coverage_;    // likewise
     std::optional<Kernel> kernel_;
-    std::optional<Schedule> schedule_;      // of the kernel
-    std::optional<Schedule> film_schedule_; // of the work on the film, a pixel of it being a path
-    std::vector<Work> under_way_;           // in the order of their starts; has room for all that there may be
-    std::uint32_t pass_pixels_ = 0;
-    std::uint32_t pass_sample_ = 0;        // index of the pass's sample
-    SampleRange pass_hull_;                // of the samples begun before it
-    std::uint32_t uncleared_pixels_ = 0;   // at the film's end, that still hold what is void
-    std::uint32_t uncommitted_pixels_ = 0; // at the film's end, without the pass's sample, which is complete
+    std::optional<Schedule> schedule_; // of the kernel
+    std::vector<Work> under_way_;      // in the order of their starts; has room for all that there may be
+    bool film_is_void_ = true;         // it is to be cleared before it is used
 };
 
 } // namespace pt

@@ -9,6 +9,7 @@
 #include "lib/vulkan/device_choice.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace pt {
@@ -103,6 +104,8 @@ void Renderer::set_camera(const Camera &camera) {
 void Renderer::set_render(const RenderSettings &settings) {
     require_alive();
     TileSamples none({settings.width, settings.row_count});
+    std::vector<std::uint32_t> all_tiles(none.grid().count());
+    std::iota(all_tiles.begin(), all_tiles.end(), 0U);
     const bool same_size =
         settings_ && settings.width == settings_->width && settings.row_count == settings_->row_count;
     if (!same_size) {
@@ -117,6 +120,7 @@ void Renderer::set_render(const RenderSettings &settings) {
     gpu_scene_.reset();
     settings_ = settings;
     samples_ = std::move(none);
+    all_tiles_ = std::move(all_tiles);
 }
 
 void Renderer::reload_shaders() {
@@ -153,10 +157,6 @@ void Renderer::require_settings() const {
 void Renderer::require_samples() const {
     if (samples_.empty())
         throw Error(PT_ERROR_INVALID_STATE, "no samples yet: call pt_accumulate or pt_add_film first");
-}
-
-bool Renderer::is_in_pass() const {
-    return std::ranges::any_of(devices_, [](const auto &device) { return !device->pass().empty(); });
 }
 
 const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {

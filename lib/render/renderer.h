@@ -17,7 +17,6 @@
 #include "lib/render/render_device.h"
 #include "lib/render/render_settings.h"
 #include "lib/render/small_lamps.h"
-#include "lib/render/tile_accumulation.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/scene.h"
 #include "lib/vulkan/caller_vulkan.h"
@@ -114,7 +113,7 @@ public:
     bool cancel() noexcept { return cancellation_.ask(); }
     static constexpr const char *nothing_under_way = "no samples are under way: call pt_start first";
 
-    bool is_under_way() const { return job_.has_value(); }
+    bool is_under_way() const { return job_ != nullptr; }
 
     void readback(const Image &image);
     void readback(const BufferImage &image);
@@ -138,14 +137,11 @@ private:
     // Samples that are to be taken.
     struct Job {
         SamplesWanted wanted;
-        Progress progress;
-        std::uint64_t most;                 // that a pixel is to have
-        std::uint64_t even_count;           // until all have as many, tiles are not told apart
-        std::unique_ptr<Accumulation> even; // one of the two
-        std::unique_ptr<TileAccumulation> uneven;
-        std::vector<std::uint64_t> goals; // of tiles that are to take equal numbers of samples, though they are uneven
-
-        SampleDealing &dealing() { return even ? static_cast<SampleDealing &>(*even) : *uneven; }
+        std::uint64_t most;               // that a pixel is to have
+        std::uint64_t together_to;        // until all tiles have as many, they take the same ones
+        bool is_together;                 // while that lasts
+        std::vector<std::uint64_t> goals; // or what each tile is to have, without a look at any error
+        Accumulation accumulation;
     };
 
     void use_own_devices(const CreateSettings &settings);
@@ -159,7 +155,6 @@ private:
     void discard_samples() noexcept;
     const std::shared_ptr<const GpuScene> &gpu_scene_of_settings();
     Camera ray_start();
-    bool is_in_pass() const;
     ImageQuery query(const ImageLayout &layout) const;
     FilmIdentity identity() const;
     Rectangle pixels() const;
@@ -173,18 +168,13 @@ private:
     void begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
     void make_job(const SamplesWanted &wanted, const Progress &progress, bool is_polled);
     void end_job() noexcept;
-    void tell_tiles_apart();
     Advance go_on(std::uint64_t nanoseconds);
     void require_under_way() const;
-    Accumulation::Goal next_goal() const;
-    pt_result advance(SampleDealing::Clock::time_point until);
-    pt_result advance_evenly(SampleDealing::Clock::time_point until);
-    pt_result advance_tiles(SampleDealing::Clock::time_point until);
-    std::optional<pt_result> next_tiles();
-    TileSamples samples_of_job();
+    pt_result advance(Accumulation::Clock::time_point until);
+    std::optional<pt_result> next_step();
+    std::optional<pt_result> next_step_together();
     void take_over(TileSamples samples) noexcept;
     void forget_error() noexcept;
-    void add_to_tiles(std::span<const std::byte> bytes);
     void give_up() noexcept;
 
     ShaderSource source_;
@@ -197,15 +187,16 @@ private:
     std::optional<RenderSettings> settings_;        // the devices have films if it is there
     std::shared_ptr<const GpuScene> gpu_scene_;     // of the three above; NULL where one has changed
     TileSamples samples_;                           // whole ones
+    std::vector<std::uint32_t> all_tiles_;          // of them
     AdaptiveRound round_;                           // that they have come to
     std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
     std::optional<std::uint64_t> rejected_samples_; // likewise
-    std::vector<double> tile_squares_;    // likewise, if they are uneven or may come to be, and a kernel finds them
-    std::vector<std::byte> mapped_image_; // as far as the host makes images that are mapped
+    std::vector<double> tile_squares_;              // likewise, if a kernel finds them
+    std::vector<std::byte> mapped_image_;           // as far as the host makes images that are mapped
     std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
     DeviceWork work_;
     Cancellation cancellation_; // of what job_ is, or is about to be
-    std::optional<Job> job_;    // while samples are under way
+    std::unique_ptr<Job> job_;  // while samples are under way
 };
 
 } // namespace pt

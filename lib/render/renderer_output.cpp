@@ -1,6 +1,6 @@
 // What a renderer gives of its samples, and takes in of others: the error, images, films, figures; see renderer.h.
 #include "lib/base/error.h"
-#include "lib/film/film.h"
+#include "lib/film/film_bytes.h"
 #include "lib/film/film_tiles.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/render/coverage_image.h"
@@ -35,10 +35,8 @@ const ErrorEstimate &Renderer::error() {
         ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
                                   may_miss_lamps(*scene_, ray_start(), *settings_, samples),
                                   finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
-        if (!samples_.even() || (job_ && job_->uneven))
-            view_.estimate_tiles(estimator, scene_->film_unit, samples_, tile_squares_);
-        else
-            view_.estimate(estimator, scene_->film_unit, samples_, job_ && job_->even && job_->even->has_estimate());
+        view_.estimate(estimator, scene_->film_unit, samples_, tile_squares_,
+                       job_ && job_->accumulation.has_estimate());
         rejected_samples_ = estimator.rejected();
         error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
     }
@@ -61,7 +59,6 @@ ErrorEstimate Renderer::error_with_lamps() {
     return known;
 }
 
-// Of samples that are uneven, or may come to be.
 std::span<const double> Renderer::tile_squares() {
     if (view_.finds_tile_squares_alone())
         return view_.tile_squares(scene_->film_unit, samples_);
@@ -101,7 +98,7 @@ std::span<std::byte> Renderer::map(const ImageLayout &layout) {
     if (layout.quantity <= PT_QUANTITY_SAMPLE_COUNT) {
         require_samples();
         const KernelsKept kept(devices_);
-        if (const std::optional<std::span<std::byte>> mapped = view_.map(query(layout), samples_))
+        if (const std::optional<std::span<std::byte>> mapped = view_.map(query(layout)))
             return *mapped;
     }
     mapped_image_.resize(layout.row_bytes * layout.pixels.height);
@@ -146,59 +143,18 @@ void Renderer::save_film(const FilmHeader &header, std::span<std::byte> bytes) c
     save(FilmView::films(devices_), samples_, header, pixels(), bytes);
 }
 
-// A pass under way, of which no sample is counted yet, ends where the film brings its sample.
+// All samples are in the first device's film afterwards.
 void Renderer::add_film(std::span<const std::byte> bytes) {
     require_settings();
     const FilmReader film(bytes);
     require_same(film.header().identity, identity());
-    if (!samples_.even() || !is_even(film.header(), pixels())) {
-        add_to_tiles(bytes);
-        return;
-    }
-    require_addable(film, samples_.of(0));
-    RenderDevice &device = *devices_.front();
-    const SampleSet &added = film.header().tiles.front().samples;
-    SampleSet all = samples_.of(0);
-    all.add(added);
-    TileSamples all_samples(samples_.grid(), all); // before the film has them: this may fail
-    DeviceFilm &device_film = device.film();
-    if (is_in_pass() && added.overlap(device.pass()))
-        device.discard_pass();
-    add(film, all.hull(), device.device(), device_film);
-    round_ = later_of(round_, film.header().round);
-    take_over(std::move(all_samples));
-}
-
-// By way of the host, where films are values.
-void Renderer::add_to_tiles(std::span<const std::byte> bytes) {
-    for (const auto &device : devices_)
-        if (!device->has_whole_regions())
-            throw Error(PT_ERROR_UNSUPPORTED,
-                        "film: this device holds films in parts that cut tiles, so that all pixels "
-                        "must have the same samples");
-    Film sum(bytes);
-    if (!samples_.empty()) {
-        const FilmHeader header = film_header();
-        std::vector<std::byte> own(FilmLayout(header).size_bytes());
-        save_film(header, own);
-        sum.add(Film(own));
-    }
-    require_within(sum.bounds(), pixels());
-    std::optional<TileSamples> samples = tile_samples(sum.header().tiles, pixels());
-    if (!samples)
-        throw Error(PT_ERROR_INCOMPATIBLE,
-                    "film: its tiles must be whole ones of this context, squares of 8 pixels from "
-                    "the top left of what is rendered on");
-    for (const auto &device : devices_)
-        if (!device->pass().empty())
-            device->discard_pass();
-    const AdaptiveRound round = sum.header().round;
-    RenderDevice &device = *devices_.front();
-    replace(sum, samples->hull(), pixels(), device.device(), device.film());
+    const TileSamples added = samples_of_film(film.header(), pixels());
+    TileSamples all = united(samples_, added);
+    add(film, added, FilmView::films(devices_), samples_, all, pixels(), devices_.front()->device());
     for (const auto &other : std::span(devices_).subspan(1))
         other->discard_samples();
-    round_ = round;
-    take_over(std::move(*samples));
+    round_ = later_of(round_, film.header().round);
+    take_over(std::move(all));
 }
 
 pt_stats Renderer::stats(bool with_error) {

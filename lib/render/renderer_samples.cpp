@@ -23,14 +23,10 @@ Error too_many_samples(std::uint32_t sample_count, const std::string &reason, st
                                                   .rule = reason + std::to_string(number) + ")"}};
 }
 
-// Samples of all pixels together, the most that there may be; at least one, for shares of it.
+// Tiles times samples, the most that there may be.
 std::uint64_t amount_of(const SamplesWanted &wanted, const TileGrid &grid) {
-    std::uint64_t amount = 0;
-    for (std::size_t tile = 0; tile < wanted.by_tile.size(); ++tile)
-        amount += wanted.by_tile[tile] * grid.pixels(tile).pixel_count();
-    if (wanted.by_tile.empty())
-        amount = std::uint64_t{wanted.count} * grid.width * grid.height;
-    return std::max<std::uint64_t>(amount, 1);
+    return wanted.by_tile.empty() ? std::uint64_t{wanted.count} * grid.count()
+                                  : std::accumulate(wanted.by_tile.begin(), wanted.by_tile.end(), std::uint64_t{0});
 }
 
 } // namespace
@@ -48,24 +44,17 @@ void Renderer::require_room_for(std::uint32_t sample_count) const {
     }
 }
 
-// Tiles are told apart where an error is asked for, on devices whose films have whole tiles.
 bool Renderer::is_adaptive(const SamplesWanted &wanted) const {
-    return wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM &&
-           std::ranges::all_of(devices_, [](const auto &device) { return device->has_whole_regions(); });
+    return wanted.target_error > 0.0 && wanted.sampling != PT_SAMPLING_UNIFORM;
 }
 
 void Renderer::require_tiles(const SamplesWanted &wanted) const {
-    if (wanted.by_tile.empty())
-        return;
-    const std::size_t count = samples_.grid().count();
-    if (wanted.by_tile.size() != count)
+    if (!wanted.by_tile.empty() && wanted.by_tile.size() != all_tiles_.size())
         throw Error(PT_ERROR_INVALID_ARGUMENT,
                     BrokenRule{.subject = "accumulate",
                                .member = "tile_count",
                                .value = std::to_string(wanted.by_tile.size()),
-                               .rule = "must be the number of tiles, " + std::to_string(count)});
-    if (!std::ranges::all_of(devices_, [](const auto &device) { return device->has_whole_regions(); }))
-        throw Error(PT_ERROR_UNSUPPORTED, "accumulate.tile_samples: this device holds films in parts that cut tiles");
+                               .rule = "must be the number of tiles, " + std::to_string(all_tiles_.size())});
 }
 
 void Renderer::begin(const SamplesWanted &wanted, const Progress &progress, bool is_polled) {
@@ -86,21 +75,25 @@ void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, b
     for (const auto &device : devices_)
         device->prepare(gpu_scene_of_settings(), *settings_);
     if (is_polled) {
-        const bool by_tile = is_adaptive(wanted) || !wanted.by_tile.empty() || !samples_.even();
         for (const auto &device : devices_)
-            device->prepare_for_polls(by_tile, wanted.target_error > 0.0);
+            device->prepare_for_polls(wanted.target_error > 0.0);
         view_.prepare();
     }
     const std::uint64_t most = samples_.most() + wanted.count;
-    const std::uint64_t apart_from = is_adaptive(wanted) ? adaptive_from() : most;
-    Job job{wanted, progress, most, std::min(most, apart_from), nullptr, nullptr, {}};
-    const bool is_even = wanted.by_tile.empty() && samples_.even() && samples_.of(0).count() < job.even_count;
-    if (is_even)
-        job.even = std::make_unique<Accumulation>(devices_, samples_.of(0), settings_->first_sample, wanted.count,
-                                                  progress, cancellation_, work_);
-    job_ = std::move(job);
-    if (!is_even)
-        tell_tiles_apart();
+    const std::uint64_t together_to = is_adaptive(wanted) ? std::min(most, adaptive_from()) : most;
+    const bool is_together =
+        wanted.by_tile.empty() && samples_.even() && (!is_adaptive(wanted) || samples_.of(0).count() < together_to);
+    std::vector<std::uint64_t> goals;
+    if (!is_together && !is_adaptive(wanted))
+        for (const std::uint32_t tile : all_tiles_)
+            goals.push_back(samples_.of(tile).count() + (wanted.by_tile.empty() ? wanted.count : wanted.by_tile[tile]));
+    job_.reset(new Job{wanted,
+                       most,
+                       together_to,
+                       is_together,
+                       std::move(goals),
+                       {devices_, samples_, settings_->first_sample, amount_of(wanted, samples_.grid()), progress,
+                        cancellation_, work_}});
 }
 
 void Renderer::end_job() noexcept {
@@ -114,34 +107,13 @@ std::uint64_t Renderer::adaptive_from() const {
     return settings_->max_path_length > 2 ? samples : 4 * samples;
 }
 
-// What is left of an even film: a pass, of which it has nothing yet, and splits that have moved while a device took no
-// samples.
-void Renderer::tell_tiles_apart() {
-    for (const auto &device : devices_) {
-        device->film();
-        if (!device->pass().empty())
-            device->discard_pass();
-        device->fold_to(samples_.hull());
-    }
-    forget_error(); // of an even film, without those of tiles
-    if (!is_adaptive(job_->wanted))
-        for (std::size_t tile = 0; tile < samples_.grid().count(); ++tile)
-            job_->goals.push_back(samples_.of(tile).count() +
-                                  (job_->wanted.by_tile.empty() ? job_->wanted.count : job_->wanted.by_tile[tile]));
-    job_->uneven = std::make_unique<TileAccumulation>(
-        devices_, samples_, settings_->first_sample,
-        SampleDealing::Amount{amount_of(job_->wanted, samples_.grid()), job_->even ? job_->even->pixels_done() : 0},
-        job_->progress, cancellation_, work_);
-    job_->even.reset();
-}
-
 Renderer::Advance Renderer::go_on(std::uint64_t nanoseconds) {
-    using Clock = SampleDealing::Clock;
+    using Clock = Accumulation::Clock;
     const Clock::time_point now = Clock::now();
     const auto most = static_cast<std::uint64_t>((Clock::time_point::max() - now).count());
     try {
         const pt_result result = advance(now + std::chrono::nanoseconds(std::min(nanoseconds, most)));
-        const Advance advanced{result, job_->dealing().fraction()};
+        const Advance advanced{result, job_->accumulation.fraction()};
         if (result != PT_PENDING)
             end_job();
         return advanced;
@@ -174,64 +146,33 @@ void Renderer::require_under_way() const {
         throw Error(PT_ERROR_INVALID_STATE, nothing_under_way);
 }
 
-// With a target error in runs, from each number of samples at which the error is looked at to the next.
-Accumulation::Goal Renderer::next_goal() const {
-    const bool has_target = job_->wanted.target_error > 0.0;
-    const std::uint64_t check = has_target ? next_check(samples_.of(0).count()) : job_->even_count;
-    if (check < job_->even_count)
-        return {check, scene_->film_unit};
-    return {job_->even_count, std::nullopt};
-}
-
-pt_result Renderer::advance(SampleDealing::Clock::time_point until) {
-    if (job_->even) {
-        const pt_result result = advance_evenly(until);
-        if (result != PT_OK || job_->even_count == job_->most)
-            return result;
-        tell_tiles_apart();
-    }
-    return advance_tiles(until);
-}
-
-pt_result Renderer::advance_evenly(SampleDealing::Clock::time_point until) {
-    Accumulation &accumulation = *job_->even;
-    const std::uint64_t wanted = job_->even_count;
-    while (samples_.of(0).count() < wanted) {
-        if (!accumulation.is_under_way() && !is_in_pass() && is_on_target(job_->wanted.target_error))
-            return PT_TARGET_REACHED;
-        if (!accumulation.run(next_goal(), until))
-            return PT_PENDING;
-        take_over(samples_of_job());
-        const bool is_whole = samples_.of(0).count() == job_->most;
-        if (accumulation.stopped() && !is_whole)
-            return PT_CANCELLED;
-    }
-    return PT_OK;
-}
-
-pt_result Renderer::advance_tiles(SampleDealing::Clock::time_point until) {
+pt_result Renderer::advance(Accumulation::Clock::time_point until) {
+    Accumulation &accumulation = job_->accumulation;
     for (;;) {
-        TileAccumulation &accumulation = *job_->uneven;
         if (!accumulation.is_under_way()) {
-            if (const std::optional<pt_result> result = next_tiles())
+            if (const std::optional<pt_result> result = next_step())
                 return *result;
         }
         if (!accumulation.run(until))
             return PT_PENDING;
-        take_over(samples_of_job());
-        if (accumulation.stopped())
+        take_over(accumulation.samples());
+        const bool is_complete = job_->is_together && samples_.least() == job_->most;
+        if (accumulation.stopped() && !is_complete)
             return PT_CANCELLED;
     }
 }
 
 // Decides what is done next, or that nothing is.
-std::optional<pt_result> Renderer::next_tiles() {
+std::optional<pt_result> Renderer::next_step() {
     const auto unless_done = [](bool goes_on) { return goes_on ? std::nullopt : std::optional<pt_result>(PT_OK); };
-    if (!job_->goals.empty()) {
-        std::vector<std::uint32_t> all(samples_.grid().count());
-        std::iota(all.begin(), all.end(), 0U);
-        return unless_done(job_->uneven->set_goal(all, [&](std::uint32_t tile) { return job_->goals[tile]; }));
-    }
+    if (job_->is_together && samples_.of(0).count() < job_->together_to)
+        return next_step_together();
+    if (job_->is_together && job_->together_to == job_->most)
+        return PT_OK;
+    job_->is_together = false;
+    if (!job_->goals.empty())
+        return unless_done(
+            job_->accumulation.set_goal(all_tiles_, [&](std::uint32_t tile) { return job_->goals[tile]; }));
     // A film whose tiles are not to be told apart yet comes here if it may take no sample.
     if (samples_.even() && samples_.of(0).count() < adaptive_from())
         return PT_OK;
@@ -244,20 +185,24 @@ std::optional<pt_result> Renderer::next_tiles() {
     const std::optional<TileStep> step = plan.next(samples_, round_);
     if (!step)
         return PT_TARGET_REACHED;
-    return unless_done(job_->uneven->set_goal(step->tiles, step->goal));
+    return unless_done(job_->accumulation.set_goal(step->tiles, step->goal));
 }
 
-// The whole ones that the films hold. Nothing may be under way.
-TileSamples Renderer::samples_of_job() {
-    return job_->even ? TileSamples(samples_.grid(), job_->even->samples()) : job_->uneven->tidy_samples();
+// With a target error from each number of samples at which the error is looked at to the next.
+std::optional<pt_result> Renderer::next_step_together() {
+    const std::uint64_t count = samples_.of(0).count();
+    if (is_on_target(job_->wanted.target_error))
+        return PT_TARGET_REACHED;
+    const std::uint64_t check = job_->wanted.target_error > 0.0 ? next_check(count) : job_->together_to;
+    const bool is_looked_at = check < job_->together_to;
+    job_->accumulation.set_goal_of_all(all_tiles_, std::min(check, job_->together_to),
+                                       is_looked_at ? std::optional(scene_->film_unit) : std::nullopt);
+    return std::nullopt;
 }
 
 void Renderer::take_over(TileSamples samples) noexcept {
     samples_ = std::move(samples);
     forget_error();
-    if (job_ && job_->uneven)
-        for (const auto &device : devices_)
-            device->cover(samples_.hull());
 }
 
 void Renderer::forget_error() noexcept {
@@ -268,8 +213,8 @@ void Renderer::forget_error() noexcept {
 // What has been begun is completed, so that the films hold whole samples. Where that fails too, they are void.
 void Renderer::give_up() noexcept {
     try {
-        if (job_->dealing().complete())
-            take_over(samples_of_job());
+        if (job_->accumulation.complete())
+            take_over(job_->accumulation.samples());
         else
             discard_samples();
     } catch (...) {

@@ -1,19 +1,50 @@
 #include "lib/render/saved_film.h"
 
+#include "lib/base/error.h"
 #include "lib/base/rules.h"
+#include "lib/film/film_tiles.h"
 #include "lib/film/tile_map.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace pt {
 
 namespace {
 
-void refuse_added(const std::string &field, const std::string &value, const std::string &rule) {
-    Violations violations;
-    violations.add({.subject = "film", .member = field, .value = value, .rule = rule});
-    violations.throw_if_any(PT_ERROR_INCOMPATIBLE);
+[[noreturn]] void refuse_added(const std::string &field, const std::string &value, const std::string &rule) {
+    throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = field, .value = value, .rule = rule});
+}
+
+void require_within(const Rectangle &film, const Rectangle &pixels) {
+    const auto text = [](const Rectangle &of) {
+        return "rows [" + std::to_string(of.y) + ", " + std::to_string(std::uint64_t{of.y} + of.height) +
+               "), columns [" + std::to_string(of.x) + ", " + std::to_string(std::uint64_t{of.x} + of.width) + ')';
+    };
+    const bool within = film.x >= pixels.x && film.y >= pixels.y && film.x + film.width <= pixels.x + pixels.width &&
+                        film.y + film.height <= pixels.y + pixels.height;
+    if (!within)
+        refuse_added("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
+}
+
+SampleSet united(const SampleSet &present, const SampleSet &added) {
+    if (const auto overlap = added.overlap(present))
+        refuse_added("samples", text_of(added), text_of(*overlap) + " are in this context's film already");
+    if (present.count() + added.count() > UINT32_MAX)
+        refuse_added("samples", text_of(added), "a pixel holds at most 2^32 - 1");
+    SampleSet all = present;
+    all.add(added);
+    return all;
+}
+
+// Brings the sums of consecutive pixels with these samples to the split of more samples, which may put all of them on
+// one side.
+void split_for(PixelSums &sums, std::size_t first, std::size_t count, const SampleSet &samples, std::uint64_t split) {
+    const std::uint64_t own = split_of(samples.hull());
+    if (!samples.empty() && own != split)
+        sums.fold_into(own < split ? older_part : newer_part, first, count);
 }
 
 // Whole rows of a film at a time.
@@ -68,60 +99,37 @@ void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const 
     writer.end();
 }
 
-void require_addable(const FilmReader &film, const SampleSet &present) {
-    const FilmTile &tile = film.header().tiles.front();
-    if (const auto overlap = tile.samples.overlap(present))
-        refuse_added("samples", text_of(tile.samples), text_of(*overlap) + " are in this context's film already");
-    if (present.count() + tile.samples.count() > UINT32_MAX)
-        refuse_added("samples", text_of(tile.samples), "a pixel holds at most 2^32 - 1");
+TileSamples samples_of_film(const FilmHeader &film, const Rectangle &pixels) {
+    if (film.tiles.empty())
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: it has no tile");
+    require_within(bounds_of(film.tiles), pixels);
+    std::optional<TileSamples> samples = tile_samples(film.tiles, pixels);
+    if (!samples)
+        throw Error(PT_ERROR_INCOMPATIBLE, "film: its tiles must be whole ones of this context, squares of 8 pixels "
+                                           "from the top left of what is rendered on");
+    return std::move(*samples);
 }
 
-void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to) {
-    const std::uint64_t split = split_of(hull);
-    const std::uint64_t film_split = split_of(film.header().tiles.front().samples.hull());
-    DeviceFilm::NewSums all(device, to);
-    PixelSums sums;
-    PixelSums added;
-    for_each_piece(to.pixel_count(), piece_pixels, [&](std::uint32_t first, std::uint32_t count) {
-        sums.resize(count);
-        added.resize(count);
-        to.read(first, split, sums);
-        film.read(0, first, added);
-        if (film_split != split)
-            added.fold_into(film_split < split ? older_part : newer_part);
-        sums.add(added);
-        all.write(first, sums);
-    });
-    PartUse parts;
-    parts.extend(hull);
-    all.replace(parts);
+TileSamples united(const TileSamples &present, const TileSamples &added) {
+    if (present.even() && added.even())
+        return TileSamples(present.grid(), united(present.of(0), added.of(0)));
+    TileSamples all(present.grid());
+    for (std::size_t tile = 0; tile < present.grid().count(); ++tile)
+        all.set(tile, united(present.of(tile), added.of(tile)));
+    all.tidy();
+    return all;
 }
 
-void require_within(const Rectangle &film, const Rectangle &pixels) {
-    const auto text = [](const Rectangle &of) {
-        return "rows [" + std::to_string(of.y) + ", " + std::to_string(std::uint64_t{of.y} + of.height) +
-               "), columns [" + std::to_string(of.x) + ", " + std::to_string(std::uint64_t{of.x} + of.width) + ')';
-    };
-    const bool within = film.x >= pixels.x && film.y >= pixels.y && film.x + film.width <= pixels.x + pixels.width &&
-                        film.y + film.height <= pixels.y + pixels.height;
-    if (!within)
-        refuse_added("tile", text(film), "must lie in " + text(pixels) + ", as in this context");
-}
-
-void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, vulkan::Device &device,
-             DeviceFilm &film) {
-    std::vector<std::byte> bytes(FilmLayout(by.header()).size_bytes());
-    by.write(bytes);
-    const FilmReader reader(bytes);
-    const std::vector<FilmTile> &tiles = reader.header().tiles;
-    DeviceFilm::NewSums all(device, film);
-    PixelSums sums;
+void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm *const> films,
+         const TileSamples &present, const TileSamples &all, const Rectangle &pixels, vulkan::Device &device) {
+    const std::vector<FilmTile> &tiles = film.header().tiles;
+    DeviceFilm::NewSums replaced(device, *films.front());
     PixelSums part;
     const std::uint32_t step = rows_of_piece(pixels.width);
     for (std::uint32_t row = 0; row < pixels.height; row += step) {
         const std::uint32_t row_count = std::min(step, pixels.height - row);
-        sums = PixelSums();
-        sums.resize(std::size_t{row_count} * pixels.width);
+        PixelSums others;
+        others.resize(std::size_t{row_count} * pixels.width);
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Rectangle tile{tiles[i].pixels.x - pixels.x, tiles[i].pixels.y - pixels.y, tiles[i].pixels.width,
                                  tiles[i].pixels.height};
@@ -129,17 +137,28 @@ void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, v
             if (rows.count() == 0)
                 continue;
             part.resize(std::size_t{rows.count()} * tile.width);
-            reader.read(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
+            film.read(i, std::uint64_t{rows.first - tile.y} * tile.width, part);
             for_each_row(tile, rows, row, pixels.width,
                          [&](std::size_t in_film, std::size_t in_part, std::size_t count) {
-                             sums.copy(part, in_part, count, in_film);
+                             others.copy(part, in_part, count, in_film);
                          });
         }
-        all.write(row * pixels.width, sums);
+        PixelSums sums;
+        sums.resize(others.pixel_count());
+        read_films(films, present, row * pixels.width, sums);
+        const auto bring_together = [&](std::size_t first, std::size_t count, std::size_t tile) {
+            const std::uint64_t split = split_of(all.of(tile).hull());
+            split_for(sums, first, count, present.of(tile), split);
+            split_for(others, first, count, added.of(tile), split);
+        };
+        if (present.even() && added.even())
+            bring_together(0, sums.pixel_count(), 0);
+        else
+            all.grid().for_each_run(row * pixels.width, sums.pixel_count(), bring_together);
+        sums.add(others);
+        replaced.write(row * pixels.width, sums);
     }
-    PartUse parts;
-    parts.cover(hull);
-    all.replace(parts);
+    replaced.replace();
 }
 
 } // namespace pt

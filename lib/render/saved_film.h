@@ -2,7 +2,6 @@
 #pragma once
 
 #include "lib/film/device_film.h"
-#include "lib/film/film.h"
 #include "lib/film/film_bytes.h"
 #include "lib/film/tile_samples.h"
 
@@ -17,18 +16,16 @@ namespace pt {
 void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const FilmHeader &header,
           const Rectangle &origin, std::span<std::byte> bytes);
 
-// Throws PT_ERROR_INCOMPATIBLE if an even film has samples that a context has already.
-void require_addable(const FilmReader &film, const SampleSet &present);
+// The samples of a film by tile of a context with these pixels. Throws PT_ERROR_INCOMPATIBLE if it has others, or cuts
+// tiles.
+TileSamples samples_of_film(const FilmHeader &film, const Rectangle &pixels);
 
-// Adds an even film to one in a device's memory, all of it or nothing: throws PT_ERROR_INCOMPATIBLE for sums that its
-// samples cannot have; hull: of the samples of both, and of all films that are rendered together.
-void add(const FilmReader &film, const SampleRange &hull, vulkan::Device &device, DeviceFilm &to);
+// Of both. Throws PT_ERROR_INCOMPATIBLE if a tile has one in both.
+TileSamples united(const TileSamples &present, const TileSamples &added);
 
-// Throws PT_ERROR_INCOMPATIBLE if the pixels of a film do not lie in those of a context.
-void require_within(const Rectangle &film, const Rectangle &pixels);
-
-// Makes a film in a device's memory, of these pixels, what a film on the host is. hull: of its samples.
-void replace(const Film &by, const SampleRange &hull, const Rectangle &pixels, vulkan::Device &device,
-             DeviceFilm &film);
+// Makes the first of the films the sum of all of them, which have these samples, and of a saved one, all of it or
+// nothing: throws PT_ERROR_INCOMPATIBLE for sums that its samples cannot have. all: united(present, added).
+void add(const FilmReader &film, const TileSamples &added, std::span<DeviceFilm *const> films,
+         const TileSamples &present, const TileSamples &all, const Rectangle &pixels, vulkan::Device &device);
 
 } // namespace pt

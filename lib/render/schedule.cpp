@@ -1,5 +1,7 @@
-// Sizes slices by the time of those before; see schedule.h.
+// Sizes submissions by the time of those before; see schedule.h.
 #include "lib/render/schedule.h"
+
+#include "shaders/gpu_layout.h"
 
 #include <algorithm>
 
@@ -7,58 +9,51 @@ namespace pt {
 
 namespace {
 
-// Of a slice over one that has been measured. A wrong guess must not run into the seconds after which drivers kill a
-// submission.
+// Of a submission over one that has been measured. A wrong guess must not run into the seconds after which drivers kill
+// one.
 constexpr double max_growth = 2.0;
 
-double paths_of(const Slice &slice) {
-    return static_cast<double>(slice.pixel_count) * slice.sample_count;
-}
+constexpr double paths_of_tile = gpu::WORKGROUP_SIZE; // with one sample
 
 } // namespace
 
-Schedule::Schedule(std::uint32_t pixel_count, const ScheduleLimits &limits) :
-    pixel_count_(pixel_count),
+double paths_of(std::size_t tile_count, std::uint64_t sample_count) {
+    return paths_of_tile * static_cast<double>(tile_count) * static_cast<double>(sample_count);
+}
+
+Schedule::Schedule(const ScheduleLimits &limits) :
     limits_(limits),
-    budget_(std::max(limits.first_slice_paths, static_cast<double>(limits.pixel_granularity))) {}
+    budget_(std::max(limits.first_slice_paths, paths_of_tile)) {}
 
-Slice Schedule::next(std::uint32_t remaining_samples, std::uint32_t pass_pixels_done) const {
-    if (pass_pixels_done > 0 || budget_ < pixel_count_)
-        return rest_of_pass(pass_pixels_done);
-    const std::uint32_t most_samples = std::min(remaining_samples, limits_.max_samples);
-    const double affordable_samples = std::min<double>(budget_ / pixel_count_, most_samples);
-    return {0, pixel_count_, static_cast<std::uint32_t>(affordable_samples), true};
+std::uint64_t Schedule::samples(std::size_t tile_count, std::uint64_t most) const {
+    const double affordable = std::min(budget_ / paths_of(tile_count, 1), 0x1p32);
+    return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(affordable), 1,
+                                     std::min<std::uint64_t>(most, limits_.max_samples));
 }
 
-// The next of as few equal ranges as the budget allows. Equal ones, since a small last one would waste the overhead
-// of a submission: they are larger than half of the budget wherever one does not do.
-Slice Schedule::rest_of_pass(std::uint32_t pass_pixels_done) const {
-    const std::uint64_t left = pixel_count_ - pass_pixels_done;
-    const std::uint64_t granularity = limits_.pixel_granularity;
-    const std::uint64_t workgroups_left = (left + granularity - 1) / granularity;
-    const double affordable = std::min<double>(budget_ / static_cast<double>(granularity), 0x1p32);
-    const std::uint64_t most_workgroups = static_cast<std::uint64_t>(affordable);
-    const std::uint64_t ranges = (workgroups_left + most_workgroups - 1) / most_workgroups;
-    const std::uint64_t workgroups = (workgroups_left + ranges - 1) / ranges;
-    return {pass_pixels_done, static_cast<std::uint32_t>(std::min(left, workgroups * granularity)), 1, false};
+// One of as few equal shares as the budget allows. Equal ones, since a small last one would waste the overhead of a
+// submission: they are larger than half of the budget wherever one does not do.
+std::size_t Schedule::tiles(std::size_t left, std::uint64_t sample_count) const {
+    const auto affordable = static_cast<std::size_t>(std::clamp(budget_ / paths_of(1, sample_count), 1.0, 0x1p32));
+    const std::size_t shares = (left + affordable - 1) / affordable;
+    return (left + shares - 1) / shares;
 }
 
-double Schedule::expected_seconds(const Slice &slice) const {
-    return limits_.target_seconds * paths_of(slice) / budget_;
+double Schedule::expected_seconds(double paths) const {
+    return limits_.target_seconds * paths / budget_;
 }
 
 // A submission takes an overhead, about 0.1 ms, and a time per path, and one measurement cannot tell the two apart.
-// So the excess over the expected time is treated as fixed overhead: exact for slices of the whole budget, while
-// small slices, which are mostly overhead, change little. Repeated, it converges to the budget that takes
-// target_seconds with its overhead: for overhead o and rate r the step is x -> x t / (o + x / r), whose only stable
-// fixed point is x = r (t - o).
-void Schedule::measured(const Slice &slice, double seconds) {
+// So the excess over the expected time is treated as fixed overhead: exact for submissions of the whole budget, while
+// small ones, which are mostly overhead, change little. Repeated, it converges to the budget that takes target_seconds
+// with its overhead: for overhead o and rate r the step is x -> x t / (o + x / r), whose only stable fixed point is
+// x = r (t - o).
+void Schedule::measured(double paths, double seconds) {
     if (!(seconds >= 0.0))
         return;
-    const double budget_seconds = std::max(limits_.target_seconds + (seconds - expected_seconds(slice)), 0.0);
+    const double budget_seconds = std::max(limits_.target_seconds + (seconds - expected_seconds(paths)), 0.0);
     const double learnt = budget_ * (limits_.target_seconds / budget_seconds);
-    const double smallest = limits_.pixel_granularity;
-    budget_ = std::max({smallest, std::min(learnt, budget_), std::min(learnt, max_growth * paths_of(slice))});
+    budget_ = std::max({paths_of_tile, std::min(learnt, budget_), std::min(learnt, max_growth * paths)});
 }
 
 } // namespace pt

@@ -39,7 +39,6 @@ TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
                                                              {"accuracy.comp", false},
                                                              {"add.comp", false},
                                                              {"c", true},
-                                                             {"commit.comp", false},
                                                              {"coverage.comp", false},
                                                              {"estimate.comp", false},
                                                              {"first_hit.comp", false},

@@ -87,17 +87,15 @@ protected:
     };
 
     Found on_device(const pt::PixelSums &sums, const Size &size, double unit, std::uint32_t max_strip_pixels) {
-        const pt::vulkan::ComputePipeline pipeline =
-            pt::estimate_pipeline(device(), pt::embedded_code().estimate, false);
+        const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
         pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
         EXPECT_TRUE(film.has_whole_regions());
-        pt::PartUse parts;
-        parts.extend({0, 2 * part_samples});
-        film.write(sums, parts);
+        film.write(sums);
         pt::ErrorEstimator estimator(conditions(size.width));
-        pt::ErrorReader(device(), pipeline, false, film)
-            .read({unit, {part_samples, part_samples}, nullptr, {}},
-                  [&](const auto &region) { estimator.add(region); });
+        const pt::TileSamples samples(film.grid(), pt::SampleSet({0, 2 * part_samples}));
+        pt::ErrorReader(device(), pipeline, film).read({unit, samples}, [&](const auto &region) {
+            estimator.add(region);
+        });
         return {estimator.result(), estimator.rejected()};
     }
 
@@ -165,16 +163,14 @@ TEST_F(Estimate, OfTilesIsThatOfTheHost) {
         const pt::PixelSums sums = films.film(size.width, size.height);
         const pt::TileSamples samples({size.width, size.height}, pt::SampleSet({0, 2 * part_samples}));
         for (const double unit : {1.0, 0x1p-40, 0x1p52}) {
-            const pt::vulkan::ComputePipeline pipeline =
-                pt::estimate_pipeline(device(), pt::embedded_code().estimate, true);
+            const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
             pt::DeviceFilm film(device(), size.width, size.height, size.width * pt::gpu::REGION_SIZE);
-            pt::PartUse parts;
-            parts.extend({0, 2 * part_samples});
-            film.write(sums, parts);
+            film.write(sums);
             std::vector<double> squares(samples.grid().count());
             pt::ErrorEstimator estimator(conditions(size.width));
-            pt::ErrorReader(device(), pipeline, true, film)
-                .read({unit, {}, &samples, squares}, [&](const auto &region) { estimator.add(region); });
+            pt::ErrorReader(device(), pipeline, film).read({unit, samples, squares}, [&](const auto &region) {
+                estimator.add(region);
+            });
             const double expected_error = on_host(sums, size.width, unit).relative_rmse.estimate;
             EXPECT_NEAR(estimator.result().relative_rmse.estimate, expected_error, 1e-5 * expected_error);
 
@@ -198,16 +194,14 @@ TEST_F(Estimate, SamplesThatATileLostAreAnError) {
     const pt::PixelSums sums = films.film(40, 40);
     pt::TileSamples samples({40, 40}, pt::SampleSet({0, 2 * part_samples}));
     samples.set(7, pt::SampleSet({0, 2 * part_samples + 1}));
-    const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate, true);
+    const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
     pt::DeviceFilm film(device(), 40, 40, 1600);
-    pt::PartUse parts;
-    parts.extend({0, 2 * part_samples});
-    film.write(sums, parts);
+    film.write(sums);
     std::vector<double> squares(samples.grid().count());
-    pt::ErrorReader reader(device(), pipeline, true, film);
-    EXPECT_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}), pt::Error);
+    pt::ErrorReader reader(device(), pipeline, film);
+    EXPECT_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}), pt::Error);
     samples.set(7, pt::SampleSet({0, 2 * part_samples}));
-    EXPECT_NO_THROW(reader.read({1.0, {}, &samples, squares}, [](const auto &) {}));
+    EXPECT_NO_THROW(reader.read({1.0, samples, squares}, [](const auto &) {}));
 }
 
 // So they are where the host reads the film, from any pixel on: one that is missing in any pixel, and one too many.
@@ -216,8 +210,6 @@ TEST_F(Estimate, SamplesThatAPixelLostAreAnErrorOnTheHost) {
     pt::PixelSums sums = films.film(45, 21);
     pt::DeviceFilm film(device(), 45, 21, 45 * 21);
     pt::DeviceFilm *const all[] = {&film};
-    pt::PartUse parts;
-    parts.extend({0, 2 * part_samples});
     const pt::TileSamples even({45, 21}, pt::SampleSet({0, 2 * part_samples}));
     pt::TileSamples uneven = even;
     uneven.set(4, pt::SampleSet({0, part_samples + part_samples / 2}));
@@ -229,14 +221,14 @@ TEST_F(Estimate, SamplesThatAPixelLostAreAnErrorOnTheHost) {
             for (std::uint32_t x = 32; x < 40; ++x)
                 sums.plane(pt::newer_part, pt::gpu::FILM_ACCEPTED)[y * 45 + x] =
                     samples.even() ? part_samples : part_samples / 2;
-        film.write(sums, parts);
+        film.write(sums);
         EXPECT_NO_THROW(pt::read_films(all, samples, first, read));
         for (const std::size_t pixel : {50, 71, 77, 80, 84, 85, 100, 944})
             for (const std::uint32_t part : {pt::older_part, pt::newer_part})
                 for (const int change : {1, -1}) {
                     pt::PixelSums damaged = sums;
                     damaged.plane(part, pt::gpu::FILM_ACCEPTED)[pixel] += static_cast<std::uint32_t>(change);
-                    film.write(damaged, parts);
+                    film.write(damaged);
                     EXPECT_THROW(pt::read_films(all, samples, first, read), pt::Error) << pixel;
                 }
     }

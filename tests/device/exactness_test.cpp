@@ -64,6 +64,11 @@ TEST_F(ExactnessTest, SplittingOverCallsKeepsTheBits) {
 // calls.
 class GatheringTest : public ExactnessTest {
 protected:
+    // With submissions of a second, which have room for all.
+    Context create_fixtures_context() override {
+        return create_context([](pt_create_info &info) { info.submit_milliseconds = 1000; });
+    }
+
     // How paths are made.
     struct Paths {
         uint32_t sampler;
@@ -141,7 +146,7 @@ TEST_F(GatheringTest, OfTheFullestWindowIsExact) {
     }
 }
 
-// Submissions of 1 ms split a pass over pixels; of 1 s, they hold many samples.
+// Submissions of 1 ms have a sample of some tiles; of 1 s, they hold many samples.
 TEST_F(ExactnessTest, SliceTargetsKeepTheBits) {
     Image images[3];
     const uint32_t targets[3] = {1, 5, 1000};

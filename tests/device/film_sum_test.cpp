@@ -16,7 +16,6 @@ namespace {
 // So large that a film comes in several pieces, the last of them smaller.
 constexpr std::uint32_t sum_width = 307;
 constexpr std::uint32_t sum_height = 331;
-constexpr pt::SampleRange all_samples{0, 116};
 
 class FilmSumTest : public VulkanFixture {
 protected:
@@ -27,7 +26,7 @@ protected:
     }
 
     // A film with random sums, their most significant words and carries into these among them, on a device of its own.
-    void add_film(const pt::PartUse &parts, std::uint32_t max_strip_pixels) {
+    void add_film(std::uint32_t max_strip_pixels) {
         devices_.emplace_back(instance(), physical_device(), pt::vulkan::LogicalDevice::create(physical_device()),
                               pt::vulkan::gpu_like_policy());
         films_.emplace_back(devices_.back(), sum_width, sum_height, max_strip_pixels);
@@ -36,36 +35,24 @@ protected:
         for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
             for (std::size_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
                 for (std::uint32_t &word : sums.plane(part, plane))
-                    word = parts.empty() ? 0 : random_word();
-        films_.back().write(sums, parts);
+                    word = random_word();
+        films_.back().write(sums);
     }
 
-    // Of all films, with different strips, whose parts belong to those of the sum in every way.
+    // With different strips.
     void add_films() {
-        pt::PartUse as_all; // but the other way round in memory
-        as_all.extend({100, 116});
-        as_all.extend({40, 60});
-        pt::PartUse older;
-        older.extend({0, 16});
-        pt::PartUse newer;
-        newer.extend({100, 116});
-        add_film(older, 1U << 30);
-        add_film(as_all, sum_width * 100);
-        add_film(newer, sum_width * 45);
-        add_film({}, 1U << 30);
-        ASSERT_EQ(as_all.older(), 1U);
-        ASSERT_EQ(as_all.split(), pt::split_of(all_samples));
-        ASSERT_LT(older.split(), pt::split_of(all_samples));
-        ASSERT_GT(newer.split(), pt::split_of(all_samples));
+        add_film(1U << 30);
+        add_film(sum_width * 100);
+        add_film(sum_width * 45);
     }
 
     pt::PixelSums sum_on_host(const pt::PixelRange &pixels) {
         pt::PixelSums all;
         all.resize(pixels.count);
         pt::PixelSums one = all;
-        films_.front().read(pixels.first, pt::split_of(all_samples), all);
+        films_.front().read(pixels.first, all);
         for (std::size_t i = 1; i < films_.size(); ++i) {
-            films_[i].read(pixels.first, pt::split_of(all_samples), one);
+            films_[i].read(pixels.first, one);
             all.add(one);
         }
         return all;
@@ -83,7 +70,7 @@ protected:
     static pt::PixelSums sums_in(pt::FilmSum &sum, const pt::PixelRange &pixels) {
         pt::PixelSums sums;
         sums.resize(pixels.count);
-        sum.film().read(pixels.first, pt::split_of(all_samples), sums);
+        sum.film().read(pixels.first, sums);
         return sums;
     }
 
@@ -106,7 +93,7 @@ TEST_F(FilmSumTest, IsThatOfTheHost) {
     const pt::PixelRange all{0, sum_width * sum_height};
     const pt::PixelSums expected = sum_on_host(all);
     for (int round = 0; round < 2; ++round) {
-        sum.gather(0, all, all_samples);
+        sum.gather(0, all);
         EXPECT_TRUE(sums_in(sum, all) == expected) << round;
     }
     EXPECT_TRUE(sum_on_host(all) == expected) << "films are only read";
@@ -119,24 +106,11 @@ TEST_F(FilmSumTest, MayBeOfSomeRowsAndPixels) {
     pt::FilmSum sum(sources(), add, rows);
     for (const std::uint32_t first_row : {0U, 64U, sum_height - rows})
         for (const pt::PixelRange rows_wanted : {pt::PixelRange{0, rows}, {7, 1}, {40, 130}}) {
-            sum.gather(first_row, {(first_row + rows_wanted.first) * sum_width, rows_wanted.count * sum_width},
-                       all_samples);
+            sum.gather(first_row, {(first_row + rows_wanted.first) * sum_width, rows_wanted.count * sum_width});
             const pt::PixelRange in_sum{rows_wanted.first * sum_width, rows_wanted.count * sum_width};
             EXPECT_TRUE(sums_in(sum, in_sum) == sum_on_host({in_sum.first + first_row * sum_width, in_sum.count}))
                 << rows_wanted.count << " rows from " << first_row << " + " << rows_wanted.first;
         }
-}
-
-// Parts that samples of another device have moved are those of one film too.
-TEST_F(FilmSumTest, MayBeOfOneFilm) {
-    pt::PartUse parts;
-    parts.extend({100, 116});
-    add_film(parts, sum_width * 50);
-    const pt::vulkan::ComputePipeline add = pipeline();
-    pt::FilmSum sum(sources(), add, sum_height);
-    const pt::PixelRange all{0, sum_width * sum_height};
-    sum.gather(0, all, all_samples);
-    EXPECT_TRUE(sums_in(sum, all) == sum_on_host(all));
 }
 
 } // namespace

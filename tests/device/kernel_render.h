@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -34,8 +35,8 @@ public:
     explicit KernelRender(pt::GpuScene scene) : scene_(std::move(scene)), frame_(scene_.frame) {
         if (scene_.tree)
             tree_ = scene_.tree->words();
-        frame_.strip_pixel_count = frame_.pixel_count = width * height;
-        frame_.sample_count = most_samples;
+        frame_.strip_pixel_count = width * height;
+        frame_.sample_count = frame_.share = most_samples;
     }
 
     // Fewer samples of a pixel.
@@ -94,8 +95,12 @@ public:
         std::vector<std::uint32_t> indices(most_samples);
         std::iota(indices.begin(), indices.end(), 0U);
         probe.set_points(pt::point_table(PT_SAMPLER_SOBOL, seed, indices, pt::point_layout(scene_.features)));
-        return probe.run<std::uint32_t>({}, std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height,
-                                        frame_, width * height);
+        constexpr std::uint32_t below = pt::gpu::TILE_SIZE * width;
+        constexpr std::array<std::uint32_t, 4> tiles = {0, pt::gpu::TILE_SIZE, below, below + pt::gpu::TILE_SIZE};
+        FilmWords film(std::size_t{pt::gpu::FILM_PARTS} * pt::gpu::FILM_WORDS * width * height);
+        probe.run_over(std::as_bytes(std::span(tiles)), std::as_writable_bytes(std::span(film)),
+                       std::as_bytes(std::span(&frame_, 1)), tiles.size() * pt::gpu::WORKGROUP_SIZE);
+        return film;
     }
 
     // The words of the tree, if the scene has one, for a test to change.

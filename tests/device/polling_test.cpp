@@ -198,8 +198,8 @@ TEST_F(PollingTest, ATargetIsReachedAtTheSameCount) {
     }
 }
 
-// A cancellation may leave a pass under way at a number of samples at which the error would be looked at. It is looked
-// at when the pass has ended with its run, and never while slices are under way.
+// A cancellation ends with the sample that some tiles have begun. The error is looked at where it would be otherwise,
+// and never while slices are under way.
 TEST_F(PollingTest, ATargetIsReachedAtTheSameCountAfterCancellations) {
     constexpr uint32_t most = 4096;
     constexpr double target = 0.1;

@@ -49,13 +49,6 @@ protected:
         return pixels;
     }
 
-    // Gives a film these sums, of parts of 100 samples.
-    static void put(pt::DeviceFilm &film, const pt::PixelSums &sums) {
-        pt::PartUse parts;
-        parts.extend({0, 200});
-        film.write(sums, parts);
-    }
-
     // What kernel and host make of the sums.
     struct Values {
         std::vector<float> device;
@@ -110,7 +103,7 @@ TEST_F(Resolve, BitsAreThoseOfTheExactQuotient) {
     for (std::size_t batch = 0; batch < batches_; ++batch) {
         const std::vector<ResolvedPixel> pixels = random_pixels(random, width * height);
         const pt::PixelSums sums = film_of(pixels);
-        put(film, sums);
+        film.write(sums);
         for (const double unit : {1.0, 0x1p-100, 0x1p110}) {
             const int exponent = std::ilogb(unit) - fraction_bits;
             const Values means = resolved(film, sums, unit, false);
@@ -143,7 +136,7 @@ TEST_F(Resolve, RectanglesArePartsOfTheImage) {
     constexpr std::uint32_t high = 700; // several pieces
     pt::DeviceFilm film(device(), wide, high, 99'991);
     const std::vector<ResolvedPixel> pixels = random_pixels(random, wide * high);
-    put(film, film_of(pixels));
+    film.write(film_of(pixels));
     const auto read_part = [&](const pt::Rectangle &rectangle) {
         return floats(read(film, {rectangle, PT_QUANTITY_RADIANCE, 1.0, parts_of_100}));
     };
@@ -179,7 +172,7 @@ TEST_F(Resolve, FormatsAreThoseOfTheHost) {
         pixel.parts[0].accepted = 1;
     const pt::PixelSums sums = film_of(pixels);
     pt::DeviceFilm film(device(), width, height, 30'000);
-    put(film, sums);
+    film.write(sums);
     pt::ImageQuery query{
         {0, 0, width, height}, PT_QUANTITY_RADIANCE, std::ldexp(1.0, exponent + fraction_bits), parts_of_100};
     ASSERT_EQ(floats(read(film, query)), numbers);
@@ -205,7 +198,7 @@ TEST_F(Resolve, BuffersHoldTheImageAndNothingElse) {
     constexpr std::uint32_t high = 60;
     pt::DeviceFilm film(device(), wide, high, 991);
     const std::vector<ResolvedPixel> pixels = random_pixels(random, wide * high);
-    put(film, film_of(pixels));
+    film.write(film_of(pixels));
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, 200'000, "test");
     const std::vector<std::byte> guards(buffer.size(), std::byte{0xa5});
     const auto large = pt::BufferWriter::piece_limits(device().limits());
@@ -242,7 +235,7 @@ TEST_F(Resolve, SamplesLostOnTheWayToABufferAreAnError) {
     const std::vector<ResolvedPixel> pixels(std::size_t{width} * height, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
     sums.plane(1, pt::gpu::FILM_ACCEPTED)[7] = 99;
-    put(film, sums);
+    film.write(sums);
     pt::vulkan::Buffer buffer(device(), pt::vulkan::BufferUse::Storage, pixels.size() * 12, "test");
     const vk::raii::Semaphore semaphore = device().handle().createSemaphore({});
     const pt::ImageQuery query{{0, 0, width, height}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100};
@@ -266,7 +259,7 @@ TEST_F(Resolve, LostSamplesAreAnError) {
     const std::vector<ResolvedPixel> pixels(std::size_t{width} * high, ResolvedPixel{{{{}, 100}, {{}, 100}}});
     pt::PixelSums sums = film_of(pixels);
     const auto read_sums = [&] {
-        put(film, sums);
+        film.write(sums);
         read(film, {{0, 0, width, high}, PT_QUANTITY_RADIANCE, 1.0, parts_of_100});
     };
     read_sums();

@@ -178,31 +178,6 @@ TEST_F(SavedFilm, DevicesThatShareTheWorkAddToTheSameBytes) {
     EXPECT_TRUE(picture_of(shared.get()) == expected);
 }
 
-// A call may stop while a sample has been taken in some pixels only: the film then brings that sample, or others.
-TEST_F(SavedFilm, AddsWhileASampleIsUnderWay) {
-    const Picture expected = whole(30);
-    const auto stop_at_once = [](void *, double share) -> int32_t { return share > 0.0; };
-    for (const uint32_t first : {4U, 5U}) {
-        const Bytes rest = part(first, 30);
-        const auto create = [](const pt_create_info *info, pt_context **context) {
-            return pt::guard(pt::thread_last_error, [&] {
-                pt::CreateSettings settings = pt::validated_create(*info);
-                settings.submit_milliseconds = 0; // every submission is as small as can be
-                *context = std::make_unique<pt_context>(settings).release();
-            });
-        };
-        const Context cut = create_context([](pt_create_info &) {}, create);
-        set_up(cut.get(), SavedFilm::settings(0));
-        accumulate_on(cut.get(), 4);
-        const pt_accumulate_info one{sizeof one, 1, stop_at_once, nullptr, 0, 0, 0, nullptr, 0, 0};
-        ASSERT_EQ(pt_accumulate(cut.get(), &one), PT_CANCELLED) << pt_last_error(cut.get());
-        ASSERT_EQ(add(cut.get(), rest), PT_OK) << pt_last_error(cut.get());
-        if (first == 5)
-            accumulate_on(cut.get(), 1);
-        EXPECT_TRUE(picture_of(cut.get()) == expected) << first;
-    }
-}
-
 TEST_F(SavedFilm, RowsAreFilmsOfTheirOwn) {
     pt_render rows = settings(0);
     rows.first_row = 3;

@@ -48,7 +48,6 @@ TEST_F(ShaderSourceTest, CompilesToTheEmbeddedWords) {
     const KernelCode code = compiled();
     const KernelCode embedded = pt::embedded_code();
     EXPECT_TRUE(std::ranges::equal(code.pathtrace, embedded.pathtrace));
-    EXPECT_TRUE(std::ranges::equal(code.commit, embedded.commit));
     EXPECT_TRUE(std::ranges::equal(code.fold, embedded.fold));
     EXPECT_TRUE(std::ranges::equal(code.add, embedded.add));
     EXPECT_TRUE(std::ranges::equal(code.accuracy, embedded.accuracy));
@@ -61,18 +60,17 @@ TEST_F(ShaderSourceTest, EachKernelCounts) {
     shaders.replace("pathtrace.comp", "* held.film_scale", "* (2.0 * held.film_scale)");
     KernelCode code = compiled();
     EXPECT_FALSE(std::ranges::equal(code.pathtrace, embedded.pathtrace));
-    EXPECT_TRUE(std::ranges::equal(code.commit, embedded.commit));
     EXPECT_TRUE(std::ranges::equal(code.fold, embedded.fold));
     EXPECT_TRUE(std::ranges::equal(code.add, embedded.add));
     EXPECT_FALSE(code == embedded);
 
     shaders.replace("pathtrace.comp", "* (2.0 * held.film_scale)", "* held.film_scale");
-    shaders.replace("commit.comp", "vec4(0.0)", "vec4(0.5)");
+    shaders.replace("fold.comp", "uvec4 moved;", "uvec4 moved = uvec4(1u);");
     code = compiled();
-    EXPECT_FALSE(std::ranges::equal(code.commit, embedded.commit));
+    EXPECT_FALSE(std::ranges::equal(code.fold, embedded.fold));
     EXPECT_FALSE(code == embedded);
 
-    shaders.replace("commit.comp", "vec4(0.5)", "vec4(0.0)");
+    shaders.replace("fold.comp", "uvec4 moved = uvec4(1u);", "uvec4 moved;");
     shaders.replace("accuracy.comp", "return sqrt(x)", "return x");
     code = compiled();
     EXPECT_FALSE(std::ranges::equal(code.accuracy, embedded.accuracy));
@@ -96,7 +94,7 @@ TEST_F(ShaderSourceTest, AnErrorNamesTheIncludedFileAndTheLine) {
 
 TEST_F(ShaderSourceTest, TheLogIsWhole) {
     const std::string first = shaders.break_after_line("film.glsl", 30);
-    shaders.replace("pathtrace.comp", "film_add(gathered, value);", "film_add(gathered, value, value);");
+    shaders.replace("pathtrace.comp", "film_add(gathered, ", "film_add(gathered, gathered, ");
     expect_complaint(first);
     expect_complaint("'film_add' : no matching overloaded function found");
 }
@@ -147,8 +145,8 @@ TEST_F(ShaderSourceTest, AngleBracketsAreRefused) {
 }
 
 TEST_F(ShaderSourceTest, AShaderWithoutMainIsRefused) {
-    shaders.replace("commit.comp", "void main()", "void other()");
-    expect_complaint(shaders.file("commit.comp") + ": ");
+    shaders.replace("fold.comp", "void main()", "void other()");
+    expect_complaint(shaders.file("fold.comp") + ": ");
     expect_complaint("Missing entry point");
 }
 

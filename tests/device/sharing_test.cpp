@@ -66,7 +66,7 @@ protected:
     }
 };
 
-// Submissions of 1 ms split passes over pixels, which each device does by itself; of 50 ms, they hold many samples.
+// Submissions of 1 ms have a sample of some tiles; of 50 ms, they hold many samples.
 // Films of GPUs meet on the first of them.
 TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     const Context alone = context_on(1, 50);

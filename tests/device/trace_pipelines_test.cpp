@@ -44,7 +44,7 @@ protected:
     }
 
     const ComputePipeline *trace(const Words &words, double seconds, std::uint32_t sampler = PT_SAMPLER_RANDOM) {
-        return &pipelines_->trace(features_of_a_sphere(sampler), 1, words, seconds);
+        return &pipelines_->trace(features_of_a_sphere(sampler), words, seconds);
     }
 
     void TearDown() override {
@@ -117,34 +117,37 @@ TEST_F(TracePipelinesTest, WhoPollsKeepsTheKernelThatThereIs) {
 // What was used longest ago is built anew. Not told by its place, which may be that of one that went.
 TEST_F(TracePipelinesTest, AHandfulIsKept) {
     use(false);
-    const auto of_sharers = [&](std::uint32_t sharers) {
-        return &pipelines_->trace(features_of_a_sphere(), sharers, ball, 0.0);
+    const auto of_lamps = [&](std::uint32_t lamp_count) {
+        pt::Features features = features_of_a_sphere();
+        features.lamp_count = lamp_count;
+        return &pipelines_->trace(features, ball, 0.0);
     };
     std::vector<const ComputePipeline *> kernels;
-    for (std::uint32_t sharers = 1; sharers <= pt::TracePipelines::most_kept; ++sharers)
-        kernels.push_back(of_sharers(sharers));
-    for (std::uint32_t sharers = 1; sharers <= kernels.size(); ++sharers)
-        EXPECT_EQ(of_sharers(sharers), kernels[sharers - 1]) << sharers;
-    pipelines_->trace(features_of_a_sphere(), 1, ball, 0.0);
-    of_sharers(100); // in place of the kernel for two
-    EXPECT_EQ(of_sharers(1), kernels[0]);
-    for (std::uint32_t sharers = 3; sharers <= kernels.size(); ++sharers)
-        EXPECT_EQ(of_sharers(sharers), kernels[sharers - 1]) << sharers;
-    pipelines_->trace(features_of_a_sphere(), 2, ball, 0.0); // in place of the one for a hundred
-    EXPECT_EQ(of_sharers(1), kernels[0]);
+    for (std::uint32_t lamps = 0; lamps < pt::TracePipelines::most_kept; ++lamps)
+        kernels.push_back(of_lamps(lamps));
+    for (std::uint32_t lamps = 0; lamps < kernels.size(); ++lamps)
+        EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
+    of_lamps(0);
+    of_lamps(100); // in place of the kernel for one
+    EXPECT_EQ(of_lamps(0), kernels[0]);
+    for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
+        EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
+    of_lamps(1); // in place of the one for none
+    for (std::uint32_t lamps = 2; lamps < kernels.size(); ++lamps)
+        EXPECT_EQ(of_lamps(lamps), kernels[lamps]) << lamps;
 }
 
 TEST_F(TracePipelinesTest, ASceneOfManyWordsReadsABuffer) {
     use(true);
     pt::Features features = features_of_a_sphere();
     features.sphere_count = 22; // 66 words
-    const ComputePipeline *any = &pipelines_->trace(features, 1, Words(66), 0.0);
-    EXPECT_EQ(&pipelines_->trace(features, 1, Words(66, glm::vec4(1)), 0.0), any);
-    EXPECT_EQ(&pipelines_->trace(features, 1, Words(66), 100.0), any);
+    const ComputePipeline *any = &pipelines_->trace(features, Words(66), 0.0);
+    EXPECT_EQ(&pipelines_->trace(features, Words(66, glm::vec4(1)), 0.0), any);
+    EXPECT_EQ(&pipelines_->trace(features, Words(66), 100.0), any);
     features.sphere_count = 21; // 63 words
     const pt::TracePipelines::Ahead ahead(*pipelines_);
-    const ComputePipeline *own = &pipelines_->trace(features, 1, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
-    EXPECT_NE(&pipelines_->trace(features, 1, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);
+    const ComputePipeline *own = &pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1), 0.0);
+    EXPECT_NE(&pipelines_->trace(features, Words(pt::gpu::CONSTANT_SCENE_WORDS - 1, glm::vec4(1)), 0.0), own);
 }
 
 TEST_F(TracePipelinesTest, WhereConstantsAreNoFasterAllScenesReadABuffer) {

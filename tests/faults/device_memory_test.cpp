@@ -105,27 +105,6 @@ TEST(DeviceMemoryTest, AFilmIsAddedWhereItsSumsFitInTwice) {
     EXPECT_TRUE(just_enough.film() == both) << "another sum";
 }
 
-// Paths so long that a sample of all pixels takes several submissions are kept aside until all have theirs.
-TEST(DeviceMemoryTest, ASplitSampleNeedsMemoryOfItsOwn) {
-    const auto take = [](Context &context) {
-        EXPECT_EQ(context.set_render(0, 1000), PT_OK) << context.message();
-        return context.accumulate(1);
-    };
-    constexpr uint64_t pass_bytes = uint64_t{16} * width * height;
-    Context roomy(UINT64_MAX);
-    ASSERT_EQ(take(roomy), PT_OK) << roomy.message();
-    const uint64_t in_use = roomy.bytes_in_use() - pass_bytes;
-
-    Context full(in_use + pass_bytes - 1);
-    EXPECT_EQ(take(full), PT_ERROR_OUT_OF_DEVICE_MEMORY);
-    EXPECT_EQ(full.message(), "a sample that is split over submissions takes " + std::to_string(pass_bytes) +
-                                  " bytes beside the " + std::to_string(in_use) + " in use, and the device has " +
-                                  std::to_string(in_use + pass_bytes - 1));
-    EXPECT_EQ(full.bytes_in_use(), in_use);
-    Context just_enough(in_use + pass_bytes);
-    EXPECT_EQ(take(just_enough), PT_OK) << just_enough.message();
-}
-
 TEST(DeviceMemoryTest, AnImageIsRefusedWhereItDoesNotFit) {
     constexpr uint64_t film_bytes = sums_bytes;
     Context small(film_bytes - 1);

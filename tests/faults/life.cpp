@@ -152,7 +152,7 @@ void Life::tell() {
 
     look("pt_prepare", [&] { return pt_prepare(context_); });
 
-    // In passes that are split over submissions; then up to where the error is estimated, and past it.
+    // In submissions of some tiles; then up to where the error is estimated, and past it.
     accumulate_to("pt_accumulate", 2, 0.0);
     readback("pt_readback, radiance", PT_QUANTITY_RADIANCE);
     readback("pt_readback, standard error", PT_QUANTITY_STANDARD_ERROR);

@@ -1,11 +1,14 @@
 // Which samples the two parts of a film hold.
 #include "lib/film/film_parts.h"
 
+#include "lib/kernel/tile_slice.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -46,89 +49,44 @@ TEST(FilmParts, TheSplitHasTheMostZerosAtItsEnd) {
             ASSERT_EQ(pt::split_of({first, end}), split_by_definition({first, end})) << first << ", " << end;
 }
 
-// Samples of a film as sets, one for each part in memory.
-struct FilmOfSets {
-    pt::PartUse use;
-    std::array<SampleSet, 2> parts;
-
-    // hull: of the samples of all films. What Kernel overwrites holds nothing.
-    void add(const SampleRange &samples, const SampleRange &hull) {
-        SampleRange before = use.hull();
-        if (use.needs_fold(hull)) {
-            parts[0].add(parts[1]);
-            parts[1] = {};
-        }
-        use.extend(hull);
-        for (const SampleRange &piece :
-             {SampleRange{samples.first, std::clamp(use.split(), samples.first, samples.end)},
-              SampleRange{std::clamp(use.split(), samples.first, samples.end), samples.end}}) {
-            if (piece.empty())
-                continue;
-            SampleSet &part = parts[use.part_of(piece.first)];
-            EXPECT_TRUE(!pt::begins_part(before, use.split(), piece.first) || part.empty()) << pt::text_of(piece);
-            part.add(piece);
-            before = pt::hull_of(before, piece);
-        }
-    }
-
-    // What DeviceFilm::read gives.
-    std::array<SampleSet, 2> split_at(std::uint64_t split) const {
-        std::array<SampleSet, 2> sets{parts[use.older()], parts[1 - use.older()]};
-        if (use.empty() || use.split() == split)
-            return sets;
-        const bool older = use.split() < split;
-        sets[older ? 0 : 1].add(sets[older ? 1 : 0]);
-        sets[older ? 1 : 0] = {};
-        return sets;
-    }
-};
-
-// Two films take ranges in any order, each at once, as Kernel does, or cut into runs, as tiles do. In the end both
-// parts hold just the samples on their side of the split, whichever film took them.
+// Films of sets of samples take ranges in any order, as devices take slices. Afterwards the parts of all hold just the
+// samples on their side of the split, and a part that is overwritten has held none.
 TEST(FilmParts, SamplesAddedInAnyOrderEndOnTheirSideOfTheSplit) {
     std::mt19937 random(1);
     for (int round = 0; round < 3000; ++round) {
         SampleSet all;
-        std::array<FilmOfSets, 2> films;
+        std::array<std::array<SampleSet, 2>, 2> films;
         const std::uint64_t base = round % 2 == 0 ? 0 : random() % 5000;
         for (int i = 0; i < 12; ++i) {
-            const std::uint64_t from = base + random() % 400;
-            const SampleRange missing = all.next_missing(from);
+            const SampleRange missing = all.next_missing(base + random() % 400);
             const SampleRange range{missing.first, std::min(missing.end, missing.first + 1 + random() % 80)};
-            FilmOfSets &film = films[random() % 2];
-            for (std::uint64_t sample = range.first; sample < range.end;) {
-                const std::uint64_t end_of_run = pt::end_of_run(all.hull(), sample);
-                const std::uint64_t end = round % 4 < 2 ? range.end : std::min(range.end, end_of_run);
-                ASSERT_GT(end, sample);
-                film.add({sample, end}, pt::hull_of(all.hull(), {sample, end}));
-                all.add({sample, end});
-                sample = end;
+            SampleRange before = all.empty() ? SampleRange{} : all.hull();
+            const pt::TileSlice slice{{}, before, range, true};
+            const std::uint64_t split = slice.split();
+            if (slice.moves_split())
+                for (auto &parts : films) {
+                    const std::size_t kept = pt::split_of(before) < split ? pt::older_part : pt::newer_part;
+                    parts[kept].add(parts[1 - kept]);
+                    parts[1 - kept] = {};
+                }
+            for (const SampleRange &piece : {SampleRange{range.first, std::clamp(split, range.first, range.end)},
+                                             SampleRange{std::clamp(split, range.first, range.end), range.end}}) {
+                if (piece.empty())
+                    continue;
+                const std::size_t part = piece.first < split ? pt::older_part : pt::newer_part;
+                const bool is_empty = films[0][part].empty() && films[1][part].empty();
+                ASSERT_TRUE(!pt::begins_part(before, split, piece.first) || is_empty) << pt::text_of(piece);
+                films[random() % 2][part].add(piece);
+                before = pt::hull_of(before, piece);
             }
-            const std::uint64_t split = pt::split_of(all.hull());
-            for (const FilmOfSets &part : films) {
-                const auto [older, newer] = part.split_at(split);
+            all.add(range);
+            ASSERT_EQ(split, pt::split_of(all.hull()));
+            for (const auto &[older, newer] : films) {
                 ASSERT_TRUE(older.empty() || older.hull().end <= split) << pt::text_of(all);
                 ASSERT_TRUE(newer.empty() || newer.hull().first >= split) << pt::text_of(all);
             }
         }
     }
-}
-
-// Between a sample and the end given for it, neither the part changes nor the split; at the end one does.
-TEST(FilmParts, ARunEndsWhereTheNextSampleGoesElsewhere) {
-    const auto goes_to = [](const SampleRange &hull, std::uint64_t sample) {
-        const std::uint64_t split = pt::split_of(pt::hull_of(hull, {sample, sample + 1}));
-        return std::pair(split, sample < split);
-    };
-    for (const std::uint64_t first : {0U, 3U, 40U, 63U, 64U, 1000U})
-        for (std::uint64_t sample = first; sample < first + 600; ++sample) {
-            const SampleRange before{first, sample};
-            const std::uint64_t end = pt::end_of_run(before, sample);
-            ASSERT_GT(end, sample);
-            for (std::uint64_t other = sample; other < end; ++other)
-                ASSERT_EQ(goes_to({first, other}, other), goes_to(before, sample)) << first << ": " << sample;
-            ASSERT_NE(goes_to({first, end}, end), goes_to(before, sample)) << first << ": " << sample;
-        }
 }
 
 } // namespace

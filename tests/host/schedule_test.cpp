@@ -1,25 +1,27 @@
 // Slices on simulated devices: all work is done exactly once, near the target time, within the limits, growing slowly.
 #include "lib/render/schedule.h"
 
+#include "lib/render/tile_tasks.h"
+#include "shaders/gpu_layout.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <ostream>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
 
 constexpr double overhead = 1e-4; // seconds of every submission
-
-double paths_of(const pt::Slice &slice) {
-    return static_cast<double>(slice.pixel_count) * slice.sample_count;
-}
+constexpr double paths_of_tile = pt::gpu::WORKGROUP_SIZE;
 
 // Seconds that a slice takes when paths have been followed before it.
 using Device = std::function<double(double paths_before, double paths)>;
@@ -44,74 +46,73 @@ Device noisy_device(double paths_per_second) {
 }
 
 struct Step {
-    pt::Slice slice;
+    std::uint32_t first_tile;
+    std::uint32_t tile_count;
+    pt::SampleRange samples;
     double seconds;
+
+    double paths() const { return pt::paths_of(tile_count, samples.count()); }
 };
 
-// Runs a schedule as Renderer does, cancelled by nobody.
-std::vector<Step> simulate(std::uint32_t pixel_count, std::uint32_t samples, const pt::ScheduleLimits &limits,
-                           Device device) {
-    pt::Schedule schedule(pixel_count, limits);
+// Runs a schedule as Accumulation does, cancelled by nobody.
+std::vector<Step> simulate(std::uint32_t tile_count, std::uint64_t samples, const pt::ScheduleLimits &limits,
+                           const Device &device) {
+    std::vector<std::uint32_t> all(tile_count);
+    std::iota(all.begin(), all.end(), 0U);
+    pt::TileTasks tasks(pt::SampleSet(), 0, all, samples);
+    pt::Schedule schedule(limits);
     std::vector<Step> steps;
-    std::uint32_t samples_done = 0;
-    std::uint32_t pass_pixels_done = 0;
     double paths_done = 0.0;
-    while (samples_done < samples && steps.size() < 1'000'000) {
-        const pt::Slice slice = schedule.next(samples - samples_done, pass_pixels_done);
-        const double seconds = device(paths_done, paths_of(slice));
-        schedule.measured(slice, seconds);
-        steps.push_back({slice, seconds});
-        paths_done += paths_of(slice);
-        pass_pixels_done = slice.first_pixel + slice.pixel_count;
-        if (pass_pixels_done == pixel_count) {
-            samples_done += slice.sample_count;
-            pass_pixels_done = 0;
-        }
+    while (!tasks.empty() && steps.size() < 1'000'000) {
+        const pt::TileSlice slice = tasks.next(schedule);
+        Step step{slice.tiles.front(), static_cast<std::uint32_t>(slice.tiles.size()), slice.samples, 0.0};
+        step.seconds = device(paths_done, step.paths());
+        schedule.measured(step.paths(), step.seconds);
+        steps.push_back(step);
+        paths_done += step.paths();
+        tasks.leave_behind(slice.tiles.size());
     }
     return steps;
 }
 
 // What is wrong with the steps as a way to do the work, or "nothing".
-std::string fault(const std::vector<Step> &steps, std::uint32_t pixel_count, std::uint32_t samples,
+std::string fault(const std::vector<Step> &steps, std::uint32_t tile_count, std::uint64_t samples,
                   const pt::ScheduleLimits &limits) {
     std::uint64_t samples_done = 0;
-    std::uint32_t next_pixel = 0;
-    double largest = std::max<double>(limits.first_slice_paths, limits.pixel_granularity) / 2.0;
+    std::uint32_t next_tile = 0;
+    double largest = std::max(limits.first_slice_paths, paths_of_tile) / 2.0;
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const pt::Slice &slice = steps[i].slice;
+        const Step &step = steps[i];
         const std::string where = " in slice " + std::to_string(i);
-        const std::uint32_t end = slice.first_pixel + slice.pixel_count;
-        if (slice.pixel_count == 0 || slice.sample_count == 0)
+        if (step.tile_count == 0 || step.samples.empty())
             return "no work" + where;
-        if (slice.first_pixel != next_pixel || end > pixel_count)
-            return "pixels left out or done twice" + where;
-        if (slice.whole && (slice.first_pixel != 0 || slice.pixel_count != pixel_count))
-            return "a whole slice without all pixels" + where;
-        if (!slice.whole && slice.sample_count != 1)
-            return "a split pass of several samples" + where;
-        if (slice.sample_count > limits.max_samples)
+        if (step.first_tile != next_tile || step.first_tile + step.tile_count > tile_count)
+            return "tiles left out or done twice" + where;
+        if (step.samples.first != samples_done)
+            return "samples left out or done twice" + where;
+        if (step.tile_count < tile_count && step.samples.count() != 1)
+            return "several samples of some tiles" + where;
+        if (step.samples.count() > limits.max_samples)
             return "too many samples" + where;
-        if (slice.pixel_count % limits.pixel_granularity != 0 && end != pixel_count)
-            return "a ragged range" + where;
-        if (paths_of(slice) > 2.0 * largest)
+        if (step.paths() > 2.0 * largest)
             return "growth beyond twofold" + where;
-        largest = std::max(largest, paths_of(slice));
-        next_pixel = end == pixel_count ? 0 : end;
-        samples_done += end == pixel_count ? slice.sample_count : 0;
+        largest = std::max(largest, step.paths());
+        next_tile = (next_tile + step.tile_count) % tile_count;
+        samples_done += next_tile == 0 ? step.samples.count() : 0;
     }
-    if (next_pixel != 0)
-        return "a pass is not complete";
+    if (next_tile != 0)
+        return "some tiles lack a sample";
     return samples_done == samples ? "nothing" : "samples left out or done twice";
 }
 
 pt::ScheduleLimits usual_limits() {
-    return {0.05, 16384.0, 1024, 64};
+    return {0.05, 16384.0, 1024};
 }
 
 struct DeviceCase {
     const char *name;
-    std::uint32_t pixel_count;
-    std::uint32_t samples;
+    std::uint32_t tile_count;
+    std::uint64_t samples;
     Device device;
     // Share of the slices after warm-up, cut short by no limit, that must be within a factor of 2 of the target.
     double on_target;
@@ -122,13 +123,6 @@ void PrintTo(const DeviceCase &test_case, std::ostream *out) {
 }
 
 class SimulatedDevice : public testing::TestWithParam<DeviceCase> {};
-
-TEST_P(SimulatedDevice, DoesAllWorkOnceWithinLimits) {
-    const DeviceCase &test_case = GetParam();
-    const std::vector<Step> steps =
-        simulate(test_case.pixel_count, test_case.samples, usual_limits(), test_case.device);
-    EXPECT_EQ(fault(steps, test_case.pixel_count, test_case.samples, usual_limits()), "nothing");
-}
 
 // Doubling from 2^14 paths to the largest slice of the cases takes less than 20 slices.
 constexpr std::size_t warm_up = 20;
@@ -143,119 +137,81 @@ double share_on_target(const std::vector<Step> &steps, const pt::ScheduleLimits 
     return judged > 0 ? static_cast<double>(good) / judged : 1.0;
 }
 
-TEST_P(SimulatedDevice, ApproachesTheTarget) {
+TEST_P(SimulatedDevice, DoesAllWorkOnceNearTheTarget) {
     const DeviceCase &test_case = GetParam();
-    const std::vector<Step> steps =
-        simulate(test_case.pixel_count, test_case.samples, usual_limits(), test_case.device);
+    const std::vector<Step> steps = simulate(test_case.tile_count, test_case.samples, usual_limits(), test_case.device);
+    EXPECT_EQ(fault(steps, test_case.tile_count, test_case.samples, usual_limits()), "nothing");
     ASSERT_GT(steps.size(), warm_up + 1) << "nothing to judge";
     EXPECT_GE(share_on_target(steps, usual_limits()), test_case.on_target);
 }
 
-constexpr std::uint32_t full_hd = 1920 * 1080;
+constexpr std::uint32_t full_hd = 240 * 135;
 
 INSTANTIATE_TEST_SUITE_P(
     Schedule, SimulatedDevice,
-    testing::Values(DeviceCase{"WholeSamples", 200 * 75, 20000, constant_device(1e8), 1.0},
-                    DeviceCase{"SplitPasses", full_hd, 20, constant_device(1e6), 1.0},
-                    DeviceCase{"RangesAndWholeSamplesByTurns", 50000, 300, constant_device(1.01e6), 1.0},
+    testing::Values(DeviceCase{"WholeSamples", 25 * 10, 20000, constant_device(1e8), 1.0},
+                    DeviceCase{"SamplesTileByTile", full_hd, 20, constant_device(1e6), 1.0},
+                    DeviceCase{"AboutASample", 800, 300, constant_device(1.03e6), 1.0},
                     DeviceCase{"FastGpu", full_hd, 5000, constant_device(3e9), 1.0},
                     // Only the slice in which the speed falls is too long.
                     DeviceCase{"SpeedFallsToATenth", full_hd, 400, throttled_device(1e8, 2e8), 0.99},
-                    DeviceCase{"SpeedFallsFromWholeToSplit", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
+                    DeviceCase{"SpeedFallsBelowASample", full_hd, 100, throttled_device(1e8, 5e7), 0.99},
                     // The time of a slice is off by its own noise and by that of the slice that sized it: a factor of
                     // 2 is passed with the probability (1 - ln 2 / (2 ln 1.5))^2 = 0.02.
-                    DeviceCase{"NoisyClock", 200 * 75, 200000, noisy_device(1e8), 0.95}),
+                    DeviceCase{"NoisyClock", 25 * 10, 200000, noisy_device(1e8), 0.95}),
     [](const auto &instance) { return std::string(instance.param.name); });
 
-// Not even a workgroup is done in the target time: then it is one workgroup.
-TEST(Schedule, VerySlowDevicesGetOneWorkgroupATime) {
-    const std::vector<Step> steps = simulate(1000, 30, usual_limits(), constant_device(1000.0));
-    EXPECT_EQ(fault(steps, 1000, 30, usual_limits()), "nothing");
+// Not even a tile is done in the target time: then it is one tile.
+TEST(Schedule, VerySlowDevicesGetOneTileAtATime) {
+    const std::vector<Step> steps = simulate(16, 30, usual_limits(), constant_device(1000.0));
+    EXPECT_EQ(fault(steps, 16, 30, usual_limits()), "nothing");
     for (std::size_t i = 30; i + 1 < steps.size(); ++i)
-        ASSERT_LE(steps[i].slice.pixel_count, 64U);
+        ASSERT_EQ(steps[i].tile_count, 1U);
 }
 
-// Faster than the largest slice allowed: then it is the largest slice.
+// Faster than the largest slice allowed: then it is the largest slice. Drivers stop kernels after so many loop trips.
 TEST(Schedule, VeryFastDevicesGetTheLargestSlice) {
-    const std::vector<Step> steps = simulate(1000, 1U << 20, usual_limits(), constant_device(1e15));
-    EXPECT_EQ(fault(steps, 1000, 1U << 20, usual_limits()), "nothing");
-    for (std::size_t i = warm_up; i + 1 < steps.size(); ++i)
-        ASSERT_EQ(steps[i].slice.sample_count, usual_limits().max_samples);
+    for (const std::uint32_t most : {3U, 1024U}) {
+        pt::ScheduleLimits limits = usual_limits();
+        limits.max_samples = most;
+        const std::vector<Step> steps = simulate(16, std::uint64_t{most} << 6, limits, constant_device(1e15));
+        EXPECT_EQ(fault(steps, 16, std::uint64_t{most} << 6, limits), "nothing");
+        for (std::size_t i = warm_up; i + 1 < steps.size(); ++i)
+            ASSERT_EQ(steps[i].samples.count(), most);
+    }
 }
 
 TEST(Schedule, ImagesOfAnySizeAreDoneOnce) {
-    for (const std::uint32_t pixel_count : {1U, 63U, 64U, 65U, 127U, 4097U, 16383U, 16384U, 16385U, 1000003U})
+    for (const std::uint32_t tile_count : {1U, 2U, 63U, 255U, 256U, 257U, 15626U})
         for (const double speed : {2e3, 1e5, 1e7}) {
-            SCOPED_TRACE(testing::Message() << pixel_count << " pixels, " << speed << " paths a second");
-            const std::vector<Step> steps = simulate(pixel_count, 7, usual_limits(), constant_device(speed));
-            EXPECT_EQ(fault(steps, pixel_count, 7, usual_limits()), "nothing");
+            SCOPED_TRACE(testing::Message() << tile_count << " tiles, " << speed << " paths a second");
+            const std::vector<Step> steps = simulate(tile_count, 7, usual_limits(), constant_device(speed));
+            EXPECT_EQ(fault(steps, tile_count, 7, usual_limits()), "nothing");
         }
 }
 
-TEST(Schedule, HoldsTheLargestImageAndSampleCount) {
+TEST(Schedule, HoldsTheLargestSampleCount) {
     constexpr std::uint32_t most = UINT32_MAX;
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = most;
-    const std::vector<Step> large = simulate(most, 3, limits, constant_device(1e15));
-    EXPECT_EQ(fault(large, most, 3, limits), "nothing");
-    const std::vector<Step> long_run = simulate(1, most, limits, constant_device(1e15));
-    EXPECT_EQ(fault(long_run, 1, most, limits), "nothing");
+    EXPECT_EQ(fault(simulate(1, most, limits, constant_device(1e15)), 1, most, limits), "nothing");
 }
 
-// Drivers stop kernels after so many loop trips.
-TEST(Schedule, KeepsTheSampleLimitOnFastDevices) {
-    pt::ScheduleLimits limits = usual_limits();
-    limits.max_samples = 3;
-    const std::vector<Step> steps = simulate(64, 1000, limits, constant_device(1e12));
-    EXPECT_EQ(fault(steps, 64, 1000, limits), "nothing");
-    EXPECT_EQ(steps.front().slice.sample_count, 3U);
-}
-
-TEST(Schedule, AFirstGuessBelowAWorkgroupIsAWorkgroup) {
-    pt::ScheduleLimits limits = usual_limits();
-    limits.first_slice_paths = 0.25;
-    const pt::Slice slice = pt::Schedule(1000, limits).next(1, 0);
-    EXPECT_EQ(slice.pixel_count, 64U);
-    EXPECT_FALSE(slice.whole);
-}
-
-TEST(Schedule, ASplitPassEndsAsOne) {
-    pt::Schedule schedule(100000, usual_limits());
-    const pt::Slice first = schedule.next(50, 0);
-    ASSERT_FALSE(first.whole);
-    for (int i = 0; i < 30; ++i)
-        schedule.measured({0, 100000, 1024, true}, 1e-9); // by now everything would fit into a slice
-    const pt::Slice rest = schedule.next(50, first.pixel_count);
-    EXPECT_FALSE(rest.whole);
-    EXPECT_EQ(rest.sample_count, 1U);
-    EXPECT_EQ(rest.first_pixel, first.pixel_count);
-    EXPECT_EQ(rest.first_pixel + rest.pixel_count, 100000U);
-    EXPECT_TRUE(schedule.next(49, 0).whole);
-}
-
-// A cancelled call leaves a split pass, which the next call goes on with, whatever it asks for.
-TEST(Schedule, GoesOnWithinAPass) {
-    pt::Schedule schedule(100000, usual_limits());
-    const pt::Slice slice = schedule.next(1, 64 * 1000);
-    EXPECT_EQ(slice.first_pixel, 64U * 1000);
-    EXPECT_FALSE(slice.whole);
-}
-
-// Ranges of a pass are about equal: no small one at its end.
-TEST(Schedule, RangesAreLargerThanHalfOfTheBudget) {
-    pt::Schedule schedule(64 * 257, usual_limits()); // a workgroup more than the budget
-    EXPECT_EQ(schedule.next(1, 0).pixel_count, 64U * 129);
-    EXPECT_EQ(schedule.next(1, 64 * 129).pixel_count, 64U * 128);
+// Slices of some of the tiles are about equal: no small one at the end.
+TEST(Schedule, SlicesAreLargerThanHalfOfTheBudget) {
+    const pt::Schedule schedule(usual_limits());
+    EXPECT_EQ(schedule.tiles(257, 1), 129U); // a tile more than the budget
+    EXPECT_EQ(schedule.tiles(257 - 129, 1), 128U);
+    EXPECT_EQ(schedule.samples(257, 10), 1U);
+    EXPECT_EQ(schedule.samples(64, 10), 4U);
+    EXPECT_EQ(schedule.samples(64, 3), 3U);
+    EXPECT_EQ(schedule.tiles(64, 4), 64U);
 }
 
 double budget_after(double seconds) {
-    pt::ScheduleLimits limits = usual_limits();
-    limits.max_samples = 1U << 30;
-    pt::Schedule schedule(64, limits);
-    const pt::Slice slice = schedule.next(UINT32_MAX, 0);
-    EXPECT_EQ(paths_of(slice), 16384.0);
-    schedule.measured(slice, seconds);
-    return paths_of(schedule.next(UINT32_MAX, 0));
+    pt::Schedule schedule(usual_limits());
+    schedule.measured(schedule.budget(), seconds);
+    return schedule.budget();
 }
 
 TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
@@ -266,15 +222,14 @@ TEST(Schedule, LearnsFromASliceOfFullSizeAtOnce) {
 }
 
 TEST(Schedule, GrowsAtMostTwofold) {
-    EXPECT_EQ(budget_after(0.025), 32768.0);
-    EXPECT_EQ(budget_after(0.001), 32768.0);
-    EXPECT_EQ(budget_after(1e-300), 32768.0);
-    EXPECT_EQ(budget_after(0.0), 32768.0);
+    for (const double seconds : {0.025, 0.001, 1e-300, 0.0})
+        EXPECT_EQ(budget_after(seconds), 32768.0);
 }
 
-TEST(Schedule, ShrinksToAWorkgroupAtMost) {
+TEST(Schedule, ShrinksToATileAtMost) {
     EXPECT_EQ(budget_after(1e9), 64.0);
     EXPECT_EQ(budget_after(std::numeric_limits<double>::infinity()), 64.0);
+    EXPECT_EQ(pt::Schedule({0.05, 0.25, 1}).budget(), 64.0);
 }
 
 TEST(Schedule, PassesOverImpossibleTimes) {
@@ -283,24 +238,20 @@ TEST(Schedule, PassesOverImpossibleTimes) {
     EXPECT_EQ(budget_after(std::numeric_limits<double>::quiet_NaN()), 16384.0);
 }
 
-// A slice of one workgroup is all overhead; it must not be taken for the speed of the device, which would be 78 times
-// lower.
+// A slice of one tile is all overhead; it must not be taken for the speed of the device, which would be 78 times lower.
 TEST(Schedule, SmallSlicesChangeLittle) {
     pt::ScheduleLimits limits = usual_limits();
-    limits.max_samples = 1U << 30;
     limits.first_slice_paths = 5e6;
-    pt::Schedule schedule(64, limits);
-    schedule.measured({0, 64, 1, true}, overhead);
-    EXPECT_NEAR(paths_of(schedule.next(UINT32_MAX, 0)), 5e6, 0.01 * 5e6);
+    pt::Schedule schedule(limits);
+    schedule.measured(paths_of_tile, overhead);
+    EXPECT_NEAR(schedule.budget(), 5e6, 0.01 * 5e6);
 }
 
 TEST(Schedule, WhatWasExpectedTeachesNothing) {
-    pt::ScheduleLimits limits = usual_limits();
-    limits.max_samples = 1U << 30;
-    pt::Schedule schedule(64, limits);
-    EXPECT_EQ(schedule.expected_seconds({0, 64, 128, true}), 0.025) << "half of the budget";
-    for (const std::uint32_t samples : {1U, 128U, 256U})
-        schedule.measured({0, 64, samples, true}, schedule.expected_seconds({0, 64, samples, true}));
+    pt::Schedule schedule(usual_limits());
+    EXPECT_EQ(schedule.expected_seconds(64 * 128), 0.025) << "half of the budget";
+    for (const double samples : {1.0, 128.0, 256.0})
+        schedule.measured(64 * samples, schedule.expected_seconds(64 * samples));
     EXPECT_EQ(schedule.budget(), 16384.0);
 }
 
@@ -308,37 +259,26 @@ TEST(Schedule, WhatWasExpectedTeachesNothing) {
 TEST(ScheduleJudge, SeesFaults) {
     pt::ScheduleLimits limits = usual_limits();
     limits.max_samples = 4;
-    const auto judged = [&](std::vector<pt::Slice> slices) {
-        std::vector<Step> steps;
-        for (const pt::Slice &slice : slices)
-            steps.push_back({slice, 0.05});
-        return fault(steps, 1000, 4, limits);
-    };
-    EXPECT_EQ(judged({{0, 1000, 4, true}}), "nothing");
-    EXPECT_EQ(judged({{0, 640, 1, false}, {640, 360, 1, false}, {0, 1000, 3, true}}), "nothing");
-    EXPECT_EQ(judged({{0, 1000, 3, true}}), "samples left out or done twice");
-    EXPECT_EQ(judged({{0, 1000, 4, true}, {0, 1000, 1, true}}), "samples left out or done twice");
-    EXPECT_EQ(judged({{0, 1000, 3, true}, {0, 640, 1, false}}), "a pass is not complete");
-    EXPECT_EQ(judged({{0, 640, 1, false}, {704, 296, 1, false}}), "pixels left out or done twice in slice 1");
-    EXPECT_EQ(judged({{0, 640, 1, false}, {576, 424, 1, false}}), "pixels left out or done twice in slice 1");
-    EXPECT_EQ(judged({{0, 640, 1, false}, {640, 361, 1, false}}), "pixels left out or done twice in slice 1");
-    EXPECT_EQ(judged({{0, 640, 1, false}, {640, 360, 2, false}}), "a split pass of several samples in slice 1");
-    EXPECT_EQ(judged({{0, 641, 1, false}, {641, 359, 1, false}}), "a ragged range in slice 0");
-    EXPECT_EQ(judged({{0, 640, 4, true}}), "a whole slice without all pixels in slice 0");
-    EXPECT_EQ(judged({{0, 1000, 5, true}}), "too many samples in slice 0");
-    EXPECT_EQ(judged({{0, 1000, 0, true}}), "no work in slice 0");
-    limits.first_slice_paths = 999.0;
-    EXPECT_EQ(judged({{0, 1000, 4, true}}), "growth beyond twofold in slice 0");
-    limits.first_slice_paths = 1000.0;
-    EXPECT_EQ(judged({{0, 1000, 1, true}, {0, 1000, 3, true}}), "growth beyond twofold in slice 1");
+    const auto judged = [&](std::vector<Step> steps) { return fault(steps, 16, 4, limits); };
+    EXPECT_EQ(judged({{0, 16, {0, 4}, 0}}), "nothing");
+    EXPECT_EQ(judged({{0, 10, {0, 1}, 0}, {10, 6, {0, 1}, 0}, {0, 16, {1, 4}, 0}}), "nothing");
+    EXPECT_EQ(judged({{0, 16, {0, 3}, 0}}), "samples left out or done twice");
+    EXPECT_EQ(judged({{0, 16, {0, 3}, 0}, {0, 16, {2, 4}, 0}}), "samples left out or done twice in slice 1");
+    EXPECT_EQ(judged({{0, 16, {0, 3}, 0}, {0, 10, {3, 4}, 0}}), "some tiles lack a sample");
+    EXPECT_EQ(judged({{0, 10, {0, 1}, 0}, {11, 5, {0, 1}, 0}}), "tiles left out or done twice in slice 1");
+    EXPECT_EQ(judged({{0, 10, {0, 1}, 0}, {10, 7, {0, 1}, 0}}), "tiles left out or done twice in slice 1");
+    EXPECT_EQ(judged({{0, 10, {0, 2}, 0}}), "several samples of some tiles in slice 0");
+    EXPECT_EQ(judged({{0, 16, {0, 5}, 0}}), "too many samples in slice 0");
+    EXPECT_EQ(judged({{0, 16, {0, 0}, 0}}), "no work in slice 0");
+    limits.first_slice_paths = 1024.0;
+    EXPECT_EQ(judged({{0, 16, {0, 4}, 0}}), "growth beyond twofold in slice 0");
+    EXPECT_EQ(judged({{0, 16, {0, 1}, 0}, {0, 16, {1, 4}, 0}}), "growth beyond twofold in slice 1");
 }
 
 // A schedule that never learns misses the target.
 TEST(ScheduleJudge, SeesSlicesOffTarget) {
-    const std::vector<Step> late(100, Step{{0, 1000, 1, true}, 0.11});
-    EXPECT_EQ(share_on_target(late, usual_limits()), 0.0);
-    const std::vector<Step> early(100, Step{{0, 1000, 1, true}, 0.02});
-    EXPECT_EQ(share_on_target(early, usual_limits()), 0.0);
+    for (const double seconds : {0.11, 0.02})
+        EXPECT_EQ(share_on_target(std::vector<Step>(100, Step{0, 16, {0, 1}, seconds}), usual_limits()), 0.0);
 }
 
 } // namespace

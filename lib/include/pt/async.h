@@ -22,7 +22,7 @@
  *   else, other calls on the context are refused (PT_ERROR_INVALID_STATE) and change nothing, but for pt_cancel,
  *   pt_get_context_device, pt_last_error and pt_get_broken_rule, and pt_destroy, which waits for the submissions under
  *   way. To change the scene or the camera at any time: pt_cancel, then pt_poll to the end, which is as far as the
- *   submissions under way.
+ *   submissions under way and, where one sample of all pixels takes several, those that complete it.
  * - Ownership: pt_start copies what it is given, and nothing has to stay, but for what has to for the life of the
  *   context. A device that was lent (pt/vulkan.h) must not be destroyed, as ever.
  * - Callbacks: info.progress must be NULL, since pt_poll says how far the samples are. The log, the functions that keep

@@ -276,13 +276,13 @@ typedef struct pt_accumulate_info {
     uint32_t sample_count;
     /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
      *
-     * The share does not grow with submissions that take no sample: those that empty the image's memory before the
-     * first sample, and those that add to the image a sample which took several submissions. Before its first call the
-     * driver builds a kernel, which cannot be interrupted. Mesa's lavapipe takes a tenth of a second for that, and two
-     * or three more in the first submission that takes samples unless its cache has the kernel (pt_prepare does both).
+     * The share does not grow with submissions that take no sample: with several devices, those that make room for the
+     * samples of another. Before its first call the driver builds a kernel, which cannot be interrupted. Mesa's
+     * lavapipe takes a tenth of a second for that, and two or three more in the first submission that takes samples
+     * unless its cache has the kernel (pt_prepare does both).
      *
      * If it asks to stop, the call ends with the submissions that are under way then: two to each device at the most,
-     * and with several devices those that complete the samples begun. */
+     * and where one sample of all pixels takes several, those that complete it. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
@@ -296,8 +296,7 @@ typedef struct pt_accumulate_info {
     /** NULL: all pixels alike, or as the target error decides. Else how many samples each tile takes, from none to
      * sample_count, and there is no target error: for pt_render.first_sample and the next that the tile has not. Tiles
      * are squares of 8 x 8 pixels from the top left of what is rendered on, smaller at its edges, row by row. So
-     * machines share what a film is to take next (pt_plan_film). PT_ERROR_UNSUPPORTED: a device that holds films in
-     * parts which cut tiles. Read by the call alone. */
+     * machines share what a film is to take next (pt_plan_film). Read by the call alone. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< elements of tile_samples: all tiles of what is rendered, or 0 */
     uint32_t reserved2;  /**< 0 */

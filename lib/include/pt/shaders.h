@@ -2,7 +2,7 @@
  * pt: kernels compiled while a program runs, for those who change them.
  *
  * pt_create_info.shader_dir is a folder of GLSL files like the library's own shaders/, which are compiled by pt_create,
- * and again by pt_reload_shaders: pathtrace.comp, commit.comp, fold.comp, add.comp, resolve.comp, estimate.comp,
+ * and again by pt_reload_shaders: pathtrace.comp, fold.comp, add.comp, resolve.comp, estimate.comp,
  * accuracy.comp, first_hit.comp, coverage.comp and what they include, beside the including file or in this folder. A
  * relative path is relative to the working directory at that time. gpu_layout.h is an agreement with the library's host
  * code: what it says of memory must stay, and a binding that a kernel's layout lacks is refused (PT_ERROR_SHADER). The

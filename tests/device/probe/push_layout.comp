@@ -15,7 +15,7 @@ void main()
     values[0] = vec4(frame.camera_right, frame.film_scale);
     values[1] = vec4(frame.camera_up, frame.width);
     values[2] = vec4(frame.camera_forward, frame.height);
-    values[3] = vec4(frame.seed, frame.strip_first_pixel, frame.strip_pixel_count);
-    values[4] = vec4(frame.first_pixel, frame.pixel_count, frame.film_part, frame.is_first);
-    values[5] = vec4(frame.first_sample, frame.sample_count, frame.split_pass, frame.start_scale);
+    values[3] = vec4(frame.seed, frame.film_first_pixel, frame.strip_first_pixel);
+    values[4] = vec4(frame.strip_pixel_count, frame.first_entry, frame.film_part, frame.is_first);
+    values[5] = vec4(frame.first_sample, frame.sample_count, frame.share, frame.start_scale);
 }

@@ -1,0 +1,33 @@
+// The tiles that dispatches have, as their kernels read them: the first pixel of each, in the film. Owned by Kernel.
+#pragma once
+
+#include "lib/film/tile_grid.h"
+#include "lib/vulkan/buffer.h"
+#include "lib/vulkan/device.h"
+
+#include <cstdint>
+#include <span>
+
+namespace pt {
+
+class TileLists {
+public:
+    // The device must outlive it.
+    TileLists(vulkan::Device &device, const TileGrid &grid);
+
+    const vulkan::Buffer &buffer() const { return entries_; }
+
+    // The number of the first entry of these tiles, which ascend. It holds as long as no more slices begin than the
+    // device's queue_depth.
+    std::uint32_t first_entry(std::span<const std::uint32_t> tiles);
+
+private:
+    std::span<std::uint32_t> list(std::uint32_t number);
+
+    std::uint32_t tile_count_;
+    std::uint32_t slice_lists_;
+    std::uint32_t next_list_ = 0; // of those for slices
+    vulkan::Buffer entries_;      // a list of all tiles, then those for slices of other tiles than consecutive ones
+};
+
+} // namespace pt
