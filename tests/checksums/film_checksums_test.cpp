@@ -77,7 +77,7 @@ protected:
         render.struct_size = sizeof render;
         render.width = width;
         render.height = height;
-        render.max_path_length = std::min(file.max_path_length.value_or(3), 4U);
+        render.max_path_length = std::min(file.render.max_path_length, 4U);
         render.sampler = sampler;
         EXPECT_EQ(pt_set_scene(on, &scene), PT_OK) << pt_last_error(on);
         EXPECT_EQ(pt_set_camera(on, &file.camera), PT_OK) << pt_last_error(on);
