@@ -52,8 +52,8 @@ SourceFiles read_shader_files(const std::filesystem::path &shader_dir, FileCache
     SourceFiles files;
     std::vector<std::filesystem::path> to_read;
     if (!shader_dir.empty()) {
-        for (const char *kernel : {"pathtrace.comp", "fold.comp", "add.comp", "resolve.comp",
-                                   "estimate.comp", "accuracy.comp", "first_hit.comp", "coverage.comp"}) {
+        for (const char *kernel : {"pathtrace.comp", "fold.comp", "add.comp", "resolve.comp", "estimate.comp",
+                                   "accuracy.comp", "first_hit.comp", "coverage.comp"}) {
             to_read.push_back(shader_dir / kernel);
         }
     }

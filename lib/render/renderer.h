@@ -184,15 +184,15 @@ private:
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;
     std::optional<Camera> camera_;
-    std::optional<RenderSettings> settings_;        // the devices have films if it is there
-    std::shared_ptr<const GpuScene> gpu_scene_;     // of the three above; NULL where one has changed
-    TileSamples samples_;                           // whole ones
-    std::vector<std::uint32_t> all_tiles_;          // of them
-    AdaptiveRound round_;                           // that they have come to
-    std::optional<ErrorEstimate> error_;            // of them, once it has been asked for
-    std::optional<std::uint64_t> rejected_samples_; // likewise
-    std::vector<double> tile_squares_;              // likewise, if a kernel finds them
-    std::vector<std::byte> mapped_image_;           // as far as the host makes images that are mapped
+    std::optional<RenderSettings> settings_;            // the devices have films if it is there
+    std::shared_ptr<const GpuScene> gpu_scene_;         // of the three above; NULL where one has changed
+    TileSamples samples_;                               // whole ones
+    std::vector<std::uint32_t> all_tiles_;              // of them
+    AdaptiveRound round_;                               // that they have come to
+    std::optional<ErrorEstimate> error_;                // of them, once it has been asked for
+    std::optional<std::uint64_t> rejected_samples_;     // likewise
+    std::vector<double> tile_squares_;                  // likewise, if a kernel finds them
+    std::vector<std::byte> mapped_image_;               // as far as the host makes images that are mapped
     std::optional<std::vector<LampPiece>> small_lamps_; // of the scene, camera and settings, once they are asked for
     DeviceWork work_;
     Cancellation cancellation_; // of what job_ is, or is about to be
