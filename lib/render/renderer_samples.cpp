@@ -87,6 +87,7 @@ void Renderer::make_job(const SamplesWanted &wanted, const Progress &progress, b
     if (!is_together && !is_adaptive(wanted))
         for (const std::uint32_t tile : all_tiles_)
             goals.push_back(samples_.of(tile).count() + (wanted.by_tile.empty() ? wanted.count : wanted.by_tile[tile]));
+    // NOLINTNEXTLINE(modernize-make-unique): an aggregate, which cannot be moved
     job_.reset(new Job{wanted,
                        most,
                        together_to,

@@ -28,6 +28,12 @@ struct Disc {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+double ahead(double way) {
+    if (way > 0.0)
+        return way;
+    return never;
+}
+
 // How far from the origin a ray along a unit vector enters a ball, or leaves it if it begins inside; infinity if it
 // does not meet it.
 double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
@@ -37,13 +43,12 @@ double way_to(const MovingBall &ball, const glm::dvec3 &direction) {
         return never;
     const double half_chord = std::sqrt((ball.radius - beside) * (ball.radius + beside));
     const double way = glm::length(ball.open) > ball.radius ? along - half_chord : along + half_chord;
-    return way > 0.0 ? way : never;
+    return ahead(way);
 }
 
 double way_to(const Plane &plane, const Camera &camera, const glm::dvec3 &direction) {
     const double height = glm::dot(plane.normal, camera.position) + plane.offset;
-    const double way = -height / glm::dot(plane.normal, direction);
-    return way > 0.0 ? way : never;
+    return ahead(-height / glm::dot(plane.normal, direction));
 }
 
 // To the first surface that the camera sees. start: the camera, or of parallel rays where one begins.
@@ -81,12 +86,13 @@ void add_pieces(std::vector<LampPiece> &pieces, const Disc &disc, std::uint32_t 
         const double across = (2.0 * i + 1.0) / lines - 1.0;
         const double half = disc.radius * std::sqrt((1.0 - across) * (1.0 + across));
         const double row = std::floor(disc.y + disc.radius * across);
-        for (double column = std::floor(disc.x - half); column < disc.x + half; ++column) {
-            if (row < 0.0 || row >= row_count || column < 0.0 || column >= width)
-                continue;
-            const double length = std::min(disc.x + half, column + 1.0) - std::max(disc.x - half, column);
-            const auto x = static_cast<std::uint32_t>(column);
-            const auto y = static_cast<std::uint32_t>(row);
+        if (row < 0.0 || row >= row_count)
+            continue;
+        const auto y = static_cast<std::uint32_t>(row);
+        const auto begin = static_cast<std::uint32_t>(std::clamp(std::floor(disc.x - half), 0.0, 1.0 * width));
+        const auto end = static_cast<std::uint32_t>(std::clamp(std::ceil(disc.x + half), 0.0, 1.0 * width));
+        for (std::uint32_t x = begin; x < end; ++x) {
+            const double length = std::min(disc.x + half, x + 1.0) - std::max(disc.x - half, 1.0 * x);
             const auto is_there = [x, y](const LampPiece &piece) { return piece.x == x && piece.y == y; };
             auto piece = std::find_if(pieces.begin() + static_cast<std::ptrdiff_t>(first), pieces.end(), is_there);
             if (piece == pieces.end())
