@@ -19,9 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of the normal distribution: 95% lie within.
 constexpr double normal_95 = 1.96;
 
-// How far the bounds are from an estimate that is uncertain, beyond what the spread over tiles says: calibrated.
-constexpr double uncertain_factor = 2.0;
-
 // An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(8)) = 18% or more as a rule.
 constexpr double few_pixels = 8.0;
 

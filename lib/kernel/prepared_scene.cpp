@@ -41,10 +41,14 @@ bool does_move(const Sphere &sphere) {
     return sphere.motion != glm::dvec3(0.0);
 }
 
+void add_lamps(std::vector<Sphere> &spheres, const SphereTree &tree) {
+    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
+        spheres.push_back(tree.lamp(lamp));
+}
+
 // With the lamps of a tree behind the scene's own spheres.
 Scene with_lamps(Scene scene, const SphereTree &tree) {
-    for (std::uint32_t lamp = 0; lamp < tree.lamp_materials().size(); ++lamp)
-        scene.spheres.push_back(tree.lamp(lamp));
+    add_lamps(scene.spheres, tree);
     return scene;
 }
 
@@ -169,8 +173,8 @@ std::vector<Sphere> PreparedScene::lamps() const {
     std::vector<Sphere> lamps;
     const auto is_lamp = [this](const Sphere &sphere) { return emits(scene.materials[sphere.material]); };
     std::ranges::copy_if(scene.spheres, std::back_inserter(lamps), is_lamp);
-    for (std::uint32_t lamp = 0; tree && lamp < tree->lamp_materials().size(); ++lamp)
-        lamps.push_back(tree->lamp(lamp));
+    if (tree)
+        add_lamps(lamps, *tree);
     return lamps;
 }
 

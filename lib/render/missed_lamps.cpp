@@ -36,11 +36,10 @@ bool may_miss_lamps(const PreparedScene &scene, const Camera &camera, const Rend
 
 void take_in_unmet_lamps(ErrorEstimate &error, const UnmetSquares &unmet) {
     const auto exceeds = [](double root, Interval &interval) {
-        constexpr double unmet_factor = 2.0;
         if (root <= interval.estimate)
             return false;
         interval.estimate = root;
-        interval.high = std::max(interval.high, unmet_factor * root);
+        interval.high = std::max(interval.high, uncertain_factor * root);
         return true;
     };
     const bool exceeds_rmse = exceeds(std::sqrt(unmet.square), error.rmse);

@@ -1,5 +1,6 @@
 #include "lib/render/small_lamps.h"
 
+#include "lib/film/error_estimate.h"
 #include "lib/scene/seen_sphere.h"
 
 #include <algorithm>
@@ -11,7 +12,10 @@ namespace pt {
 
 namespace {
 
-constexpr double largest_size = 0.5; // pixels
+// Of the samples of a pixel: a root that rests on 8 is off by a third. Calibrated.
+constexpr double enough_meetings = 8.0;
+
+constexpr double largest_size = enough_meetings / min_estimate_samples; // pixels
 
 // A lamp's disc on the image, in pixels from its top left corner.
 struct Disc {
@@ -127,7 +131,6 @@ std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Cam
 
 UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
-    constexpr double enough_meetings = 8.0; // of which a root is off by a third: calibrated
     UnmetSquares all{0.0, 0.0};
     for (const LampPiece &piece : pieces) {
         const auto count = static_cast<double>(samples(piece));
