@@ -1,5 +1,6 @@
 // How much of all directions the smallest lamp covers, against the area of a cap of the unit sphere.
 #include "lib/scene/lamp_share.h"
+#include "tests/support/right_angle_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -9,13 +10,7 @@
 
 namespace {
 
-constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
-                            .right = {1, 0, 0},
-                            .up = {0, 1, 0},
-                            .forward = {0, 0, -1},
-                            .tan_half_fov = 1.0,
-                            .shutter_open = 0.0,
-                            .shutter_close = 0.0};
+constexpr const pt::Camera &camera = right_angle_camera;
 constexpr std::uint32_t dark = 0;
 constexpr std::uint32_t lamp = 1;
 

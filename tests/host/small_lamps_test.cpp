@@ -1,6 +1,7 @@
 // How small lamps are spread over pixels, and what they add to an error that no sample shows.
 #include "lib/render/small_lamps.h"
 #include "lib/scene/checked_scene.h"
+#include "tests/support/right_angle_camera.h"
 #include "tests/support/scene_of.h"
 
 #include <gtest/gtest.h>
@@ -20,13 +21,7 @@ constexpr std::uint32_t lamp = 1;
 constexpr std::uint32_t hidden = 2;
 
 // With a view of 90 degrees and 200 rows a pixel at the depth 100 is as wide as 1.
-constexpr pt::Camera camera{.position = {1.0, 2.0, 3.0},
-                            .right = {1, 0, 0},
-                            .up = {0, 1, 0},
-                            .forward = {0, 0, -1},
-                            .tan_half_fov = 1.0,
-                            .shutter_open = 0.0,
-                            .shutter_close = 0.0};
+constexpr const pt::Camera &camera = right_angle_camera;
 
 pt::Camera parallel_camera() {
     pt::Camera parallel = camera;
