@@ -49,9 +49,6 @@ public:
     // The first samples from an index on that are not in the set, up to the next that is; empty if all are.
     SampleRange next_missing(std::uint64_t from) const;
 
-    // Makes room, so that the next add() of a range takes no memory and cannot fail.
-    void prepare_add() { ranges_.reserve(ranges_.size() + 1); }
-
     // What is added must not overlap, what is removed must be there.
     void add(const SampleRange &range);
     void add(const SampleSet &other);
