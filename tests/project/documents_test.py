@@ -1,5 +1,5 @@
-"""Tests of what the project's pages say of itself: links lead somewhere, and the library's page names every function.
-Arguments: the project's folder."""
+"""Tests of what the project's pages say of itself: links lead somewhere, names and numbers are those of the code, and the
+library's page names every function. Arguments: the project's folder."""
 
 import pathlib
 import re
@@ -9,6 +9,27 @@ import unittest
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
 PAGES += [*(ROOT / "tests").glob("*/*.md"), *(ROOT / "lib").glob("*/*.md")]
+CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # which tell of the past, too
+CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
+
+# What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
+NUMBERS = (
+    (r"[Ff]rom (\d+) spheres\s+on", "lib/vulkan/device.h", r"tree_from = (\d+);"),
+    (r"scenes of (\d+) spheres or more", "lib/kernel/scene_features.cpp", r"least_many_spheres = (\d+);"),
+    (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/outlying.cpp",
+     r"most_outlying = (\d+);[^@]*much_farther = (\d+)\.0;"),
+    (r"[Ff]rom (\d+) lamps\s+on", "lib/kernel/lamp_tree_words.h", r"least_tree_lamps = (\d+);"),
+    (r"at most (\d+), `EVERY_LAMP_LIMIT`", "shaders/gpu_layout.h", r"EVERY_LAMP_LIMIT = (\d+);"),
+    (r"K\\ge(\d+)\$ \(`ROULETTE_MIN_LENGTH`", "shaders/gpu_layout.h", r"ROULETTE_MIN_LENGTH = (\d+);"),
+    (r"gathers up to (\d+) samples", "shaders/gpu_layout.h", r"FILM_MAX_GATHERED = (\d+);"),
+    (r"with (\d+) bits of fraction", "shaders/gpu_layout.h", r"FILM_FRACTION_BITS = (\d+);"),
+    (r"sequences have (\d+) dimensions", "lib/kernel/point_sequence.h", r"sequence_dimensions = (\d+);"),
+    (r"\\max\(q, ([\d.]+)\)", "shaders/phong.glsl", r"LAST_SPECULAR_PROBABILITY = ([\d.]+);"),
+    (r"fewer than (\d+) pixels", "lib/film/error_estimate.cpp", r"few_pixels = (\d+)\.0;"),
+    (r"from (\d+) samples on", "lib/film/error_estimate.h", r"min_estimate_samples = (\d+);"),
+    (r"up to 2\^(\d+) spheres", "lib/scene/sphere_array_rules.h", r"max_sphere_count = std::uint64_t\{1\} << (\d+);"),
+    (r"`libpt\.so\.(\d+)\.(\d+)`", "CMakeLists.txt", r"VERSION (\d+)\.(\d+)\.\d+"),
+)
 
 
 def anchors(text):
@@ -30,6 +51,25 @@ def broken_links(page, text):
     return broken
 
 
+def code_files():
+    return [path for folder in ("cli", "cmake", "lib", "shaders", "tests") for path in (ROOT / folder).rglob("*")
+            if CODE.search(path.name)]
+
+
+def names_of_code(text):
+    """Of a page's text: identifiers with an underscore that stand alone as code, and names of source files."""
+    spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
+    others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
+    identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
+    return identifiers, {span for span in others if re.search(r"\w\.(h|cpp|glsl|comp)$", span)}
+
+
+def missing_files(page, names, files):
+    """Those that are at no place from which pages name files."""
+    folders = [ROOT, page.parent, ROOT / "lib/include", ROOT / "lib/include/pt"]
+    return [name for name in names if name not in files and not any((folder / name).exists() for folder in folders)]
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertIn(ROOT / "README.md", PAGES)
@@ -40,6 +80,27 @@ class Documents(unittest.TestCase):
         page = ROOT / "README.md"
         text = "[a](LICENSE) [b](no-such-file) [c](#two-commands) [d](#no-such-heading) [e](cli/README.md#no-such-heading)"
         self.assertEqual(broken_links(page, text), ["no-such-file", "#no-such-heading", "cli/README.md#no-such-heading"])
+
+    def test_names_are_those_of_the_code(self):
+        paths = code_files()
+        words = set().union(*(re.findall(r"\w+", path.read_text(encoding="utf-8")) for path in paths))
+        files = {path.name for path in paths}
+        for page in CURRENT:
+            identifiers, names = names_of_code(page.read_text(encoding="utf-8"))
+            foreign = {word for word in identifiers if word.startswith("dask_")}
+            self.assertEqual(sorted(identifiers - foreign - words), [], page)
+            self.assertEqual(missing_files(page, names, files), [], page)
+        self.assertEqual(names_of_code("`a_b.cd`, `e_f()`, `x/g_h.cpp`, `plain`"), ({"a_b", "e_f"}, {"x/g_h.cpp"}))
+        self.assertEqual(missing_files(ROOT / "README.md", ["lib/no.cpp", "pt/pt.h"], files), ["lib/no.cpp"])
+
+    def test_numbers_are_those_of_the_code(self):
+        text = "\n".join(page.read_text(encoding="utf-8") for page in CURRENT)
+        for told, path, held in NUMBERS:
+            numbers = {match.groups() for match in re.finditer(told, text)}
+            self.assertEqual(numbers, {re.search(held, (ROOT / path).read_text(encoding="utf-8")).groups()}, told)
+        layout = (ROOT / "shaders/gpu_layout.h").read_text(encoding="utf-8")
+        parts, words = (int(re.search(rf"FILM_{name} = (\d+);", layout)[1]) for name in ("PARTS", "WORDS"))
+        self.assertEqual(set(re.findall(r"(\d+) bytes a pixel", text)), {str(4 * parts * words)})
 
     def test_every_function_is_named(self):
         headers = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "lib/include/pt").glob("*.h"))
