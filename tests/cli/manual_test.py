@@ -173,7 +173,7 @@ class RealDevice(CommandLineTest):
     def test_ranges_of_keys(self):
         found = 0
         for section in SECTIONS:
-            limits = {names_in(row[0])[0]: (0.0, 1e18) if "colour" in row[2] else range_of(row[2])
+            limits = {names_in(row[0])[0]: (0.0, 1e18) if "color" in row[2] else range_of(row[2])
                       for row in section_rows(section)}
             limits = {key: ends for key, ends in limits.items() if ends}
             found += len(limits)

@@ -26,7 +26,7 @@ NUMBERS = (
     (r"sequences have (\d+) dimensions", "lib/kernel/point_sequence.h", r"sequence_dimensions = (\d+);"),
     (r"\\max\(q, ([\d.]+)\)", "shaders/phong.glsl", r"LAST_SPECULAR_PROBABILITY = ([\d.]+);"),
     (r"fewer than (\d+) pixels", "lib/film/error_estimate.cpp", r"few_pixels = (\d+)\.0;"),
-    (r"from (\d+) samples on", "lib/film/error_estimate.h", r"min_estimate_samples = (\d+);"),
+    (r"[Ff]rom (\d+) samples on", "lib/film/error_estimate.h", r"min_estimate_samples = (\d+);"),
     (r"up to 2\^(\d+) spheres", "lib/scene/sphere_array_rules.h", r"max_sphere_count = std::uint64_t\{1\} << (\d+);"),
     (r"`libpt\.so\.(\d+)\.(\d+)`", "CMakeLists.txt", r"VERSION (\d+)\.(\d+)\.\d+"),
 )

@@ -485,9 +485,9 @@ PT_API pt_result pt_set_camera(pt_context *context, const pt_camera *camera);
 
 /** Takes over the size of the image and how it is made, and discards the samples accumulated so far.
  *
- * The device's memory for the image is allocated here: 112 bytes a pixel. Where one sample of all pixels takes more
- * time than a submission should, pt_accumulate allocates another 16. One thread at a time per context.
- * PT_ERROR_INVALID_ARGUMENT: a rule is broken. PT_ERROR_UNSUPPORTED: the device has no buffers of that size.
+ * The device's memory for the image is allocated here: 112 bytes a pixel. One thread at a time per context.
+ * PT_ERROR_INVALID_ARGUMENT: a rule is broken.
+ * PT_ERROR_UNSUPPORTED: the device has no buffers of that size.
  * PT_ERROR_OUT_OF_DEVICE_MEMORY: it has too little memory left. In both cases, render fewer rows at a time.
  * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
