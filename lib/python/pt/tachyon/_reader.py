@@ -47,7 +47,19 @@ class TachyonScene:
 
 
 def read(path: str | os.PathLike[str], *, leave_out_others: bool = False) -> TachyonScene:
-    """Reads a scene file of Tachyon. Lengths are as they stand, colors are linear, and z has the other sign.
+    """Reads a scene file of Tachyon. Lengths stay as they are; the rest becomes:
+
+    colors                     linear, as they stand; `pt render --gamma 1` shows them so, as Tachyon does
+    axes, left-handed          z has the other sign
+    ZOOM                       half of the height is seen at the tangent 0.5 / ZOOM; with ORTHOGRAPHIC the vertical_extent
+                               is 1 / ZOOM
+    DIFFUSE, SPECULAR > 0      diffuse, and a mirror: specular with the glossiness 1e6
+    PHONG p, PHONG_SIZE n,     glossiness n, specular 2 p / (n + 2), so that the highlight is as bright
+      without SPECULAR
+    BACKGROUND                 a ball around all that shines in this color, and so lights the scene too; none if black
+    a light, which has no      a lamp that lights what the camera looks at as the light would; with a radius RAD it is in
+      size                     view, without one hidden from the camera, with a 50th of its distance as its radius.
+                               Nearer surfaces get more from it and farther ones less, which Tachyon's lights do not know
 
     leave_out_others   leaves out what is neither sphere, plane, light nor camera, and counts it in the notes, in place of
                        refusing it
