@@ -27,7 +27,7 @@ vec3 camera_direction(FrameConstants frame, vec2 from_middle)
 }
 
 // Where the ray through that place starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the
-// origin across the view. Before that plane nothing is in view, or what parallel rays do not see
+// origin across the view. Before that plane there is nothing in view, or only what parallel rays do not see
 // (lib/kernel/ray_start.h).
 vec3 camera_origin(FrameConstants frame, vec2 from_middle)
 {

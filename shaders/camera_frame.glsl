@@ -1,4 +1,4 @@
-// Of FrameConstants what the camera is, for kernels whose push constants are others. Uses their block, called view.
+// The camera's part of FrameConstants, for kernels with other push constants. Uses their block, called view.
 #ifndef CAMERA_FRAME_GLSL
 #define CAMERA_FRAME_GLSL
 

@@ -18,13 +18,13 @@ vec2 every_lamp_numbers(SampleKey key, uint lamp)
     return sample_block(key, 1u + lamp).xy;
 }
 
-// Of the way by a spot: place about it (x, y) and which spot (z).
+// For the way by a spot: place about it (x, y) and which spot (z).
 vec3 spot_numbers(SampleKey key)
 {
     return sample_block(key, every_lamp_blocks(LAMP_COUNT)).xyz;
 }
 
-// Where the blocks of what follows at the spot begin: those of a later vertex.
+// Where the blocks of the vertex at the spot begin, which are like a later vertex's.
 uint blocks_at_spot()
 {
     return every_lamp_blocks(LAMP_COUNT) + 1u;
@@ -41,8 +41,8 @@ uint later_vertex_blocks(uint vertex)
     return first_vertex_blocks() + vertex_blocks(1u, LAMP_COUNT) + (vertex - 2u) * vertex_blocks(2u, LAMP_COUNT);
 }
 
-// From the blocks of a vertex, the first of which is begin: place on the chosen lamp, and which lamp, by all 32 bits of
-// a number.
+// From the blocks of a vertex, which start at begin: place on the chosen lamp, and which lamp, by all 32 bits of a
+// number.
 struct ChosenLampNumbers {
     vec2 place;
     uint which;
@@ -61,7 +61,7 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 
-// With ONE_LAST_DIRECTION that direction likewise (x, y, z), and which branch takes it (w).
+// With ONE_LAST_DIRECTION: the shared direction likewise (x, y, z), and which branch takes it (w).
 vec4 last_direction_numbers(SampleKey key)
 {
     return direction_numbers(key, blocks_of_sample() - 1u, 1u);

@@ -1,4 +1,4 @@
-// What rays meet first, and what blocks them: walks over the surfaces of a scene, but for the spheres of a tree.
+// What rays meet first, and what blocks them: walks over all surfaces of a scene that are not in a tree.
 #ifndef INTERSECT_GLSL
 #define INTERSECT_GLSL
 
@@ -21,12 +21,12 @@ void see_plane(inout Hit hit, vec3 origin, vec3 direction, uint plane, float tim
     keep_closer(hit, plane_distance(level_at(plane, origin, time), direction, false, false, height), plane);
 }
 
-// Spheres that are hidden from the camera: of those that emit a range, and the last of all.
+// Spheres that are hidden from the camera: a range of those that emit, and the last ones of all.
 const bool EMITTERS_HIDE = HIDDEN_LAMPS + HIDDEN_SKIES > 0u;
 const uint FIRST_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS - HIDDEN_LAMPS : 0u;
 const uint AFTER_HIDDEN = EMITTERS_HIDE ? WALKED_LAMPS + HIDDEN_SKIES : 0u;
 
-// First surface that a ray from the camera meets, of those that are not hidden from it.
+// The first surface that a ray from the camera meets and that is not hidden from it.
 Hit closest_hit(vec3 origin, vec3 direction, float time)
 {
     Hit hit = Hit(NO_HIT, NO_SURFACE);

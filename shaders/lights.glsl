@@ -19,9 +19,9 @@ struct LampView {
 };
 
 // The lamp's weight, times pi, is an upper bound of the irradiance that it can cause: radiance times (r / d)^2 times
-// min(1, (n . v + r) / d), which is the cosine to its centre raised by the most that its extent can add. A lamp that
-// is partly above the horizon never has weight 0, even if its centre is below. From inside or on the lamp it is not
-// sampled; directions find it instead.
+// min(1, (n . v + r) / d), the cosine to its centre plus the most that its extent can add. So a lamp that is partly
+// above the horizon never has weight 0, even if its centre is below. From inside or on the lamp it is not sampled;
+// directions find it instead.
 LampView view_lamp(Vertex vertex, uint lamp, float time)
 {
     vec4 sphere = sphere_of_lamp(lamp, time);
@@ -37,13 +37,13 @@ LampView view_lamp(Vertex vertex, uint lamp, float time)
     return view;
 }
 
-// Share of the choices made uniformly among the lamps in sight, whatever their weights: where the strongest lamp is
-// hidden, the weights alone would leave the others to chance. It raises the second moment by a ninth at most where
-// nothing is.
+// Share of the choices made uniformly among the lamps in sight, whatever their weights: with weights alone, a strong
+// but hidden lamp would leave the others hardly any samples. Where nothing is hidden it raises the second moment by a
+// ninth at most.
 const float UNIFORM_SHARE = 0.1;
 
-// The lamps as seen from a vertex: found once, asked by choose() and choice_of(). The views of a few are kept, many are
-// looked at again where one is asked for.
+// The lamps as seen from a vertex: made once, used by choose() and choice_of(). The views of a few lamps are kept;
+// those of many are made again when one is needed.
 const bool KEEP_VIEWS = LAMP_COUNT <= EVERY_LAMP_LIMIT;
 
 struct Lamps {
@@ -117,7 +117,7 @@ struct LampChoice {
     float probability;
 };
 
-// Of any lamp, which may differ between invocations.
+// The same for any lamp, which may differ between invocations.
 LampChoice choice_of(Lamps lamps, uint lamp)
 {
     if (HAS_LAMP_TREE) {
@@ -129,8 +129,8 @@ LampChoice choice_of(Lamps lamps, uint lamp)
     return LampChoice(lamp, view, lamp_probability(lamps, view.weight));
 }
 
-// The lamp that a random number, a multiple of 2^-32, chooses by the tree. It may be one that cannot be sampled, by the
-// uniform share: then there is no light.
+// The lamp that a random number, a multiple of 2^-32, chooses by the tree. The uniform share may choose one that cannot
+// be sampled: then there is no light.
 LampChoice choose_by_tree(Lamps lamps, uint number)
 {
     const uint uniform_numbers = 429496729u; // UNIFORM_SHARE 2^32; ten times as many fit into 32 bits
@@ -147,7 +147,7 @@ LampChoice choose_by_tree(Lamps lamps, uint number)
 
 // The lamp that a random number chooses. Its low end chooses uniformly among the lamps in sight, the rest by weight:
 // each part walks over its own numbers in the order in which they were summed, so that no small probability is lost to
-// rounding. Where rounding leaves the walk short, the last lamp in sight stands.
+// rounding. If rounding leaves the walk short, the last lamp in sight is taken.
 LampChoice choose(Lamps lamps, uint number)
 {
     if (HAS_LAMP_TREE)
@@ -187,9 +187,9 @@ struct LampSample {
     float density; // over solid angle, given the lamp; 0: it cannot be sampled from this vertex
 };
 
-// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. That is not found
-// by intersection, which a tiny far lamp would survive only by luck: with h = 1 - cos of the angle from the axis, the
-// near root is d cos - sqrt(r^2 - d^2 sin^2).
+// Direction uniform in the cone that a lamp subtends, and the distance at which it meets the lamp. An intersection
+// would miss a tiny far lamp about as often as not, so the distance comes from the angle: with h = 1 - cos of the angle
+// from the axis, the near root is d cos - sqrt(r^2 - d^2 sin^2).
 LampSample sample_lamp(LampChoice choice, vec2 u)
 {
     LampView view = choice.view;

@@ -15,12 +15,12 @@ const float NUMBER_STEP = 1.0 / 16777216.0;
 const float LARGEST_NUMBER = 1.0 - NUMBER_STEP;
 
 // 1.5 * 2^23: adding it to |x| < 2^22 leaves round(x) in the low bits of the mantissa. Float-to-int conversion would do
-// too, but is many times slower where it is not a machine instruction.
+// too, but is many times slower on machines without an instruction for it.
 const float ROUNDING_BIAS = 12582912.0;
 
-// A number, but at most or at least a limit, one of the two not being negative: of such floats the order is that of the
-// integers which their bits are. For vectors of 512 bits that is one instruction where lavapipe takes five for floats,
-// half by half; an H200 does better with floats.
+// A number, but at most or at least a limit. One of the two must not be negative: then floats have the order of the
+// integers that their bits are. With vectors of 512 bits that takes one instruction, where lavapipe takes five for
+// floats, half by half; an H200 does better with floats.
 float at_most(float number, float limit)
 {
     if (INTEGER_ORDER == 0u)
@@ -35,10 +35,10 @@ float at_least(float number, float limit)
     return intBitsToFloat(max(floatBitsToInt(number), floatBitsToInt(limit)));
 }
 
-// Of R, G and B, none of them negative.
+// The largest of R, G and B, none of them negative.
 float strongest_of(vec3 colour) { return at_least(colour.r, at_least(colour.g, colour.b)); }
 
-// Of two numbers that are not positive the greater: their integers are ordered the other way round.
+// The greater of two numbers that are not positive: their integers have the opposite order.
 float nearer_to_zero(float a, float b)
 {
     if (INTEGER_ORDER == 0u)
@@ -59,8 +59,8 @@ void sin_cos_turn(float u, out float sine, out float cosine)
     sine = (0.5 - u) * m * (16.0 + z * (-59.8273288 + z * (81.7913450 + z * (-58.5570666 + z * 24.7337946))));
 }
 
-// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 as -y times a polynomial of 8e-9 relative error with log2(e) at
-// y = 0: near 0 it keeps full precision. From there on log2 itself, which Vulkan promises to 2^-21.
+// log2(1 - y) for y in [0, 1), within 18 ulp. Below 1/4 it is -y times a polynomial of 8e-9 relative error, log2(e) at
+// y = 0, which keeps full precision near 0; above, log2 itself, which Vulkan promises to 2^-21.
 float log2_one_minus(float y)
 {
     float tail =

@@ -9,7 +9,7 @@
 #include "scene.glsl"
 #include "vertex.glsl"
 
-// Whether directions follow the specular lobe where there is one; else they follow the cosine alone, or nothing.
+// Whether directions follow the specular lobe, if there is one; otherwise they follow the cosine, or are uniform.
 const bool SAMPLE_LOBES = ESTIMATOR != ESTIMATOR_UNIFORM && ESTIMATOR != ESTIMATOR_COSINE;
 
 struct Material {
@@ -27,11 +27,11 @@ Material material_of(uint surface)
     return Material(diffuse.rgb, specular.rgb, specular.a, choose_lobe ? diffuse.a : 0.0);
 }
 
-// The share of the specular lobe in the last direction of a path, where lamps are sampled too: what that direction
-// finds is emission alone, which on the diffuse lobe lamp sampling finds better. (Measured with two vertices, on the
-// coursework scene: 1.6 times less error than with the share of other vertices at 0.9, and 0.96 of that at 0.97; on
-// large-lamp and glossy-ladder 0.96 and 0.98. All of it would be 0.01 better still, but for light that lamp sampling
-// cannot find, as from within a lamp.)
+// The share of the specular lobe in a path's last direction, where lamps are sampled too: that direction finds only
+// emission, which lamp sampling finds better for the diffuse lobe. (Error with two vertices, coursework scene: with
+// 0.9, 1.6 times less than with the share of other vertices; with 0.97, 0.96 of that; large-lamp and glossy-ladder 0.96
+// and 0.98. A share of 1 would be 0.01 better still, but would lose light that lamp sampling cannot find, as from
+// within a lamp.)
 const float LAST_SPECULAR_PROBABILITY = 0.97;
 
 Material at_last_direction(Material material)
@@ -48,7 +48,7 @@ float lobe_power(vec3 r, vec3 wo, float n)
 {
     vec3 chord = wo - r;
     float y = 0.5 * dot(chord, chord);
-    float power = exp2_negative(n * log2_one_minus(y)); // where there is no lobe, any value
+    float power = exp2_negative(n * log2_one_minus(y)); // any value where there is no lobe
     return y < 1.0 ? power : 0.0;
 }
 
@@ -81,8 +81,8 @@ vec2 lobe_cos_sin(float n, float u)
     return narrow_cos_sin(one_minus_exp2(log2_one_minus(u) / (n + 1.0)));
 }
 
-// The direction in which a path goes on. It may lie below the horizon, where its value is 0: the lobe is neither
-// redrawn nor renormalised there, so that its density stays the one that reflection() states.
+// The direction in which a path goes on. It may lie below the horizon, where its value is 0: redrawing or renormalising
+// the lobe there would change its density from the one that reflection() states.
 vec3 sample_direction(Material material, Vertex vertex, vec2 place, float lobe)
 {
     if (ESTIMATOR == ESTIMATOR_UNIFORM)

@@ -8,10 +8,10 @@
 // Finite, as Vulkan does not promise infinities; farther than anything that a scene may hold.
 const float NO_HIT = 3.0e38;
 
-// Surfaces are opaque, so that a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES
-// the side is taken from the camera. Taken from the place of a vertex it would be wrong for surfaces that the vertex
-// nearly touches: rounding may put the vertex behind a surface that stands just behind its own, and the path would end
-// there, or leak out of a room.
+// Surfaces are opaque, so a path stays on the camera's side of each of them, at the path's time. With KNOWN_SIDES the
+// camera tells the side. The place of a vertex would tell it wrongly for surfaces that the vertex nearly touches:
+// rounding may put the vertex behind a surface that stands just behind its own, and the path would end there, or leak
+// out of a room.
 
 // How a ray starts: on which surface, if any, and there on the inside of a sphere or not.
 struct Start {
@@ -26,7 +26,7 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
     float b = dot(to_centre, direction);
     vec3 across = to_centre - b * direction;
     float squared_half_chord = radius * radius - dot(across, across);
-    float nearer = b - sqrt(squared_half_chord); // any value, where there is no root
+    float nearer = b - sqrt(squared_half_chord); // any value if there is no root
     return !leaving && squared_half_chord >= 0.0 && b > 0.0 ? nearer : NO_HIT;
 }
 
@@ -34,12 +34,12 @@ float distance_from_outside(vec3 to_centre, float radius, vec3 direction, bool l
 // starts on it. With b = to_centre . direction and l the part of to_centre across the ray, the roots are b -+
 // sqrt(r^2 - l^2). Taking l by subtraction of vectors, not of squares, keeps small far spheres in place (Haines et
 // al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems 2019, chapter 7). From a point of the
-// sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The side is
-// known: for small far spheres and grazing directions the sign of b would tell it wrongly.
-// Whether there is a hit is told by the side and the direction: from outside, a line that meets the sphere does so
-// ahead if it leads inwards, b > 0; and no direction leads out of a sphere but through its surface. It is not told by
-// the sign of the distance, which rounding may turn, by as little as it rounds, for rays that start near the sphere.
-// If the camera is outside all spheres, no path ever gets inside. outside: of this one, for rays that start elsewhere.
+// sphere itself the roots are 0 and 2 b: from outside the ray never meets it again, from inside at 2 b. The vertex
+// knows its side; for small far spheres and grazing directions the sign of b would tell it wrongly. The side and the
+// direction tell whether there is a hit: from outside, a line that meets the sphere does so ahead if it leads inwards,
+// b > 0; from inside, every direction meets it. The sign of the distance does not tell, because rounding may turn it
+// for rays that start near the sphere. If the camera is outside all spheres, no path ever gets inside. outside: whether
+// a ray that starts elsewhere is outside of this sphere.
 float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving, bool inside, bool outside)
 {
     if (INSIDE == 0)
@@ -56,7 +56,7 @@ float sphere_distance(vec3 to_centre, float radius, vec3 direction, bool leaving
 }
 
 // Whether the sphere blocks a shadow ray that comes from outside all spheres and ends at a distance: whether the nearer
-// root is less, b - sqrt(r^2 - l^2) < distance, told without the root. at_end: the ray starts or ends on it.
+// root b - sqrt(r^2 - l^2) is less than that, without taking the root. at_end: the ray starts or ends on it.
 bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, float distance)
 {
     float b = dot(to_centre, direction);
@@ -69,10 +69,10 @@ bool sphere_blocks(vec3 to_centre, float radius, vec3 direction, bool at_end, fl
 // Distance along the unit vector direction to a plane, or NO_HIT. level: of the plane at the ray's origin; leaving: the
 // ray starts on it. With the height h, the slope s of the height along the ray and the curvature k, the roots of k / 2
 // t^2 + s t + h = 0 are 2 |h| / q and q / k up to their signs, with q = |s| + sqrt(s^2 - 2 k h), in which nothing
-// cancels. The first is ahead if the ray leads towards the surface; it is a plane's only one. The second is the far
-// wall, for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0. Far
-// above the surface s^2 - 2 k h would cancel, where 1 - l^2 does not, with l the part of the gradient across the ray:
-// the squared length of the gradient is 1 + 2 k h. side: the height of the camera, above a plane that is flat. Where it
+// cancels. The first, a plane's only one, is ahead if the ray leads towards the surface. The second is the far wall,
+// for rays that lead away from the surface on the inside, h < 0. From a point of the surface itself h = 0. Far above
+// the surface s^2 - 2 k h would cancel; 1 - l^2, with l the part of the gradient across the ray, does not and is the
+// same, since the squared length of the gradient is 1 + 2 k h. side: the height of the camera above a flat plane. If it
 // tells the side, a ray that leads towards the surface meets it, at a negative distance if rounding has put the ray's
 // origin behind it.
 float plane_distance(Level level, vec3 direction, bool leaving, bool inside, float side)
@@ -100,7 +100,7 @@ float plane_distance(Level level, vec3 direction, bool leaving, bool inside, flo
 }
 
 struct Hit {
-    float distance; // NO_HIT if there is none; less than 0, by rounding, where the ray starts beyond the surface
+    float distance; // NO_HIT if there is none; negative if rounding has put the ray's start beyond the surface
     uint surface;   // NO_SURFACE if there is none
 };
 
@@ -111,7 +111,7 @@ void keep_closer(inout Hit hit, float distance, uint surface)
     hit.surface = closer ? surface : hit.surface;
 }
 
-// A ray towards a lamp: it is blocked by what it meets before the lamp.
+// A ray towards a lamp: anything that it meets before the lamp blocks it.
 struct ShadowRay {
     vec3 direction;
     float distance; // to the lamp; 0 where there is no lamp to look for
@@ -135,7 +135,7 @@ float distance_to_plane(Start start, vec3 direction, uint plane, Level level, fl
     return plane_distance(level, direction, plane == start.surface, start.inside, camera_height(plane, time));
 }
 
-// Whether a surface at a distance along a shadow ray blocks it. Of surfaces at equal distances the first is seen.
+// Whether a surface at a distance along a shadow ray blocks it. At equal distances the first surface is seen.
 bool blocks(ShadowRay shadow, float distance, uint surface)
 {
     bool before = distance < shadow.distance || (CLOSE_LAMPS == 1 && distance == shadow.distance && surface < shadow.lamp);
@@ -159,9 +159,9 @@ void shade_plane(inout bool blocked, Start start, ShadowRay shadow, uint plane, 
     blocked = blocked || blocks(shadow, distance_to_plane(start, shadow.direction, plane, level, time), plane);
 }
 
-// Where a lamp all but coincides with another sphere, a ray towards it ends where the ray itself meets the lamp, as it
-// would meet the other: of two distances by one formula just one is less, whatever their rounding, so that light which
-// both send is counted once. A lamp that the ray misses by rounding is where it was sampled.
+// If a lamp nearly coincides with another sphere, a ray towards it ends where an intersection finds the lamp. Then the
+// distances to both come from one formula, so just one of them is less, however they are rounded, and light that both
+// send is counted once. If the ray misses the lamp by rounding, it ends where the lamp was sampled.
 ShadowRay ended_as_met(ShadowRay shadow, Start start, float time)
 {
     if (CLOSE_LAMPS == 1 && shadow.distance > 0.0 && is_walked_lamp(shadow.lamp)) {

@@ -17,7 +17,7 @@ struct SampleKey {
     uint pixel; // index in the image, row by row
     uint sample_index;
     uint row;    // where block 0 is, or would be, in the point table
-    uvec4 shift; // the pixel's, of which those of its blocks are made
+    uvec4 shift; // the pixel's; the shifts of its blocks are multiples of it
 };
 
 // Blocks that the branches of a sample share.
@@ -50,7 +50,7 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// The key of a pixel, of which those of its samples are made: with an index and a row.
+// The key of a pixel. With an index and a row it becomes the key of a sample.
 SampleKey key_of_pixel(uvec2 seed, uint pixel)
 {
     return SampleKey(seed, pixel, 0u, 0u, pcg4d(uvec4(pixel, 0u, seed)));
@@ -58,9 +58,9 @@ SampleKey key_of_pixel(uvec2 seed, uint pixel)
 
 // Each pixel shifts the points of the table, every block by another number: the pixel's hash times an odd number of the
 // block. The product of a uniform word and an odd one is uniform, and several products of one word are points of a
-// lattice (Korobov 1959), as good as independent in all the digits that tell: with these constants chi-squares of 16^3
-// cells are those of independent words for any three of forty blocks. A hash of pixel and block instead takes three
-// times as many multiplications: an eighth of the time on lavapipe with six vertices.
+// lattice (Korobov 1959), as good as independent in all digits that matter: with these constants chi-squares of 16^3
+// cells are like those of independent words for any three of forty blocks. A hash of pixel and block would take three
+// times as many multiplications, an eighth of the time on lavapipe with six vertices.
 uvec4 shift_of(SampleKey key, uint block)
 {
     uint odd = block * 0x9e3779b9u + 0xc2b2ae35u;
@@ -68,9 +68,9 @@ uvec4 shift_of(SampleKey key, uint block)
     return key.shift * odd;
 }
 
-// A shift does not depend on the sample, but not all compilers take it out of loops over samples: where paths are short,
-// so that all blocks are known when the kernel is compiled, it is kept (0.98 of the time on lavapipe 22.3 with two
-// vertices).
+// A shift does not depend on the sample, but not all compilers take it out of the loop over samples. So it is kept
+// where paths are so short that all blocks are known when the kernel is compiled (0.98 of the time on lavapipe 22.3
+// with two vertices).
 const uint MOST_KEPT = 8u;
 uvec4 kept_shifts[MOST_KEPT];
 
@@ -85,7 +85,7 @@ bool shifts_are_kept()
     return KEEP_SHIFTS == 1u && SAMPLER != SAMPLER_RANDOM && few;
 }
 
-// Before the first sample of a pixel.
+// To be called before the first sample of a pixel.
 void keep_shifts(SampleKey key)
 {
     if (shifts_are_kept())
@@ -94,10 +94,10 @@ void keep_shifts(SampleKey key)
                 kept_shifts[block] = shift_of(key, block);
 }
 
-// The sample's numbers of a block, as multiples of 2^-32. Sobol points are shifted digit by digit in base 2, by exclusive
-// or: the table has them Owen-scrambled (Owen 1995), once for all pixels, and a shift turns one such scrambling into
-// another. So each pixel has a scrambling of its own, and given the table the errors of pixels are independent. Halton
-// points are rotated by addition modulo 1 (Cranley and Patterson 1976).
+// The sample's numbers of a block, as multiples of 2^-32. Sobol points are shifted digit by digit in base 2, by
+// exclusive or: the table has them Owen-scrambled (Owen 1995), once for all pixels, and a shift turns one such
+// scrambling into another. So each pixel has a scrambling of its own, and given the table the errors of pixels are
+// independent. Halton points are rotated by addition modulo 1 (Cranley and Patterson 1976).
 uvec4 sample_words(SampleKey key, uint block)
 {
     bool in_table = SAMPLER != SAMPLER_RANDOM && (all_in_table() || block < TABLE_BLOCKS);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_bins = 16;
 
-// More bins for fewer spheres change nothing but the time.
+// More bins, for fewer spheres, change only the time.
 int bins_for(std::size_t spheres) {
     return spheres > 64 ? most_bins : 8;
 }
@@ -31,7 +31,7 @@ public:
         return std::min(static_cast<int>((item.centre_radius[axis_] - low_) * scale_), count_ - 1);
     }
 
-    // Whether it is in a bin before that one, which is not the first.
+    // Whether it is in a bin before this one, which is not the first.
     bool is_before(const TreeItem &item, int bin) const {
         return (item.centre_radius[axis_] - low_) * scale_ < static_cast<float>(bin);
     }
@@ -89,7 +89,7 @@ BinCut best_cut(const BinContents &contents, const Bins &bins) {
     return best;
 }
 
-// By all, where a sample is in one bin.
+// By all spheres, if those of the sample are in one bin.
 BinCut best_cut(const Part &part, const Bins &bins) {
     BinContents sample;
     for_each_or_sample(part.items, [&](const TreeItem &item) { sample.add(item, bins); });
@@ -104,7 +104,7 @@ BinCut best_cut(const Part &part, const Bins &bins) {
 
 } // namespace
 
-// Without branches, of which every other would be mispredicted.
+// Without branches: every other one would be mispredicted.
 Halves binned_halves(const Part &part) {
     const Bins bins(part);
     const BinCut cut = best_cut(part, bins);

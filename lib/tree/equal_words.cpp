@@ -23,8 +23,8 @@ std::uint64_t hash_of(const glm::uvec4 &word) {
     return mixed(mixed(two(word.x, word.y)) ^ two(word.z, word.w));
 }
 
-// Slots have places of words, with some more bits of the words' hashes, so that other words are hardly ever looked at.
-// At most three quarters of the slots are filled.
+// A slot has the place of a word and some further bits of its hash, so other words are hardly ever looked at. At most
+// three quarters of the slots are filled.
 class Slots {
 public:
     explicit Slots(std::span<const glm::uvec4> words) :
@@ -56,7 +56,7 @@ private:
 
 } // namespace
 
-// Some at a time, so that memory is fetched for one while others are looked at.
+// Several at a time, so that memory is fetched for one while others are compared.
 bool has_equal_words(std::span<const glm::uvec4> words, WorkProgress &progress) {
     Slots slots(words);
     std::array<std::uint64_t, 32> hashes;

@@ -9,14 +9,14 @@ namespace pt {
 
 namespace {
 
-// The smallest power of two of which 'reach' times is a distance or more; float32 must hold it and its inverse.
+// The smallest power of two that, times 'reach', is at least a distance; float32 must hold it and its inverse.
 double step_for(double distance) {
     int exponent = 0; // distance / reach = fraction * 2^exponent with fraction in [1/2, 1)
     std::frexp(distance / Grid::reach, &exponent);
     return std::ldexp(1.0, std::clamp(exponent, -120, 120));
 }
 
-// To a number of this magnitude, whose last bit counts ones, the next whole number is added exactly, ties to even.
+// The last bit of such a large number counts ones, so adding to it rounds to whole numbers, ties to even.
 int nearest(double number) {
     constexpr double ones_are_last = 0x1.8p52;
     return static_cast<int>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number + ones_are_last)));

@@ -1,5 +1,5 @@
-// The integer grid on which a tree holds places: differences of places are exact in it, whatever the camera, so that
-// nothing is made anew when the camera moves.
+// The integer grid on which a tree holds places. Differences of places are exact, so nothing has to be rebuilt when the
+// camera moves.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -11,8 +11,8 @@
 namespace pt {
 
 struct Grid {
-    // Coordinates that boxes have at most, in steps: a camera may be as far away again, and differences are still
-    // 32-bit numbers.
+    // The largest coordinate of a box, in steps. A camera may be twice as far away, and differences still fit into 32
+    // bits.
     static constexpr double reach = gpu::TREE_REACH;
 
     glm::dvec3 middle; // of the grid, in the scene's units
@@ -22,7 +22,7 @@ struct Grid {
     // The finest grid that reaches a distance from its middle, along each axis.
     Grid(const glm::dvec3 &middle_of, double distance);
 
-    // The place next to a point that it reaches.
+    // The place nearest to a point that the grid reaches.
     glm::ivec3 place(const glm::dvec3 &point) const;
 
     // Where a place is.

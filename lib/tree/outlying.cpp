@@ -10,12 +10,12 @@ namespace pt {
 
 namespace {
 
-// Each costs every ray a test. So many take as long as a walk through a tree (DevicePolicy::tree_from), and a picture
-// takes twice as long at most. In the tree they would cost more: there boxes are larger by 2^-19 of what all of it
-// reaches, and rays test all spheres that are nearer to each other than that.
+// Every ray tests each of them. With so many that takes as long as a walk through a tree (DevicePolicy::tree_from), so
+// a picture takes twice as long at most. Inside the tree they would cost more: its boxes grow by 2^-19 of its reach,
+// and rays test all spheres that are closer together than that.
 constexpr std::size_t most_outlying = 50;
 
-// What is less far off stays in the tree and costs its grid up to four of 29 bits, which leaves more than float32 has.
+// Nearer ones stay in the tree and cost its grid up to four of 29 bits, which leaves more than float32 has.
 constexpr double much_farther = 16.0;
 
 // Medians of the coordinates of a thousand spheres or so.
@@ -47,7 +47,7 @@ std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkPro
     const std::size_t few = std::min(most_outlying, spheres.size() / 2);
     const glm::dvec3 middle = middle_of(spheres);
 
-    // The farthest ones and one more, farthest first.
+    // The farthest spheres and one more, farthest first.
     using Reach = std::pair<double, std::uint32_t>;
     std::vector<Reach> farthest;
     spheres.for_each(progress, [&](std::size_t i, const Sphere &sphere, const glm::vec3 &) {

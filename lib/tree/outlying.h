@@ -9,8 +9,8 @@
 
 namespace pt {
 
-// Of the few that reach farthest from the middle of the scene, those that reach 16 times as far as what is not among
-// the few. Indices in ascending order. Each sphere is a unit of work.
+// The few spheres that reach 16 times as far from the middle of the scene as all others. Indices in ascending order.
+// Each sphere is a unit of work.
 std::vector<std::uint32_t> outlying_spheres(const SphereSource &spheres, WorkProgress &progress);
 
 } // namespace pt

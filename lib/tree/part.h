@@ -1,4 +1,5 @@
-// Spheres that are still together while a tree's shape is made, and boxes about them. Used by what divides them.
+// Spheres that are still together while a tree's shape is made, and boxes about them. Used by the cuts that divide
+// them.
 #pragma once
 
 #include "lib/base/mixed.h"
@@ -40,7 +41,7 @@ struct Box {
     float extent(std::size_t axis) const { return high[axis] - low[axis]; }
     bool is_point() const { return extent(0) == 0.0F && extent(1) == 0.0F && extent(2) == 0.0F; }
 
-    // Half of it; of no box, what is not less than any number.
+    // Half of its surface; of an empty box, what is not less than any number.
     float surface() const {
         const Vector sides = high - low;
         const Vector products = sides * __builtin_shufflevector(sides, sides, 1, 2, 0, 3);
@@ -59,15 +60,16 @@ inline Box ball_of(const TreeItem &item) {
     return box;
 }
 
-// So many spheres tell nearly as well as all where to divide a part. Measured with 10^6, trips of a ray through the
-// tree: as without samples, to 0.5%, for even clouds, clumps and shells, and 1% more where one sphere in 10^4 is 30
-// times as large as the others.
+// A sample of so many spheres tells nearly as well as all of them where to divide a part. Of 10^6 spheres in even
+// clouds, clumps and shells, rays take the same number of trips through the tree to 0.5%, and 1% more where one sphere
+// in 10^4 is 30 times as large as the others.
 inline constexpr std::size_t sample_size = 4096;
 
 inline constexpr std::size_t sampled_from = 4 * sample_size;
 
-// Calls use(item) for all, or of many for a sample, which is the same one until their order changes: one of each of as
-// many runs of equal length, anywhere in it, so that no pattern in the order matters.
+// Calls use(item) for all, or for a sample if there are many. A sample has one item of each of sample_size runs of
+// equal length, anywhere in the run, so that no pattern in the order matters; it stays the same until the order
+// changes.
 template <typename Use>
 void for_each_or_sample(Items items, Use use) {
     if (items.size() < sampled_from) {
@@ -84,7 +86,7 @@ void for_each_or_sample(Items items, Use use) {
     }
 }
 
-// Of all, or of a sample, but then it is no point.
+// The box of all centres, or of a sample if that is no point.
 inline Box centres_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_centre(item); });
@@ -94,7 +96,7 @@ inline Box centres_of(Items items) {
     return box;
 }
 
-// The same of balls.
+// The same for balls.
 inline Box balls_of(Items items) {
     Box box;
     for_each_or_sample(items, [&](const TreeItem &item) { box.add_ball(item); });

@@ -13,7 +13,7 @@ namespace pt {
 
 namespace {
 
-// From here on nodes are halved: another log4(2^26) = 13 levels hold all the spheres that a scene may have.
+// From this depth on nodes are halved: another log4(2^26) = 13 levels hold all the spheres that a scene may have.
 constexpr std::uint32_t free_depth = 14;
 
 Part part_of(Items items) {
@@ -34,7 +34,7 @@ Halves divided(const Part &part, std::uint32_t depth) {
     return part.items.size() <= most_swept ? swept_halves(part) : binned_halves(part);
 }
 
-// How the tree is made, beside the spheres: what twins are, and who is told.
+// What is needed beside the spheres: which of them are twins, and whom to tell of the progress.
 struct Making {
     const SphereOrder &order;
     WorkProgress &progress;
@@ -63,7 +63,7 @@ Part without_twins(Part part, const Making &making) {
     const auto are_twins = [&](const TreeItem &a, const TreeItem &b) {
         return a.centre_radius == b.centre_radius && making.order(a.sphere, b.sphere) == 0;
     };
-    // Not of std::ranges: what that returns is more than Clang 14 can take.
+    // Not std::ranges, whose result Clang 14 cannot compile.
     const auto twins = std::unique(part.items.begin(), part.items.end(), are_twins);
     part.items = part.items.first(static_cast<std::size_t>(twins - part.items.begin()));
     making.progress.add(shape_work(count) - shape_work(part.items.size()), 0);
@@ -93,9 +93,9 @@ Part *next_of(std::span<Part> parts, std::uint32_t depth) {
     return next;
 }
 
-// The children of a node: of its parts one after the other is divided until there are enough. Twins have equal centres,
-// so that no cut comes between them before all that is left is at one point, or few. Halving might, so they are looked
-// for before it begins.
+// The children of a node: its parts are divided, one after the other, until there are enough. Twins have equal centres,
+// so no cut separates them until all that is left is at one point, or few. Halving might, so twins are looked for
+// before.
 Children children_of(Part node, const Making &making, std::uint32_t depth) {
     Children children;
     if (node.items.size() <= tree_width || node.centres.is_point() || depth == free_depth)

@@ -13,8 +13,8 @@
 
 namespace pt {
 
-// What the shape is made from: about where a sphere is and how large, in any unit. One that moves is taken for a ball
-// about its way.
+// The shape is made from where a sphere is, about, and how large, in any unit. A moving sphere counts as a ball about
+// its way.
 struct TreeItem {
     std::array<float, 4> centre_radius;
     std::uint32_t sphere;
@@ -36,17 +36,17 @@ struct TreeShape {
     std::uint32_t depth;                // nodes from the root to the deepest, both counted
 };
 
-// Some order of two spheres. Those that are equal in it have equal items: of such twins the one with the lower number
+// Some order of two spheres. Spheres that are equal in it have equal items; of such twins the one with the lower number
 // is kept.
 using SphereOrder = std::function<std::strong_ordering(std::uint32_t, std::uint32_t)>;
 
-// Nodes are divided where that makes the product of surface and nodes to come least, summed over both sides (Goldsmith
-// and Salmon 1987; in bins: Wald 2007). Deep in the tree they are halved, so that its depth is bounded, whatever the
-// spheres: for 2^26 of them it is 27. The work is shape_work() of all items.
+// Nodes are divided where surface times expected nodes, summed over both sides, is least (Goldsmith and Salmon 1987; in
+// bins: Wald 2007). Deep in the tree they are halved, which bounds its depth for any spheres: for 2^26 of them it
+// is 27. The work is shape_work() of all items.
 TreeShape tree_shape(std::vector<TreeItem> items, const SphereOrder &order, WorkProgress &progress);
 
-// To divide so many spheres until each has its place, about n log2 n. To divide them once is the difference from what
-// it takes for both parts, which is not negative, whatever the parts.
+// The work to divide so many spheres until each has its place, about n log2 n. Dividing them once counts as what is
+// left of it after both parts, which is never negative.
 constexpr double shape_work(std::size_t spheres) {
     return static_cast<double>(spheres) * static_cast<double>(std::bit_width(spheres));
 }

@@ -23,13 +23,13 @@ namespace {
 
 constexpr std::uint32_t nowhere = ~std::uint32_t{0}; // a place that there is not
 
-// A shape is kept while the cost of the tree is within this factor of what it was when the shape was made; below, too,
-// as something else than places has changed then. On lavapipe, with 10^3 to 10^6 spheres that went astray: at 1.04 rays
-// take 2% longer, at 1.12 7%, at 1.25 an eighth to a seventh, at 1.5 a quarter, at 2.7 twice and at 6.4 four times as
-// long. A new tree takes twice as long as one whose shape is kept.
+// The tree is rebuilt when keeping its shape would slow rays by about an eighth: when its cost has changed by more than
+// this factor, up or down (down means that more than places has changed). On lavapipe, with 10^3 to 10^6 spheres that
+// went astray, rays take 2% longer at 1.04, 7% at 1.12, an eighth to a seventh at 1.25, a quarter at 1.5, twice as long
+// at 2.7 and four times at 6.4. A new tree takes twice as long as one whose shape is kept.
 constexpr double most_growth = 1.25;
 
-// Of what is left of the work when a stage begins, as measured with a million spheres.
+// The share of each stage in the work that is left when it begins, measured with a million spheres.
 constexpr double share_of_items = 0.1;
 constexpr double share_of_shape = 0.65;
 constexpr double share_of_spheres = 0.5;
@@ -37,7 +37,7 @@ constexpr double share_of_nodes = 0.9;
 constexpr double share_of_alike = 0.5;
 constexpr double share_of_close_lamps = 0.5;
 
-// Of numbers that an int holds: std::ceil is a call where the processor may be an old one.
+// For numbers that an int holds: std::ceil is a function call in code for old processors.
 int ceiling(double number) {
     const auto whole = static_cast<int>(number);
     return whole + (whole < number ? 1 : 0);
@@ -114,7 +114,7 @@ SphereTree::SphereTree(const SphereExtent &extent, const SphereSource &spheres,
     lamp_materials_.reserve(extent.lamp_count);
 }
 
-// For all blocks. That of the lamps is empty, and will not be moved as it grows.
+// Memory for all blocks. The lamps' block is empty, and has room to grow in place.
 void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     sphere_count_ = static_cast<std::uint32_t>(spheres_->size());
     const std::uint32_t quarter = (sphere_count_ + 3) / 4;
@@ -126,7 +126,7 @@ void SphereTree::make_room(std::size_t node_count, WorkProgress &progress) {
     first_color_ = first_surface_ + quarter;
     first_lamp_ = first_color_ + (has_colors_ ? quarter : 0);
     words_.reserve(first_lamp_ + lamp_materials_.capacity());
-    // Not at once: memory that is touched for the first time takes long.
+    // In pieces, because touching memory for the first time takes long.
     constexpr std::size_t some = std::size_t{1} << 20;
     while (words_.size() < first_lamp_) {
         words_.resize(std::min<std::size_t>(words_.size() + some, first_lamp_));
@@ -138,8 +138,8 @@ std::span<glm::uvec4> SphereTree::words_of_node(std::size_t node) {
     return std::span(words_).subspan(node * gpu::TREE_NODE_WORDS, gpu::TREE_NODE_WORDS);
 }
 
-// All blocks but the nodes', in the order of the tree: to read the caller's memory anywhere takes less time than to
-// write there.
+// All blocks but the nodes', in the order of the tree: reading the caller's memory in any order takes less time than
+// writing in any order.
 void SphereTree::write_spheres(const SphereSource &spheres, std::span<const TreeMaterial> materials,
                                WorkProgress &progress) {
     std::vector<FoundLamp> lamps;
@@ -184,8 +184,8 @@ void SphereTree::write_nodes(WorkProgress &progress) {
     cost_ /= box_.surface();
 }
 
-// Writes what is below first, where its box comes from, and adds all surfaces to the cost. As deep as the tree; from
-// the last child to the first, which is the order of nodes and places.
+// Writes a node after its children, whose boxes make up its own, and adds all surfaces to the cost. Recursion is as
+// deep as the tree; it goes from the last child to the first, which is the order of nodes and places.
 GridBox SphereTree::write_node(std::uint32_t node, WorkProgress &progress) {
     const TreeLinks links = TreeNodeView(words_of_node(node)).links();
     TreeNode written(links);
@@ -235,7 +235,7 @@ bool SphereTree::is_far(const Camera &camera) const {
     return !(std::max({steps.x, steps.y, steps.z}) <= 2.0 * Grid::reach);
 }
 
-// Of the sphere as the kernel has it, at any time: what rounding adds there is the kernel's margin.
+// The box of the sphere as the kernel has it, at any time; the kernel's margin covers what rounding adds.
 GridBox SphereTree::box_of_place(std::uint32_t place) const {
     const glm::uvec4 &word = words_[first_sphere_ + place];
     const int radius = ceiling(radius_of(word) * grid_.steps_per_unit);
@@ -249,7 +249,7 @@ GridBox SphereTree::box_of_place(std::uint32_t place) const {
     return box;
 }
 
-// Whether a property holds of some place whose box, or what rounding has made of it, meets a box.
+// Whether some place whose rounded box meets a given box has a property.
 template <typename Property>
 bool SphereTree::any_in(const GridBox &box, Property &&property) const {
     std::vector<std::uint32_t> nodes{0};
@@ -302,7 +302,7 @@ bool SphereTree::divides_start(const Camera &camera) const {
                   [&](std::uint32_t place) { return pt::divides_start(seen_ball(place, camera), camera, grid_.step); });
 }
 
-// Enters the nearest node first, and only those before the nearest sphere so far.
+// Enters the nearest node first, and none beyond the nearest sphere so far.
 double SphereTree::least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                                const std::function<double(const MovingBall &)> &of_sphere) const {
     using Entry = std::pair<double, std::uint32_t>; // depth and node
@@ -347,8 +347,8 @@ bool SphereTree::finds_close_lamps(WorkProgress &progress) const {
     return false;
 }
 
-// A camera within twice the grid's reach is a place of the grid, and differences from it are exact. For others the
-// middle of the grid is, and what is rounded is small against the distance.
+// A camera within twice the grid's reach is a place of the grid, and differences from it are exact. For a farther one
+// the middle of the grid takes its place, and rounding is small against the distance.
 gpu::TreeFrame SphereTree::frame(const Camera &camera) const {
     gpu::TreeFrame frame{};
     frame.camera = is_far(camera) ? glm::ivec3(0) : grid_.place(camera.position);

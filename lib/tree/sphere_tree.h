@@ -1,8 +1,8 @@
 // A tree over spheres as the kernel reads it, for scenes of so many that testing each would take too long. It does not
-// depend on where the camera is. Made by PreparedScene, shared by the kernels of all devices.
+// depend on the camera. Made by PreparedScene, shared by the kernels of all devices.
 //
-// What is seen does not depend on its shape, so that spheres which have moved a little can keep that of a tree made
-// before: this takes a fraction of the time.
+// Its shape changes nothing that is seen. So spheres that have moved a little can keep the shape of an earlier tree,
+// which takes a fraction of the time.
 #pragma once
 
 #include "lib/base/work_progress.h"
@@ -33,14 +33,14 @@ struct PointBox {
 
 class SphereTree {
 public:
-    // Over the spheres but those left out, by their indices in ascending order: at least one. materials: those of the
-    // scene, by index.
+    // Over all spheres but those left out, which are indices in ascending order; at least one sphere is left.
+    // materials: those of the scene, by index.
     SphereTree(const SphereSource &spheres, std::span<const std::uint32_t> left_out,
                std::span<const TreeMaterial> materials, WorkProgress &progress);
 
-    // With the shape of another over as many spheres: the sphere of an index has the place that it has there. Nothing
-    // where a new tree is called for: it would be much better, spheres are left out that are in the other or the other
-    // way round, or there are twins in one of the two, which have one place.
+    // With the shape of another tree over as many spheres: each sphere has the place that its index has there. Nothing
+    // if a new tree is needed: because it would be much better, because other spheres are left out, or because one of
+    // the two has twins, which share a place.
     static std::optional<SphereTree> with_shape_of(const SphereTree &other, const SphereSource &spheres,
                                                    std::span<const std::uint32_t> left_out,
                                                    std::span<const TreeMaterial> materials, WorkProgress &progress);
@@ -69,16 +69,16 @@ public:
             use(held(place));
     }
 
-    // Nodes that a ray through the tree meets, about: their surfaces as shares of the root's, summed up.
+    // About how many nodes a ray through the tree meets: the sum of their surfaces as shares of the root's.
     double cost() const { return cost_; }
 
-    // Spheres in it, without twins, and nodes, of which so many are on the way to the deepest.
+    // Spheres in it, without twins; nodes; and nodes on the way to the deepest one.
     std::uint32_t sphere_count() const { return sphere_count_; }
     std::uint32_t node_count() const { return node_count_; }
     std::uint32_t depth() const { return depth_; }
     bool moves() const { return moves_; }
 
-    // The spheres of the places by their indices in the scene, which has so many in all.
+    // For each place the index of its sphere in the scene, which has so many in all.
     std::span<const std::uint32_t> spheres() const { return *spheres_; }
     std::uint32_t scene_sphere_count() const { return scene_sphere_count_; }
     bool has_colors() const { return has_colors_; }
@@ -95,18 +95,18 @@ public:
     // Whether parallel rays of a camera may start on either side of a sphere (start_disc.h).
     bool divides_start(const Camera &camera) const;
 
-    // The least depth of the spheres as a camera sees them. of_region: no more than the depth of any sphere in a ball.
+    // The least depth of the spheres as a camera sees them. of_region: a lower bound of the depths in a ball.
     double least_depth(const Camera &camera, const std::function<double(const MovingBall &)> &of_region,
                        const std::function<double(const MovingBall &)> &of_sphere) const;
 
-    // Of all spheres at any time.
+    // The box of all spheres at any time.
     PointBox bounds() const { return {grid_.point(box_.low), grid_.point(box_.high)}; }
 
     // Whether some lamp and another sphere nearly coincide (twins.h).
     bool has_close_lamps() const { return close_lamps_; }
 
 private:
-    // One among the spheres, of a material by its number in the scene.
+    // A lamp among the spheres, with the number of its material in the scene.
     struct FoundLamp {
         std::uint32_t place;
         std::uint32_t material;

@@ -23,8 +23,7 @@ std::uint32_t color_word(const glm::vec3 &color);
 // All that the kernel has of where a sphere is.
 std::array<std::uint32_t, 7> words_of(const Sphere &sphere, const Grid &grid);
 
-// Centre and radius in steps of the ball about the way of the sphere as the kernel has it, so that twins have equal
-// ones.
+// Centre and radius, in steps, of the ball about the way of the sphere as the kernel has it. Twins have equal ones.
 std::array<float, 4> ball_of(const Sphere &sphere, const Grid &grid);
 
 inline glm::ivec3 centre_of(const glm::uvec4 &sphere) {

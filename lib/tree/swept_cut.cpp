@@ -1,5 +1,5 @@
-// Sorts along all axes and tries every cut; see swept_cut.h. So few spheres take as long as the branches that are
-// mispredicted, of which there are next to none here: the axes are lanes of one register.
+// Sorts along all axes and tries every cut; see swept_cut.h. For so few spheres mispredicted branches would take most
+// of the time, so there are next to none: the axes are lanes of one register.
 #include "lib/tree/swept_cut.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ using Counts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr std::size_t axes = 3;
 
-// Along each axis, the spheres in ascending order of their centres, of equal ones the first in the part first.
+// Along each axis, the spheres in ascending order of their centres; equal ones keep their order in the part.
 struct Orders {
     std::array<std::array<std::uint8_t, most_swept>, axes> spheres; // indices in the part
     std::array<Vector, most_swept> coordinates;                     // in lanes by axis
 
-    // The place of each is the number of those before it, counted in pairs.
+    // The place of each is the number of spheres before it, counted in pairs.
     explicit Orders(Items items) {
         std::array<Vector, most_swept> centres;
         std::array<Counts, most_swept> places;
@@ -65,7 +65,7 @@ struct Boxes {
     }
 };
 
-// The best cut along each axis: the first spheres of the order from the others.
+// The best cut along each axis: how many spheres of the order come before it.
 struct Cuts {
     Vector costs{Box::none, Box::none, Box::none, Box::none};
     Counts counts{};

@@ -1,4 +1,4 @@
-// Divides few spheres where that is best, of all places between two of them. Used to make the shape of a tree.
+// Divides few spheres at the best of all cuts between two of them. Used to make the shape of a tree.
 #pragma once
 
 #include "lib/tree/part.h"
@@ -7,11 +7,11 @@
 
 namespace pt {
 
-// So few that to sort them costs less than bins, which are for any number (binned_cut.h).
+// Sorting so few costs less than bins, which serve any number (binned_cut.h).
 inline constexpr std::size_t most_swept = 12;
 
-// Of two to most_swept spheres whose centres are not all at one point: the two parts for which surface times nodes to
-// come, summed up, is least. Centres that are equal stay together.
+// The two parts of two to most_swept spheres with the least sum of surface times expected nodes. The centres must not
+// all be at one point; equal centres stay together.
 Halves swept_halves(const Part &part);
 
 } // namespace pt

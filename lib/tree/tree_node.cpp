@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t most_steps = 255; // that a byte counts
 
-// Of the smallest power of two of which a byte counts enough. Half of that with which an extent has eight bits is too
-// small.
+// The exponent of the smallest step, a power of two, with which a byte reaches far enough. (Half of the step that gives
+// the extent eight bits would be too small.)
 std::uint32_t exponent_for(std::uint32_t extent) {
     const auto bits = static_cast<std::uint32_t>(std::bit_width(extent));
     std::uint32_t exponent = bits > 8 ? bits - 8 : 0;

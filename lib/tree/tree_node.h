@@ -13,7 +13,7 @@ namespace pt {
 
 using TreeNodeWords = std::array<glm::uvec4, gpu::TREE_NODE_WORDS>;
 
-// A node of which the links alone are known.
+// A node whose links alone are known.
 TreeNodeWords words_of(const TreeLinks &links);
 
 class TreeNode {
@@ -25,7 +25,7 @@ public:
         box_.add(box);
     }
 
-    // Of all children, before they are rounded.
+    // The box of all children, before rounding.
     const GridBox &box() const { return box_; }
 
     // The children's boxes are rounded outwards.
@@ -37,7 +37,7 @@ private:
     std::array<GridBox, tree_width> boxes_{};
 };
 
-// Reads what has been written, in the words from that of a node on.
+// Reads a node from the words that begin with it.
 class TreeNodeView {
 public:
     explicit TreeNodeView(std::span<const glm::uvec4> words) : words_(words.first(gpu::TREE_NODE_WORDS)) {}

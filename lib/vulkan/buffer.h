@@ -26,7 +26,7 @@ struct BufferPiece {
     std::uint64_t offset;
 };
 
-// What Vulkan lets commands carry.
+// The most that Vulkan lets a command carry.
 inline constexpr std::uint64_t max_recorded_bytes = 65'536;
 
 class Buffer {
@@ -40,7 +40,7 @@ public:
     std::uint64_t size() const;
     vk::Buffer handle() const;
 
-    // All wait for the device, but uploads to a streamed buffer; offsets and sizes are multiples of 4 bytes and lie
+    // All but uploads to a streamed buffer wait for the device. Offsets and sizes are multiples of 4 bytes and lie
     // within the buffer.
     void upload(std::span<const std::byte> data, std::uint64_t offset);
     void download(std::span<std::byte> data, std::uint64_t offset);
@@ -53,7 +53,7 @@ public:
     // Records that the first bytes of it become these: no more than max_recorded_bytes.
     void write(const vk::raii::CommandBuffer &commands, std::span<const std::byte> data) const;
 
-    // Records that bytes become 0. Offset and size likewise.
+    // Records that bytes become 0. Offset and size as above.
     void clear(const vk::raii::CommandBuffer &commands, std::uint64_t offset, std::uint64_t bytes) const;
 
     // Records that bytes from an offset on become the first of another buffer.

@@ -28,7 +28,7 @@ std::string pointer_text(const void *pointer) {
 }
 
 // An instance cannot be asked for its version. But drivers that follow the specification's recommendation offer no
-// functions beyond it, and every device of version 1.2 has this one.
+// functions beyond that version, and every device of version 1.2 has this one.
 bool offers_version_1_2(const vk::raii::Instance &instance, VkDevice device) {
     return instance.getDispatcher()->vkGetDeviceProcAddr(device, "vkGetSemaphoreCounterValue") != nullptr;
 }

@@ -12,8 +12,8 @@
 
 namespace pt::vulkan {
 
-// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, or for a texel
-// buffer of 256 bytes, the most that a device asks for.
+// A part of a buffer, for a binding. Its offset is a multiple of Limits::storage_buffer_alignment, for a texel buffer
+// of 256 bytes, which suits every device.
 struct BufferRange {
     BufferRange() = default; // none
     explicit BufferRange(const Buffer &whole) : buffer(whole.handle()), bytes(whole.size()) {}
@@ -40,7 +40,7 @@ private:
     vk::DescriptorSet set_; // freed with its pool
 };
 
-// Stands for a number that no binding has.
+// In place of a binding's type: there is no binding of this number.
 inline constexpr auto no_binding = static_cast<vk::DescriptorType>(VK_DESCRIPTOR_TYPE_MAX_ENUM);
 
 class ComputePipeline {

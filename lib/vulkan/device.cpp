@@ -23,8 +23,8 @@ constexpr std::uint64_t llvmpipe_loop_trips = 65'535;
 // More would not help, and the offsets of bindings are multiples of at most 256 bytes.
 constexpr std::uint32_t largest_uniform_range = 65'536;
 
-// A large GPU holds 100,000 invocations of a kernel like this at a time; with a few times as many, the last of them to
-// end leave little of it idle.
+// A large GPU holds 100,000 invocations of such a kernel at a time. With a few times as many, little of it is idle
+// while the last ones end.
 constexpr std::uint32_t busy_gpu_invocations = 1U << 18;
 
 // Submissions aim at a twentieth of a second; a GPU that has not finished one after so long is taken for lost.
@@ -38,7 +38,7 @@ constexpr std::uint32_t gpu_unrolled = 16;
 // The best of 8, 16, 32 and 4096, and of none, there.
 constexpr std::uint32_t gpu_walk_trips = 8;
 
-// Many times the 30 microseconds that it takes to sleep and wake, and nothing to a processor.
+// Many times the 30 microseconds that it takes to sleep and wake, and hardly any processor time.
 constexpr std::chrono::microseconds gpu_polling{300};
 
 Limits limits_of(const vk::raii::PhysicalDevice &device) {
@@ -55,7 +55,7 @@ Limits limits_of(const vk::raii::PhysicalDevice &device) {
             .loop_trip_budget = llvmpipe ? llvmpipe_loop_trips : std::numeric_limits<std::uint64_t>::max()};
 }
 
-// As drivers put it into the head of their own caches, and the driver's version.
+// The numbers that drivers put into the head of their own caches, and the driver's version.
 std::array<std::uint32_t, 7> driver_id_of(const vk::raii::PhysicalDevice &device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
     std::array<std::uint32_t, 7> id = {properties.vendorID, properties.deviceID, properties.driverVersion};
@@ -79,7 +79,7 @@ void write_barrier(const vk::raii::CommandBuffer &commands, vk::PipelineStageFla
 
 } // namespace
 
-// What any device does, an integrated GPU, and a GPU with memory of its own, a thirtieth of the fastest.
+// What the slowest of each kind manage; a GPU with memory of its own, a thirtieth of the fastest.
 double tests_per_second(std::uint32_t kind) {
     switch (kind) {
     case PT_DEVICE_DISCRETE_GPU:
@@ -92,8 +92,8 @@ double tests_per_second(std::uint32_t kind) {
 }
 
 DevicePolicy default_policy(const pt_device_info &info) {
-    // A loaded machine may take any time. Memory is one on a CPU and on an integrated GPU; a discrete GPU reads the
-    // host's over a bus, and the host reads a GPU's own uncached.
+    // A loaded machine may take any time. CPUs and integrated GPUs share the host's memory; a discrete GPU reads that
+    // over a bus, and the host reads the GPU's own uncached.
     const bool cpu = info.kind == PT_DEVICE_CPU;
     return {.patience = cpu ? std::chrono::nanoseconds::max() : gpu_patience,
             .share_memory = cpu || info.kind == PT_DEVICE_INTEGRATED_GPU,
@@ -181,7 +181,7 @@ bool Device::is_at_rest() const {
     return std::ranges::all_of(submissions_, [&](const Submission &submission) { return ended(submission); });
 }
 
-// Whether a submission has come to an end by now, be it by the loss of the device.
+// Whether a submission has ended by now, if only by the loss of the device.
 bool Device::ended(const Submission &submission) const {
     try {
         return !submission.pending || submission.end || submission.fence.getStatus() == vk::Result::eSuccess;
@@ -235,7 +235,7 @@ Device::Ticket Device::start(const Record &record, const Semaphores &semaphores)
     return static_cast<Ticket>(free - submissions_.begin());
 }
 
-// What is overdue is left to finish(), which gives it up.
+// An overdue submission is left to finish(), which gives it up.
 bool Device::is_done(Ticket ticket, Clock::time_point until) {
     Submission &submission = submissions_[ticket];
     while (!lost() && !is_overdue(submission)) {
@@ -329,14 +329,14 @@ bool Device::look_at(Submission &submission, std::chrono::nanoseconds timeout) {
         }
         return ended;
     } catch (const vk::SystemError &error) {
-        // Whatever the error is: waits for the work, so that what it uses may be destroyed from here on.
+        // Whatever the error is, waits for the work, so that what it uses may be destroyed from here on.
         comes_to_rest();
         lose([&] { return error.what(); });
     }
 }
 
-// Work is given up, here and in comes_to_rest(), only if it is overdue and a look after that finds it unfinished: a
-// process that was stopped, or got no processor for long, may find the time over and the work done.
+// Work is given up, here and in comes_to_rest(), only if it is overdue and then found unfinished once more: a process
+// that was stopped, or got no processor for long, may find the time over and the work done.
 void Device::wait(Submission &submission) {
     for (bool was_overdue = false; !look_at(submission, wait_time()); was_overdue = is_overdue(submission))
         if (was_overdue) {

@@ -34,28 +34,28 @@ struct DevicePolicy {
     std::chrono::nanoseconds patience; // a submission that takes longer means that the device is lost
     bool share_memory;                 // the host reads and writes buffers in place where their memory is fast for both
     bool scene_in_constants;   // kernels run faster with the scene's numbers compiled in than read from a buffer
-    std::uint32_t invocations; // that keep it busy; 0: any number does
+    std::uint32_t invocations; // as many keep it busy; 0: any number does
     std::uint32_t queue_depth; // submissions to have under way: 2 where it would idle while the host prepares the next
-    // A submission is looked at for so long before it is waited for: what ends sooner ends before a thread would be
-    // asleep and awake again.
+    // For so long a submission is polled before the thread sleeps: falling asleep and waking takes longer than many
+    // submissions.
     std::chrono::nanoseconds polling{0};
-    // Ray-surface tests a second that it manages at the least: the first slice is sized by it, and measured slices size
-    // the rest. By default an eighth of what two CPU cores do.
+    // Ray-surface tests a second that any such device manages. It sizes the first slice; measured times size the
+    // others. By default an eighth of what two CPU cores do.
     double tests_per_second = 2.5e8;
-    // Loops over as many surfaces are unrolled at the most. By default those of a CPU: lavapipe reads what is at
-    // constant places once for all invocations, which makes 60 spheres twice as fast as a tree over them with vectors
-    // of 512 bits, 1.3 times with 256, and 100 spheres 1.3 and 1.0 times at path length 3, 1.7 and 1.2 times at 6. Each
-    // surface costs it 10 milliseconds of compilation, which is what limits it.
+    // Loops over up to so many surfaces are unrolled. The default is for CPUs: lavapipe reads constant places once for
+    // all invocations, which makes 60 spheres twice as fast as a tree over them with vectors of 512 bits and 1.3 times
+    // with 256; 100 spheres 1.3 and 1.0 times at path length 3, 1.7 and 1.2 times at 6. Each surface takes 10
+    // milliseconds to compile, which sets the limit.
     std::uint32_t unrolled = 112;
-    // Spheres: with as many, all but a few are in a tree. On lavapipe that is where loops are no longer unrolled; on an
-    // H200 a tree is as fast as testing each from 160 spheres on with three vertices, from 115 with six.
+    // From so many spheres on, all but a few are in a tree. On lavapipe that is where loops are no longer unrolled; on
+    // an H200 a tree is as fast as testing each from 160 spheres on with three vertices, from 115 with six.
     std::uint32_t tree_from = 113;
-    // Samples of a pixel: until there are as many, tiles are not told apart (lib/film/adaptive_rule.h). On GPUs, where
-    // a look takes as long as some samples, pictures that need no more are done sooner without, and with paths of two
-    // vertices four times as many. 0, or a power of two from 16 on.
+    // Tiles are told apart from so many samples of a pixel on (lib/film/adaptive_rule.h), with paths of two vertices
+    // from four times as many. On GPUs a check of the error takes as long as some samples, so pictures that need no
+    // more are done sooner without. 0, or a power of two from 16 on.
     std::uint32_t adaptive_from = 256;
-    // Kernels run faster whose branches share their last direction (shaders/last_direction.glsl): lavapipe takes 0.93
-    // of the time with six vertices, but an H200 1.02 to 1.06. Of several devices the first decides.
+    // Kernels are faster if branches share their last direction (shaders/last_direction.glsl): lavapipe takes 0.93 of
+    // the time with six vertices, an H200 1.02 to 1.06. The first of several devices decides.
     bool one_last_direction = false;
     std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
     bool integer_order = false;     // kernels run faster where integers are compared, not floats (shaders/maths.glsl)
@@ -66,10 +66,10 @@ struct DevicePolicy {
 
 DevicePolicy default_policy(const pt_device_info &info);
 
-// That of a GPU, but for its patience: tests reach with it on a CPU what only GPUs do.
+// A GPU's, but for its patience: with it tests reach on a CPU what only GPUs do.
 DevicePolicy gpu_like_policy();
 
-// Of a submission, each of them binary or none: it waits before its kernels, and signals at its end.
+// Binary semaphores of a submission, or none: it waits before its kernels, and signals at its end.
 struct Semaphores {
     vk::Semaphore wait;
     vk::Semaphore signal;
@@ -77,8 +77,8 @@ struct Semaphores {
 
 class Device {
 public:
-    // The instance must outlive the device. A device that hangs is left to the end of the process, and its instance
-    // too.
+    // The instance must outlive the device. A device that hangs is never destroyed, nor is its instance: both go with
+    // the process.
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device);
     Device(Instance &instance, const vk::raii::PhysicalDevice &physical_device, LogicalDevice logical_device,
            const DevicePolicy &policy);
@@ -92,21 +92,20 @@ public:
     const DevicePolicy &policy() const { return policy_; }
     std::uint64_t allocated_bytes() const { return allocated_bytes_; }
 
-    // Whether so many bytes, those in use among them, are no more than it has. Drivers may promise memory that they do
+    // Whether so many bytes, including those in use, are no more than it has. Drivers may promise memory that they do
     // not have and fail when it is touched, so this is asked before much is allocated.
     bool has_memory(std::uint64_t bytes) const { return bytes <= info_.memory_bytes; }
 
     bool lost() const { return lost_; }
 
-    // Whether submissions that were given up are still under way, or were when the device was abandoned. What they use
-    // must not be destroyed then.
+    // Whether submissions that were given up are still under way, or were when the device was abandoned. Then what they
+    // use must not be destroyed.
     bool hangs() const;
 
-    // Leaves the device, and all that is still to be destroyed on it, to the end of the process, whatever ends
-    // meanwhile.
+    // From now on neither the device nor anything on it is destroyed: they go with the process.
     void abandon() noexcept { abandoned_ = true; }
 
-    // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, from the moment that the device was lost.
+    // Throws PT_ERROR_DEVICE_LOST, with the message of the first loss, once the device is lost.
     void require_alive() const;
 
     using Record = std::function<void(const vk::raii::CommandBuffer &)>;
@@ -119,21 +118,21 @@ public:
 
     using Clock = std::chrono::steady_clock;
 
-    // Whether finish() would not wait, having waited for that until a time.
+    // Waits for a submission until it ends or the time has come. Returns whether finish() would not wait any more.
     bool is_done(Ticket ticket, Clock::time_point until);
 
-    // Looks which submissions have ended while nobody waited for them. Their ends are only known to lie between the
-    // last look at them and this one.
+    // Looks which submissions have ended while nobody waited. Of their ends it is only known that they lie between the
+    // last look and this one.
     void look();
 
-    // Whether all submissions have ended, those too that nobody has waited for.
+    // Whether all submissions have ended, waited for or not.
     bool is_at_rest() const;
 
     // Waits and returns the seconds from submission, or from the end of the one before if that was later, to
-    // completion. Where the ends are not known, what comes nearest to the expected seconds.
+    // completion. Where ends are known only within bounds, the value nearest to the expected seconds.
     double finish(Ticket ticket, double expected_seconds = 0.0);
 
-    // Waits for what is under way, however finish() failed. False if it does not end within the device's patience.
+    // Waits for what is under way, also after finish() failed. False if it does not end within the device's patience.
     bool comes_to_rest() noexcept;
 
     // Both at once.
@@ -143,8 +142,8 @@ public:
     bool is_borrowed() const { return logical_device_.is_borrowed(); }
     PipelineCache &pipeline_cache() { return pipeline_cache_; }
 
-    // Of what the driver's kernels of some code are good for: this model of device, its driver, and that code. 32
-    // hexadecimal digits.
+    // The key under which the driver's kernels of some code are kept: it stands for this model of device, its driver
+    // and that code. 32 hexadecimal digits.
     std::string kernel_key(const std::string &code_digest) const;
 
     const vk::PhysicalDeviceMemoryProperties &memory_properties() const { return memory_properties_; }

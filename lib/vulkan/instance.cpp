@@ -41,8 +41,8 @@ bool contains(const std::vector<Properties> &list, Name name, const char *wanted
     return std::ranges::any_of(list, [&](const Properties &item) { return std::strcmp(item.*name, wanted) == 0; });
 }
 
-// What decides which drivers the loader finds, and what to do about it. The only place where the library reads the
-// environment: to explain it.
+// The variables that decide which drivers the loader finds, and what to do about them. Nowhere else does the library
+// read the environment, and here only to explain it.
 std::string driver_advice(const vk::raii::Context &context) {
     const std::uint32_t version = context.enumerateInstanceVersion();
     std::string advice = " (Vulkan loader " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
@@ -62,7 +62,7 @@ void throw_if_out_of_memory(const vk::SystemError &error, const std::string &wha
         throw Error(result, what_was_being_done + ": " + error.what());
 }
 
-// With messages the validation layer is on and reports to them.
+// If messages are given, the validation layer is on and reports to them.
 vk::raii::Instance create_instance(const vk::raii::Context &context,
                                    const vk::DebugUtilsMessengerCreateInfoEXT *messages) {
     std::vector<const char *> layers;
@@ -112,7 +112,7 @@ void keep_nvidia_driver_loaded() noexcept {
 Borrowable<vk::raii::Instance> owned_instance(const vk::raii::Context &context, const Log &log, bool validation) {
     const vk::DebugUtilsMessengerCreateInfoEXT messages = messenger_info(log);
     try {
-        // In the chain the messenger hears of the creation and destruction of the instance itself.
+        // In the chain of structs, the messenger also hears of the creation and destruction of the instance.
         auto instance =
             Borrowable<vk::raii::Instance>::owned(create_instance(context, validation ? &messages : nullptr));
         keep_nvidia_driver_loaded();

@@ -27,8 +27,7 @@ public:
     // At least one; throws PT_ERROR_NO_DEVICE otherwise.
     std::vector<vk::raii::PhysicalDevice> physical_devices() const;
 
-    // Leaves the Vulkan instance to the end of the process, whoever made it: one may not be destroyed while a device of
-    // it is there.
+    // From now on the Vulkan instance is not destroyed, whoever made it: while a device of it exists it may not be.
     void abandon();
 
 private:

@@ -1,4 +1,4 @@
-// What a driver makes of kernels, as the caller keeps it from process to process. Used by PipelineCache.
+// A driver's compiled kernels, as the caller keeps them from process to process. Used by PipelineCache.
 #pragma once
 
 #include <pt/pt.h>
@@ -17,7 +17,7 @@ struct KernelStore {
     void *user = nullptr;
 };
 
-// Before a driver's bytes stands what they are, so that it never sees others: a driver trusts what it reads.
+// A head before a driver's bytes says what they are: a driver trusts what it reads, so it must never see others.
 struct KernelSeal {
     char magic[8];
     char key[32];
@@ -28,7 +28,7 @@ struct KernelSeal {
 // key: 32 characters.
 KernelSeal kernel_seal(const std::string &key, std::span<const std::byte> data);
 
-// What follows the seal; nothing if it is not just what was sealed under this key.
+// The bytes after the seal; nothing unless they are just what was sealed under this key.
 std::span<const std::byte> unsealed_kernels(const std::string &key, std::span<const std::byte> bytes);
 
 } // namespace pt::vulkan

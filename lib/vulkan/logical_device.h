@@ -23,7 +23,7 @@ public:
     // Submits to the queue, and locks it for this thread meanwhile. Returns the time at which it had the lock.
     std::chrono::steady_clock::time_point submit(const vk::SubmitInfo &work, vk::Fence fence) const;
 
-    // Leaves the device to the end of the process, whoever made it.
+    // From now on the device is not destroyed, whoever made it.
     void abandon() { device_.disown(); }
 
 private:

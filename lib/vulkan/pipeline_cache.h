@@ -1,5 +1,5 @@
 // A driver's cache of the kernels that it has built on a device, which the caller may keep from process to process.
-// Owned by Device. Nothing depends on it but time: whatever is wrong with what was kept, kernels are built anew.
+// Owned by Device. It only saves time: if anything is wrong with what was kept, kernels are built anew.
 #pragma once
 
 #include "lib/base/log.h"
@@ -30,7 +30,7 @@ public:
     // A kernel was built.
     void note_kernel() { has_news_ = true; }
 
-    // Hands the kernels to the caller, if some were built since, and the driver has others to show for it.
+    // Hands the kernels to the caller, if some were built since and the driver's bytes have changed.
     void save(const Log &log) noexcept;
 
     void abandon() { cache_.release(); }

@@ -9,7 +9,7 @@
 
 namespace pt::vulkan {
 
-// The pt_result that a VkResult stands for; others are PT_ERROR_INTERNAL.
+// The pt_result of a VkResult; PT_ERROR_INTERNAL for all that are not in the table.
 pt_result result_of(vk::Result result);
 
 // Throws the pt::Error of what Vulkan threw, which says what was being done.

@@ -10,7 +10,7 @@ namespace pt::vulkan {
 
 class SubmissionsUnderWay {
 public:
-    // most: that there will be at a time. The device must outlive it.
+    // most: as many as will be under way at a time. The device must outlive it.
     SubmissionsUnderWay(Device &device, std::size_t most) : device_(device) { tickets_.reserve(most); }
     SubmissionsUnderWay(const SubmissionsUnderWay &) = delete;
     SubmissionsUnderWay &operator=(const SubmissionsUnderWay &) = delete;
