@@ -56,8 +56,8 @@ class CallbackGuard:
         return structs.pt_progress_fn(report)
 
     def takes(self, function: object, words: str | None) -> bool:
-        """Whether a function that raised is one of this call's. From Python 3.13 on it is told in words alone, which
-        have its address."""
+        """Whether a function that raised belongs to this call. From Python 3.13 on only a text with its address
+        tells."""
         return any(own is function or (words is not None and repr(own) in words) for own in self._functions)
 
 
@@ -89,7 +89,7 @@ def _install(guard: CallbackGuard) -> None:
 def _remove(guard: CallbackGuard) -> None:
     with _lock:
         _guards.remove(guard)
-        if not _guards and isinstance(sys.unraisablehook, _Hook):  # else somebody else's, who calls ours
+        if not _guards and isinstance(sys.unraisablehook, _Hook):  # otherwise another hook replaced it, and calls it
             sys.unraisablehook = sys.unraisablehook.before
 
 

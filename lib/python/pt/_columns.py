@@ -40,8 +40,8 @@ def _laid_out(name: str, array: Array, components: int, count: int | None) -> Ar
 
 
 def real_column(name: str, values: npt.ArrayLike, components: int, count: int | None) -> Array:
-    """Of float32 or float64 in the machine's byte order; of other numbers a copy, small floats as float32 and all else
-    as float64."""
+    """float32 and float64 in the machine's byte order as they are; other numbers are copied, small floats as float32
+    and all others as float64."""
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of real numbers")
@@ -51,7 +51,7 @@ def real_column(name: str, values: npt.ArrayLike, components: int, count: int | 
 
 
 def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) -> None:
-    """ValueError: names the first number that is not, by row and column."""
+    """ValueError: some are not; it names the first one by row and column."""
     array = np.asarray(values)
     good = np.isfinite(array)
     if positive:
@@ -63,7 +63,7 @@ def check_finite(name: str, values: npt.ArrayLike, *, positive: bool = False) ->
 
 
 def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
-    """Of floats, linear, or of uint8, sRGB."""
+    """A column of floats (linear) or of uint8 (sRGB)."""
     array = np.asarray(values)
     if array.dtype == np.uint8:
         return _laid_out(name, array, 3, count)
@@ -73,7 +73,7 @@ def color_column(name: str, values: npt.ArrayLike, count: int) -> Array:
 
 
 def index_column(name: str, values: npt.ArrayLike, count: int) -> Array:
-    """Of uint32; other integers are copied."""
+    """A column of uint32; other integers are copied."""
     array = np.asarray(values)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name}.dtype = {array.dtype}: must be of integers")

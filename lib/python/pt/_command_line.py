@@ -35,8 +35,8 @@ def at_least(least: float, kind: type) -> Callable[[str], Any]:
 
 
 def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[str, int] | None:
-    """What is wrong with the names of files that are to be written, each with the formats that it may have, or none if all
-    are good; and the exit code for it. source: what is read."""
+    """What is wrong with the names of files to be written, and the exit code for it; nothing if all are good. Each
+    comes with the formats that it may have, none if any will do. source: the file that is read."""
     for name, formats in files:
         place = pathlib.Path(name)
         try:
@@ -53,7 +53,7 @@ def misnamed(files: Sequence[tuple[str, Sequence[str]]], source: str) -> tuple[s
 
 
 def numbered(pattern: str, number: int | None) -> str:
-    """With the number, if there is one, in place of the last # signs, as with pt render --frames."""
+    """The name with the number, if any, in place of its last # signs, as with pt render --frames."""
     if number is None:
         return pattern
     return re.sub(r"#+(?=[^#]*$)", lambda place: str(number).zfill(len(place.group())), pattern)

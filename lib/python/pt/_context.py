@@ -81,7 +81,7 @@ class Context:
         guard.raise_caught()
 
     def close(self) -> None:
-        """Frees everything; again it does nothing. InvalidStateError: a call is under way."""
+        """Frees everything; a second call does nothing. InvalidStateError: a call is under way."""
         if self._handle is None:
             return
         if self._in_call:
@@ -130,7 +130,7 @@ class Context:
         self._shape = settings.shape()
 
     def prepare(self) -> None:
-        """Builds the kernels that accumulate needs, so that it does not have to. Cannot be interrupted.
+        """Builds the kernels that accumulate needs, ahead of it. Cannot be interrupted.
         InvalidStateError: scene, camera or settings are not set."""
         self._call("pt_prepare")
 
@@ -208,8 +208,8 @@ class Context:
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None) -> Image:
-        """Sets all three, accumulates samples and returns the image, also where progress has ended the samples early;
-        before the first of them that is an InvalidStateError."""
+        """Sets all three, accumulates samples and returns the image, even if progress ended the sampling early.
+        InvalidStateError: it ended before the first sample."""
         self.set_scene(scene)
         self.set_camera(camera)
         self.set_render(settings)
@@ -242,5 +242,5 @@ class Context:
 
 
 def _destroy(loaded: ctypes.CDLL, handle: ctypes.c_void_p, _log: object) -> None:
-    """With what the library may call until then."""
+    """With the functions that the library may call until then."""
     loaded.pt_destroy(handle)

@@ -84,8 +84,8 @@ class Film:
         write_atomically(path, lambda file: self.stream(file.write))
 
     def stream(self, write: Callable[[bytes], object]) -> None:
-        """Gives the bytes of to_bytes() to a function in pieces of at most a megabyte, so that a film is kept or sent
-        without being in memory twice. What it raises ends it."""
+        """Gives the bytes of to_bytes() to a function in pieces of at most a megabyte, so that a film can be saved or
+        sent without being in memory twice. An exception of the function ends it."""
         guard = CallbackGuard()
 
         def take(_: object, data: int, size: int) -> int:
@@ -117,7 +117,7 @@ class Film:
         return total
 
     def __radd__(self, other: int) -> Film:
-        """0 + film, with which sum() begins."""
+        """0 + film, because sum() begins with 0."""
         if other != 0:
             return NotImplemented
         return self
@@ -166,8 +166,8 @@ class Film:
 
     def readback(self, quantity: Quantity = Quantity.RADIANCE, *, out: npt.NDArray[Any] | None = None,
                  rectangle: Rectangle | None = None, format: Format = Format.RGB32F) -> npt.NDArray[Any]:
-        """As Context.readback, with its bits, of the rectangle that FilmInfo tells. Pixels that the film does not have
-        are black, with an infinite standard error."""
+        """The rectangle of FilmInfo as Context.readback gives it, with the same bits. Pixels that the film does not
+        have are black, with an infinite standard error."""
         with self._lock:
             info = self.info
             shape = info.rows, info.columns
@@ -176,8 +176,8 @@ class Film:
         return pixels
 
     def stats(self) -> Stats:
-        """How many samples it has, and how good its image is. The scene's lamps are not known to a film, so that
-        Uncertain.UNMET stands wherever they are found by chance."""
+        """How many samples it has, and how good its image is. A film does not know the scene's lamps, so
+        Uncertain.UNMET is set whenever they are found by chance."""
         struct = structs.pt_stats()
         self._call("pt_get_film_stats", struct)
         return stats_of(struct)
@@ -219,8 +219,8 @@ class Film:
 
 
 def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
-    """The bytes that a function of the library writes, which tells their number first. Written in place, as a film
-    takes hundreds of megabytes."""
+    """The bytes that a function of the library writes, after it has told how many. In place, as a film takes hundreds
+    of megabytes."""
     size = ctypes.c_uint64()
     write(None, size)
     allocated = size.value
@@ -232,7 +232,7 @@ def bytes_from(write: Callable[[Any, ctypes.c_uint64], object]) -> bytes:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """What a frame of zstd holds; other bytes as they are."""
+    """The contents of a frame of zstd; other bytes as they are."""
     if not data.startswith(_zstd.MAGIC):
         return data
     module = _zstd.module()

@@ -68,7 +68,7 @@ def reach(centers: Array, radii: Array, axes: Doubles, directions: Doubles, spin
 
 
 def _dot(direction: Doubles, places: Any) -> Doubles:
-    """Zeros cost nothing, and the sum has the order of its components, so that it rounds alike everywhere."""
+    """Components of 0 cost nothing. The order of the sum is fixed, so it rounds alike everywhere."""
     terms = [factor * place for factor, place in zip(direction, places, strict=True) if factor != 0.0]
     total: Doubles = terms[0]
     for term in terms[1:]:
@@ -81,7 +81,7 @@ SIDES: Final = np.vstack([np.eye(3), -np.eye(3)])  # right, up, forward, and the
 
 @dataclass(frozen=True)
 class Extents:
-    """Of balls along right, up and forward of a view: lowest and highest numbers."""
+    """The bounds of balls along right, up and forward of a view: lowest and highest numbers."""
 
     low: Doubles
     high: Doubles
@@ -110,7 +110,7 @@ def pyramid(tangents: tuple[float, float]) -> Doubles:
 
 
 def apex(reaches: Doubles, axes: Doubles, normals: Doubles) -> Doubles:
-    """The pinhole, as near as balls allow that reach so far along the normals of the pyramid.
+    """The nearest pinhole for balls that reach so far along the normals of the pyramid.
 
     A ball is seen as a whole if it is on the inner side of the four planes through the pinhole p and the sides of the
     picture: dot(n, p) >= dot(n, c) + r for the outward unit normal n of each. Over all balls that is dot(n, p) >= s,

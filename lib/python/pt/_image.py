@@ -43,7 +43,7 @@ class Image:
 
     @property
     def error_bounds(self) -> tuple[float, float]:
-        """Within which the error is with 95% confidence."""
+        """Bounds of the error with 95% confidence."""
         return self.stats.relative_rmse_low, self.stats.relative_rmse_high
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:

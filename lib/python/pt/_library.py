@@ -66,7 +66,8 @@ def library_path() -> str:
 
 def load_library(path: str) -> ctypes.CDLL:
     """Loads a libpt; the interpreter's lock is released while its functions run. ImportError: it is not there, or of a
-    version with other structs. What an older one of the same version lacks is an AttributeError when it is called."""
+    version with other structs. A function that an older build of the same version lacks raises AttributeError when
+    called."""
     try:
         loaded = ctypes.CDLL(path)
         for name, parameters in PARAMETERS.items():
@@ -109,8 +110,8 @@ def _broken_rules(loaded: ctypes.CDLL, context: c_void_p | None) -> tuple[Broken
 
 
 def checked(loaded: ctypes.CDLL, result: int, context: c_void_p | None = None) -> Result:
-    """The result of a call that did not fail; else raises its error, with the message that the library has for the
-    context, or for this thread's calls without one. So it has to follow the call before another does."""
+    """The result of a call that did not fail; otherwise raises its error with the library's message, which is kept for
+    the context, or for this thread's calls without one. So no other call may come in between."""
     if result >= 0:
         return Result(result)
     message = _text(loaded.pt_last_error(context))

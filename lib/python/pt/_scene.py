@@ -173,7 +173,7 @@ class _Materials:
 
 
 class SceneStruct:
-    """A pt_scene with what it points to, which lives as long as this object."""
+    """A pt_scene, and what it points to, which lives as long as this object."""
 
     def __init__(self, scene: Scene, guard: CallbackGuard, progress: Progress | None) -> None:
         materials = _Materials(scene.materials)
@@ -201,6 +201,6 @@ class SceneStruct:
 
 
 def _pointer(struct: Any, elements: list[Any]) -> Any:
-    """To an array of structs, which the pointer keeps; NULL where there are none."""
+    """A pointer to an array of structs, which it keeps alive; NULL if there are none."""
     return (struct * len(elements))(*elements) if elements else None
 

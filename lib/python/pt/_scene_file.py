@@ -17,8 +17,8 @@ def camera_section(camera: Camera) -> dict[str, Any]:
 
 
 def material_section(material: object) -> dict[str, Any]:
-    """Without what is as by default; one number for a grey."""
-    assert isinstance(material, Material)  # and no index of one
+    """Without values that are the default; a grey is one number."""
+    assert isinstance(material, Material)  # and not the index of one
     section: dict[str, Any] = {}
     for name in ("diffuse", "specular", "emission", "glossiness", "hidden_from_camera"):
         value = getattr(material, name)

@@ -22,7 +22,7 @@ class Stats:
     alone knows is 0.
     """
 
-    sample_count: int  # whole samples in every pixel; the fewest that one has
+    sample_count: int  # whole samples that every pixel has
     max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
     mean_sample_count: float  # of all pixels
     rejected_samples: int  # left out of all pixels: NaN, infinite, negative or too bright
@@ -32,7 +32,7 @@ class Stats:
     relative_rmse: float  # relative root mean square error, a number
     relative_rmse_low: float
     relative_rmse_high: float
-    uncertain: Uncertain  # how far the error can be known
+    uncertain: Uncertain  # why the error may be far off
     features: Feature  # of the kernel
     device_bytes: int  # memory allocated on all its devices now
     device_count: int  # devices that share the samples

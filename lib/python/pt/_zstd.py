@@ -9,7 +9,7 @@ MAGIC = bytes.fromhex("28b52ffd")
 
 
 def module() -> Any:
-    """With compress and decompress; None if there is none."""
+    """A module with compress and decompress; None if there is none."""
     for name in ("compression.zstd", "zstandard"):
         try:
             return importlib.import_module(name)
@@ -19,8 +19,8 @@ def module() -> Any:
 
 
 def packer(size: int) -> Any:
-    """With compress(piece) and flush(), for a frame that tells the size of what is in it, as readers of films ask; None
-    if there is no module for it."""
+    """An object with compress(piece) and flush(), for a frame that tells the size of its contents, as readers of films
+    need; None if there is no module for it."""
     found = module()
     if found is None:
         return None

@@ -51,7 +51,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def frames_of(arguments: argparse.Namespace) -> list[int | None]:
-    """Those that are to be rendered; of a picture one without a number."""
+    """The frames to render; a single picture is one frame without a number."""
     if arguments.frames is None:
         return [None]
     found = re.fullmatch(r"(\d+)(?:-(\d+))?", arguments.frames, re.ASCII)
@@ -79,7 +79,7 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def check_files(arguments: argparse.Namespace) -> None:
-    """Now rather than after hours."""
+    """Checks names and formats of outputs now, rather than after hours."""
     wanted: list[tuple[str, tuple[str, ...]]] = [(name, PICTURES) for name in arguments.output]
     wanted += [(arguments.standard_error, ("exr",))] if arguments.standard_error else []
     wanted += [(name, ()) for name in (arguments.film, arguments.checkpoint) if name]
@@ -88,7 +88,7 @@ def check_files(arguments: argparse.Namespace) -> None:
 
 
 def written(arguments: argparse.Namespace) -> list[str]:
-    """Names of what is written of a picture, or of each frame."""
+    """Names of the files that are written for a picture, or for each frame."""
     return [*arguments.output, *filter(None, (arguments.film, arguments.standard_error))]
 
 

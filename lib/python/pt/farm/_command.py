@@ -32,7 +32,7 @@ from pt.farm._sum import write_film
 
 @contextlib.contextmanager
 def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
-    """A client of it."""
+    """A client of the cluster."""
     logging.getLogger("distributed").setLevel(logging.ERROR)
     try:
         dask: Any = importlib.import_module("distributed")  # which has no types, and takes half a second
@@ -52,7 +52,7 @@ def cluster(arguments: argparse.Namespace) -> Iterator[Any]:
             yield client
         return
     count = arguments.local_workers or 2
-    # Each takes its share of the processors; drivers take all of them else.
+    # Each worker gets its share of the processors; otherwise every driver would take all of them.
     os.environ.setdefault("LP_NUM_THREADS", str(max((os.cpu_count() or count) // count, 1)))
     with dask.LocalCluster(n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None,
                       host="127.0.0.1") as local, dask.Client(local) as client:
@@ -81,7 +81,7 @@ def write_pictures(film: Film, arguments: argparse.Namespace, facts: dict[str, A
 
 
 def described(job: FileJob, frame: int | None) -> tuple[FileJob, dict[str, Any]]:
-    """A job with its settings, and the facts that pt says of it here. Error: it is refused."""
+    """A job with its settings, and what pt says of it on this machine. Error: it is refused."""
     job = job if frame is None else replace(job, arguments=(*job.arguments, "--frames", str(frame)))
     reader = Program(job)
     reader.close()
@@ -99,7 +99,7 @@ def render_pictures(arguments: argparse.Namespace, others: list[str], signals: S
                       checkpoint=arguments.checkpoint, checkpoint_every=arguments.checkpoint_every,
                       wait_for_workers=arguments.wait)
     for frame in frames[:1]:
-        described(scene, frame)  # what is refused is refused before workers start
+        described(scene, frame)  # refusals come before workers start
     with cluster(arguments) as client:
         for frame in frames:
             job, facts = described(scene, frame)

@@ -24,15 +24,15 @@ from pt.farm._speed import least_seconds
 from pt.farm._sum import Sum, read_film, write_film
 from pt.farm._workers import MOST_FETCHED, Member, Try, now, submit
 
-TICK = 0.25  # seconds between looks at who is late: little beside patience, and progress seems alive
+TICK = 0.25  # seconds between looks for late parts: short against patience, and often enough for progress
 SLOTS = 2  # parts that a worker has at a time: it renders one while the other travels or waits for the coordinator
 
 # Of a CPU a sample of 16 tiles takes as long a tile as one of 1024 (measure.py costs); 64 let 16 cores have 4 each.
 # 4096 are 262,144 pixels, for each of which a GPU has an invocation: about as many as the largest have under way.
 LEAST_TILES = {True: 64, False: 4096}
-LEAD = 0.05  # seconds: of the way to a worker and back, and of the coordinator's merging
+LEAD = 0.05  # seconds for the way to a worker and back, and for merging
 LATE = 3.0  # times the expected seconds
-LOOK_SHARE = 0.05  # of the time, for the error that is shown: looking takes as long as planning a round
+LOOK_SHARE = 0.05  # of the time for computing the error that is shown, which takes as long as planning a round
 
 
 class _Opened(NamedTuple):
@@ -44,7 +44,7 @@ class _Opened(NamedTuple):
 
 
 class Coordinator:
-    """final: samples that each pixel will have at last; 0: that will be decided."""
+    """final: samples that each pixel will have in the end; 0: not decided yet."""
 
     def __init__(self, client: Any, job: AnyJob, options: Options,
                  show: Callable[[Progress, Film | None], object], final: int) -> None:
@@ -58,8 +58,8 @@ class Coordinator:
         self._events: queue.Queue[tuple[Any, ...]] = queue.Queue(MOST_FETCHED)
         self._closed = False
         self._waiting: deque[tuple[int | None, Part]] = deque()  # with its number, once it has been given out
-        self._open: set[int] = set()  # numbers of parts that were given out and are not merged
-        self._tries: dict[int, list[str]] = {}  # that came to nothing, by number: addresses of their workers
+        self._open: set[int] = set()  # numbers of parts that were given out and are not merged yet
+        self._tries: dict[int, list[str]] = {}  # by number of a part: addresses of workers that failed at it
         self._next_number = 0
         self._progress = Progress()
         self._sum = Sum(read_film(options.checkpoint) if options.checkpoint else None, job.settings.width,
@@ -70,8 +70,8 @@ class Coordinator:
         self._checkpoint_error = ""
         self._look_end = self._look_cost = 0.0
         self._goals: Goals = np.zeros(self._shape, np.uint32)
-        self._has_only = self._sum.film is None  # whether it had just the samples of the goals before these
-        self._cells: Cells | None = None  # of the film when so many parts were merged
+        self._has_only = self._sum.film is None  # whether the film had no samples beyond the earlier goals
+        self._cells: Cells | None = None  # the film's, when so many parts were merged
         self._cells_at = 0
         self._asked_at = -1  # parts
         self._ask_end = self._ask_cost = 0.0
@@ -80,11 +80,11 @@ class Coordinator:
     # ---- the picture ----
 
     def run(self, goals: Goals, more: Callable[[], Goals | None] = lambda: None) -> bool:
-        """Until the film has these samples by tile; False if progress() asked to stop. more: is asked, when all has
-        been given out and some of it is back, what tiles with nothing under way are to have besides."""
+        """Works until the film has these samples by tile; False if progress() asked to stop. more: asked, once all
+        parts are given out and some are back, what else tiles with nothing under way are to have."""
         first_sample, has_worked = self._job.settings.first_sample, False
         self._goals = goals
-        while not self._stopped:  # the film itself says when it has all, and not the accounts of parts
+        while not self._stopped:  # the film itself says when it is complete, not the list of parts
             if self._cells is None or self._cells_at != self._progress.parts:
                 self._cells, self._cells_at = cells_of(self._sum.film, self._shape), self._progress.parts
             missing = missing_parts(self._cells, first_sample, self._goals)
@@ -111,15 +111,15 @@ class Coordinator:
         self._sum.merge()
 
     def _want(self) -> None:
-        """Tells how many samples a pixel will have, as far as that is decided."""
+        """Updates how many samples a pixel will have, as far as that is decided."""
         wanted = np.maximum(self._goals, self._final).astype(np.float64)
         for samples, tiles in self._cells or ():  # a film that is gone on from may have more
             wanted.ravel()[tiles] = np.maximum(wanted.ravel()[tiles], sum(map(len, samples)))
         self._progress.samples_wanted = float((wanted * self._pixels).sum() / self._pixels.sum())
 
     def _seconds_to_ask(self) -> float:
-        """Until shortly before a worker will have nothing to do, if a part has been merged since the last time; but the
-        later, the more tiles are back to be decided together. For no more than half of the time."""
+        """Until it is time to ask for more: shortly before a worker runs out of work, since the later it is, the more
+        tiles can be decided together; not twice without a new part; and for half of the time at most."""
         if self._waiting or not self._open or not self._has_only or self._progress.parts == self._asked_at:
             return float("inf")
         idle = min((member.busy_until for member in self._crew if member.can_take(SLOTS)), default=float("inf"))
@@ -137,8 +137,8 @@ class Coordinator:
         self._ask_cost = self._ask_end - start
 
     def _forgot(self, missing: list[Part]) -> None:
-        """Parts that nobody failed at and that are not in the film: the accounts are wrong, though the film will not
-        be."""
+        """Counts parts that are missing though no try of them failed: the list of parts was wrong; the film will be
+        right."""
         work = sum(part.work for part in missing)
         if work:
             self._progress.forgotten += work
@@ -151,7 +151,7 @@ class Coordinator:
         return self._sum.film
 
     def look(self) -> Stats:
-        """At the film's error."""
+        """Looks at the film's error."""
         start = now()
         stats = self.film.stats()
         self._look_end, self._look_cost = now(), now() - start
@@ -160,7 +160,7 @@ class Coordinator:
         return stats
 
     def _glance(self) -> None:
-        """Looks for those who watch, if that takes less than LOOK_SHARE of the time."""
+        """Looks at the error for those who watch, if that takes less than LOOK_SHARE of the time."""
         if now() - self._look_end > self._look_cost / LOOK_SHARE:
             self.look()
 
@@ -171,7 +171,7 @@ class Coordinator:
         return Result(self.film, self._progress)
 
     def close(self) -> None:
-        """What came back is kept, whatever has ended it; nobody needs to go on."""
+        """Keeps what came back, whatever ended the rendering, and cancels the rest."""
         self._closed = True
         if not self._progress.ended_by:
             self._sum.merge()
@@ -205,7 +205,7 @@ class Coordinator:
                         self._progress.repeated += 1
 
     def _under_way(self, number: int) -> int:
-        """Tries of a part, and those that will be."""
+        """Tries of a part under way, and those to come."""
         waiting = sum(each == number for each, _ in self._waiting)
         return waiting + sum(each.number == number for member in self._crew for each in member.tries.values())
 
@@ -214,7 +214,7 @@ class Coordinator:
         self._again(address, each, "its worker died")
 
     def _again(self, address: str, each: Try, reason: str) -> None:
-        """After a try that came to nothing."""
+        """Hands a part out again after a try that failed."""
         if each.number not in self._open:
             return
         tries = self._tries.setdefault(each.number, [])
@@ -226,7 +226,7 @@ class Coordinator:
             self._waiting.appendleft((each.number, each.part))
 
     def _may_try(self, member: Member, number: int) -> bool:
-        """Not a part that it has already, nor, while there are others, one that came to nothing there."""
+        """Whether a worker may have a part: not if it has it already or, while there are others, if it failed at it."""
         if any(each.number == number for each in member.tries.values()):
             return False
         tried = self._tries.get(number, [])
@@ -272,7 +272,7 @@ class Coordinator:
         self._tell_of(future, *self._opened(_task.first_part(self._job), outcome, None))
 
     def _tell_of(self, *event: Any) -> None:
-        """Waits for its turn, so that films do not pile up here."""
+        """Waits until the event can be queued, so that films do not pile up here."""
         while not self._closed:
             with contextlib.suppress(queue.Full):
                 self._events.put(event, timeout=TICK)
@@ -280,7 +280,8 @@ class Coordinator:
 
     def _opened(self, part: Part, outcome: _task.Outcome | None, identity: Identity | None
                 ) -> tuple[_task.Outcome | None, _Opened | None]:
-        """Called by threads, so that films are unpacked beside each other. identity: that it has to have."""
+        """Called by threads, so that films are unpacked beside each other. identity: the one that the film must
+        have."""
         if outcome is None or outcome.error:
             return outcome, None
         try:
@@ -318,7 +319,7 @@ class Coordinator:
             return
         member = self._crew.of_part(future)
         if member is None:
-            return  # of a worker that was taken for dead: the part has been given out again
+            return  # its worker was taken for dead, and the part has been given out again
         each = member.tries.pop(future.key)
         if outcome is None:
             self._lose(member.address, each)

@@ -40,8 +40,8 @@ class Crew:
         return any(member.identity for member in self)
 
     def look(self) -> list[tuple[str, Try]]:
-        """Who has come and gone; what those who have gone had to do, with their addresses. FarmError: nobody can
-        work."""
+        """Takes note of who has come and gone. Returns what those who left had to do, with their addresses. FarmError:
+        nobody can work."""
         if now() - self._looked < LOOK_SECONDS:
             return []
         try:
@@ -74,7 +74,7 @@ class Crew:
         return next((member for member in self if future.key in member.tries), None)
 
     def meet(self, member: Member, outcome: Outcome | None, identity: Identity | None) -> None:
-        """After its introduction. identity: of the film that came with it."""
+        """Takes in a worker after its introduction. identity: that of the film that came with it."""
         member.introduction = None
         if outcome is None:
             member.is_banned = True  # it has died, and will be gone at the next look
@@ -85,7 +85,7 @@ class Crew:
             self._compare(member, identity)
 
     def blame(self, member: Member, outcome: Outcome, most: int = MOST_FAILURES) -> None:
-        """For an error. FarmError: no other worker could do better."""
+        """Counts a worker's error. FarmError: no other worker could do better."""
         self._progress.failed += 1
         self._progress.last_result = outcome.result
         if not outcome.may_help_elsewhere:

@@ -7,7 +7,7 @@ import importlib
 from dataclasses import dataclass
 
 FIRST, LAST = "scene", "device"
-WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # what depends on workers, and not on the picture
+WORTH_ANOTHER_WORKER = ("estimator_version", "kernel", LAST)  # these depend on workers, not on the picture
 CHECKSUM_BYTES = 8
 
 
@@ -17,7 +17,7 @@ class Identity:
 
     @property
     def models(self) -> frozenset[str]:
-        """Of devices, with their drivers."""
+        """Names of devices, with their drivers."""
         return frozenset(dict(self.lines)[LAST].split(" and "))
 
     def differences(self, other: Identity, but: tuple[str, ...] = ()) -> list[str]:
@@ -27,7 +27,7 @@ class Identity:
 
 
 def identity_of(data: bytes) -> Identity:
-    """Of a film's bytes. ValueError: they are none."""
+    """The identity in a film's bytes. ValueError: they are no film."""
     names = dict(line.partition(" ")[::2] for line in _header(data).decode("ascii", "replace").splitlines())
     keys = list(names)
     if FIRST not in names or LAST not in names:

@@ -61,7 +61,7 @@ def unpacked(data: bytes) -> AnyJob:
 
 
 def name_of(data: bytes) -> str:
-    """By which workers know a packed job again."""
+    """A digest by which workers recognise a packed job."""
     return hashlib.sha256(data).hexdigest()[:32]
 
 

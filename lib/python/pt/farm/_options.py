@@ -10,7 +10,7 @@ from pt._files import Path
 
 
 class FarmError(RuntimeError):
-    """The picture cannot be made; with what workers said. What came back before is in the checkpoint.
+    """The picture cannot be made; the message has what workers said. Films that came back are in the checkpoint.
 
     result: the library's, of the worker's error that is to blame; ERROR_INTERNAL if there is none."""
 
@@ -45,7 +45,7 @@ class Options:
 
 @dataclass
 class Progress:
-    """Counts so far. A number of parts that were issued is that of those merged, dropped, failed, lost and under way."""
+    """Counts so far. Parts issued are those merged, dropped, failed, lost and under way."""
 
     seconds: float = 0.0
     samples: float = 0.0  # a pixel, the mean of all, when the film was last looked at
@@ -55,11 +55,11 @@ class Progress:
     workers: int = 0
     parts: int = 0  # merged
     issued: int = 0
-    repeated: int = 0  # tries that began since others were late
+    repeated: int = 0  # tries that began because others were late
     dropped: int = 0  # duplicates that came second
     failed: int = 0  # tries, which were repeated elsewhere
     lost: int = 0  # tries whose worker died
-    forgotten: int = 0  # samples of tiles that the coordinator lost by mistakes of its own, and had taken again
+    forgotten: int = 0  # samples of tiles that the coordinator lost by a mistake of its own, and had rendered again
     part_bytes: int = 0  # received
     messages: list[str] = field(default_factory=list)  # of workers
     last_result: int = enums.Result.OK  # the library's, of the error that came last
@@ -81,6 +81,6 @@ class Result:
 
     @property
     def devices(self) -> tuple[str, ...]:
-        """Models and drivers that took the samples. Of more than one the picture is statistically, not bitwise, that of
-        one machine."""
+        """Models and drivers that took the samples. With more than one, the picture is as good as one machine's, but
+        not the same to the bit."""
         return tuple(self.film.info.device.split(" and "))

@@ -24,12 +24,12 @@ class Part:
 
     @property
     def work(self) -> int:
-        """Samples of tiles."""
+        """Samples times tiles."""
         return (self.end - self.first) * len(self.tiles)
 
     def split(self, work: int, least_tiles: int) -> tuple[Part, list[Part]]:
-        """A part of about that work, and the rest. Rather fewer tiles than fewer samples, as a film's size goes by its
-        tiles; but no fewer tiles than keep a device busy."""
+        """A part of about that work, and the rest. It is cut by tiles rather than by samples, as tiles make up a film's
+        size, but keeps as many tiles as keep a device busy."""
         samples = self.end - self.first
         if self.work <= work:
             return self, []
@@ -69,7 +69,7 @@ Cells = list[tuple[tuple[range, ...], Indices]]  # samples, and the tiles that h
 
 
 def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
-    """What the tiles of a film have; those that it lacks have nothing."""
+    """The samples of a film's tiles; tiles that it lacks have none."""
     found: dict[tuple[range, ...], list[Indices]] = {}
     seen = np.zeros(shape, bool)
     indices = np.arange(seen.size, dtype=np.uint32).reshape(shape)
@@ -83,8 +83,8 @@ def cells_of(film: Film | None, shape: tuple[int, int]) -> Cells:
 
 
 def missing_parts(cells: Cells, first_sample: int, goals: Goals) -> list[Part]:
-    """What a film lacks until each tile has the samples from first_sample on that it is to have. The film alone tells,
-    so that one from a checkpoint goes on like any other."""
+    """What a film lacks until each tile has its samples from first_sample on. Only the film is asked, so that one from
+    a checkpoint goes on like any other."""
     wanted: dict[tuple[int, int], list[Indices]] = {}
     for samples, tiles in cells:
         tile_goals = goals.ravel()[tiles]
@@ -105,7 +105,7 @@ def has_only(cells: Cells, first_sample: int, goals: Goals) -> bool:
 
 
 def further_parts(before: Goals, after: Goals, first_sample: int) -> list[Part]:
-    """Of tiles that have the one number of samples from first_sample on, and are to have the other."""
+    """The parts that take tiles from one number of samples to a larger one, both counted from first_sample."""
     tiles = np.flatnonzero(after.ravel() > before.ravel()).astype(np.uint32)
     wanted: dict[tuple[int, int], list[Indices]] = {}
     steps = np.stack([before.ravel()[tiles], after.ravel()[tiles]])
@@ -120,7 +120,7 @@ def _joined(wanted: dict[tuple[int, int], list[Indices]]) -> list[Part]:
 
 
 def _gaps(samples: tuple[range, ...], first: int, end: int) -> Iterator[tuple[int, int]]:
-    """What of the samples from first to end - 1 is not among those."""
+    """The ranges of [first, end) that are not in these."""
     for present in samples:
         if present.start > first:
             yield first, min(present.start, end)

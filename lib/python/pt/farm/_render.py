@@ -49,7 +49,7 @@ def render(client: Any, job: AnyJob, samples: int, *, target_error: float = 0.0,
 
 
 def _to_samples(coordinator: Coordinator, job: AnyJob, samples: int) -> Result:
-    """By and by, so that the picture so far is one of all pixels."""
+    """In steps, so that the picture so far always has all pixels."""
     shape = grid_shape(job.settings.width, job.settings.height)
     steps = [np.full(shape, count, np.uint32) for count in _counts_to(samples)]
     ended = True
@@ -69,8 +69,8 @@ def _counts_to(samples: int) -> Iterator[int]:
 
 def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error: float, sampling: Sampling) -> Result:
     def further() -> Goals | None:
-        """What tiles take that have come back while others have not: their own samples decide it, whatever those are
-        (lib/film/adaptive_plan.h)."""
+        """What tiles that have come back take next, while others are still under way: their own samples alone decide
+        that (lib/film/adaptive_plan.h)."""
         result, planned = coordinator.film.plan(target_error, samples)
         return planned if result == Outcome.PENDING else None
 

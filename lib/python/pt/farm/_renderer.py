@@ -68,7 +68,7 @@ class Library:
 
 
 class Program:
-    """`pt render --parts` (cli/render/render_command.h tells its requests and answers).
+    """`pt render --parts` (cli/render/render_command.h describes its requests and answers).
 
     facts: what it says of the job, before it has looked for a device."""
 

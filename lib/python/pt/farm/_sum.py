@@ -20,11 +20,11 @@ PIXEL_BYTES = 112
 # With batches of 1/8, 1/16, 1/32 and 1/64 of a film, adding 254 parts of 128 tiles took 0.64, 0.68, 0.69 and 0.68 s of a
 # processor; 1/8 took 2.5 films of memory (measure.py memory), and 1/32 1.5.
 BATCH_SHARE = 1 / 32
-SHOW_SHARE = 0.02  # of the time, for adding less than that, so that the picture so far is recent
+SHOW_SHARE = 0.02  # of the time, for adding early, so that the picture so far is recent
 
 
 class Sum:
-    """mixed: films of other devices are added too, and it says of which."""
+    """mixed: films of other devices are added too, and the sum names them."""
 
     def __init__(self, kept: Film | None, width: int, height: int, *, mixed: bool = False) -> None:
         self.film = kept
@@ -55,7 +55,7 @@ class Sum:
         return self._bytes >= self._most_bytes or now() - self._merged > self._cost / SHOW_SHARE
 
     def merge(self) -> None:
-        """First parts with each other, as sums of few tiles are short."""
+        """Adds parts to each other first, as sums of few tiles are short."""
         if not self._parts:
             return
         start, sums = now(), deque(self._parts)
@@ -78,15 +78,15 @@ class Sum:
 
 
 def _give_back() -> None:
-    """To the system, what freed parts have left: glibc keeps it for each thread that has taken some, more than a film
-    in all (measure.py memory)."""
+    """Returns the memory of freed parts to the system: glibc keeps some for each thread, in all more than a film takes
+    (measure.py memory)."""
     with contextlib.suppress(AttributeError, OSError):  # not glibc
         ctypes.CDLL(None).malloc_trim(0)
 
 
 def write_film(film: Film, path: Path) -> None:
-    """Packed by zstd where there is a module for it, as the program does; `pt merge` and `pt render --resume` read
-    both."""
+    """The film's bytes, packed by zstd like the program's if there is a module for it; `pt merge` and `pt render
+    --resume` read both."""
     packer = _zstd.packer(film.size)
     if packer is None:
         film.save(path)

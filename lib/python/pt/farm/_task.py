@@ -18,7 +18,7 @@ from pt.farm._job import AnyJob, name_of, unpacked
 from pt.farm._part import Part
 from pt.farm._renderer import Renderer, renderer_of
 
-CLOCKS = 1.01  # how much faster a worker's may go than another's
+CLOCKS = 1.01  # how much faster one machine's clock may go than another's
 PERMANENT = (InvalidSceneError, InvalidArgumentError, IncompatibleError)
 
 
@@ -35,8 +35,8 @@ class Outcome:
 
 
 def fault_of(value: object, seconds: float) -> str:
-    """What is wrong with a value that should be an Outcome, of a task that was given out so many seconds ago; a worker
-    may send anything."""
+    """What is wrong with a value that should be the Outcome of a task given out so many seconds ago: a worker may send
+    anything."""
     if not isinstance(value, Outcome):
         return f"a value of type {type(value).__name__}"
     for name, kind in (("data", bytes), ("seconds", float), ("is_cpu", bool), ("error", str),
@@ -49,7 +49,7 @@ def fault_of(value: object, seconds: float) -> str:
 
 
 def first_part(job: AnyJob) -> Part:
-    """By which a worker shows whose samples it takes."""
+    """The part by whose film a worker shows its device, driver and kernel."""
     first = job.settings.first_sample
     return Part(first, first + 1, np.zeros(1, np.uint32))
 
@@ -73,7 +73,7 @@ def _failed(error: Exception) -> Outcome:
 
 
 def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
-    """Makes a worker ready for a packed job, in place of the one before; the film of its first part."""
+    """Makes a worker ready for a packed job, in place of the one before. Returns the film of its first part."""
     global _ready
     with _lock:
         try:
@@ -89,12 +89,12 @@ def introduce(data: bytes, codecs: frozenset[str]) -> Outcome:
 
 
 def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
-    """The film of a part. codecs: of the coordinator."""
+    """The film of a part. codecs: those of the coordinator."""
     with _lock:
         try:
             if _ready is None or _ready.name != name:
                 raise RuntimeError("this worker has another job")
-            if _ready.has_failed:  # as a device that was lost does not come back, but to another context or process
+            if _ready.has_failed:  # a lost device comes back only to another context or process
                 _ready.renderer.close()
                 _ready.renderer, _ready.has_failed = renderer_of(_ready.job), False
             start = time.monotonic()
@@ -107,7 +107,7 @@ def render_part(name: str, part: Part, codecs: frozenset[str]) -> Outcome:
 
 
 def codecs() -> frozenset[str]:
-    """What this machine unpacks besides zlib, which Python has."""
+    """The packers that this machine has besides zlib, which Python has."""
     return frozenset({"zstd"} if _zstd.module() else ())
 
 
