@@ -8,9 +8,13 @@ import unittest
 
 ROOT = pathlib.Path(sys.argv[1])
 PAGES = [path for folder in (".", "cli", "lib", "shaders", "tests") for path in (ROOT / folder).glob("*.md")]
-PAGES += [*(ROOT / "tests").glob("*/*.md"), *(ROOT / "lib").glob("*/*.md")]
+PAGES += [*(ROOT / "tests").glob("*/**/*.md"), *(ROOT / "lib").glob("*/*.md")]
 CURRENT = [page for page in PAGES if page.name not in ("CHANGELOG.md", "NOTEBOOK.md")]  # which tell of the past, too
 CODE = re.compile(r"\.(h|c|cpp|glsl|comp|py|json|csv|cmake|sh)$|^CMakeLists\.txt$")
+
+# Words that a page may have, and all of them together but for the changes.
+MOST_WORDS = {"README.md": 1200, "CONTRIBUTING.md": 1500, "shaders/README.md": 9000, "tests/bench/README.md": 2500}
+MOST_WORDS_IN_ALL = 28_200
 
 # What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
 NUMBERS = (
@@ -101,6 +105,11 @@ class Documents(unittest.TestCase):
         layout = (ROOT / "shaders/gpu_layout.h").read_text(encoding="utf-8")
         parts, words = (int(re.search(rf"FILM_{name} = (\d+);", layout)[1]) for name in ("PARTS", "WORDS"))
         self.assertEqual(set(re.findall(r"(\d+) bytes a pixel", text)), {str(4 * parts * words)})
+
+    def test_pages_are_short(self):
+        words = {path: len(path.read_text(encoding="utf-8").split()) for path in PAGES if path.name != "CHANGELOG.md"}
+        self.assertLess(sum(words.values()), MOST_WORDS_IN_ALL)
+        self.assertEqual({name for name, most in MOST_WORDS.items() if words[ROOT / name] > most}, set())
 
     def test_every_function_is_named(self):
         headers = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "lib/include/pt").glob("*.h"))
