@@ -2,13 +2,13 @@
 // Renderer and in the validated_* functions. Called by programs through pt.h.
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
-#include "lib/api/image.h"
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
 #include "lib/base/struct_size.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
 #include "lib/kernel/accuracy.h"
+#include "lib/render/image.h"
 #include "lib/render/renderer.h"
 
 #include <pt/async.h>

@@ -3,11 +3,11 @@
 
 #include "lib/api/context.h"
 #include "lib/api/guard.h"
-#include "lib/api/image.h"
 #include "lib/base/rules.h"
 #include "lib/base/struct_size.h"
 #include "lib/base/work_progress.h"
 #include "lib/film/pixel_format.h"
+#include "lib/render/image.h"
 
 #include <pt/film.h>
 

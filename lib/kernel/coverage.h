@@ -6,7 +6,7 @@
 #include "lib/film/tile_samples.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_kernel.h"
-#include "lib/render/render_settings.h"
+#include "lib/scene/render_settings.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"

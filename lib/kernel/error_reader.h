@@ -2,8 +2,8 @@
 // RenderDevice; bound to its film.
 #pragma once
 
-#include "lib/film/device_film.h"
 #include "lib/film/error_estimate.h"
+#include "lib/kernel/device_film.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"

@@ -2,7 +2,7 @@
 // through the host's memory, and add.comp adds it. Owned by FilmView; bound to the films.
 #pragma once
 
-#include "lib/film/device_film.h"
+#include "lib/kernel/device_film.h"
 #include "lib/vulkan/buffer.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"

@@ -4,8 +4,8 @@
 
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/scene_features.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 #include "shaders/gpu_layout.h"
 
 #include <memory>

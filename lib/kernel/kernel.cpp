@@ -3,7 +3,7 @@
 
 #include "lib/base/error.h"
 #include "lib/film/film_parts.h"
-#include "lib/film/host_fold.h"
+#include "lib/kernel/host_fold.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,14 +2,14 @@
 // Owned by RenderDevice, which makes a new one for a scene with other features.
 #pragma once
 
-#include "lib/film/device_film.h"
+#include "lib/kernel/device_film.h"
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/kernel/tile_lists.h"
 #include "lib/kernel/tile_slice.h"
 #include "lib/kernel/trace_pipelines.h"
-#include "lib/render/render_settings.h"
+#include "lib/scene/render_settings.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lib/kernel/prepared_scene.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 
 #include <cstdint>
 #include <memory>

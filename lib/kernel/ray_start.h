@@ -1,8 +1,8 @@
 // Where camera rays start in narrow views of what is far away, and parallel ones in any view.
 #pragma once
 
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/tree/sphere_tree.h"
 

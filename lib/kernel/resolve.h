@@ -2,9 +2,9 @@
 // dispatches. Owned by RenderDevice; used by ImageReader and BufferWriter.
 #pragma once
 
-#include "lib/film/device_film.h"
 #include "lib/film/film_header.h"
 #include "lib/film/pixel_format.h"
+#include "lib/kernel/device_film.h"
 #include "lib/vulkan/compute_pipeline.h"
 #include "lib/vulkan/device.h"
 #include "shaders/gpu_layout.h"

@@ -4,9 +4,9 @@
 
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/prepared_scene.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/curved_plane.h"
+#include "lib/scene/render_settings.h"
 #include "lib/scene/seen_scene.h"
 #include "lib/scene/seen_sphere.h"
 #include "lib/scene/twins.h"

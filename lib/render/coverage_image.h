@@ -1,10 +1,10 @@
 // An image of the coverage of samples, into the caller's memory. Used by Renderer.
 #pragma once
 
-#include "lib/api/image.h"
 #include "lib/film/tile_samples.h"
+#include "lib/render/image.h"
 #include "lib/render/render_device.h"
-#include "lib/render/render_settings.h"
+#include "lib/scene/render_settings.h"
 
 #include <memory>
 

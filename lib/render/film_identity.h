@@ -4,8 +4,8 @@
 #include "lib/film/film_facts.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/kernel/shader_source.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 
 #include <pt/devices.h>
 

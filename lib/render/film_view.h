@@ -2,7 +2,6 @@
 // if it is of those whose kernels do so, else on the host. Owned by Renderer.
 #pragma once
 
-#include "lib/api/image.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/tile_samples.h"
 #include "lib/film/uneven_errors.h"
@@ -10,6 +9,7 @@
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/image_reader.h"
 #include "lib/kernel/resolve.h"
+#include "lib/render/image.h"
 #include "lib/render/render_device.h"
 
 #include <cstddef>

@@ -1,11 +1,11 @@
 // An image of what camera rays meet first, into the caller's memory. Used by Renderer.
 #pragma once
 
-#include "lib/api/image.h"
 #include "lib/kernel/prepared_scene.h"
+#include "lib/render/image.h"
 #include "lib/render/render_device.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 
 #include <memory>
 

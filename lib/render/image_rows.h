@@ -1,7 +1,7 @@
 // The caller's memory for an image, filled pixel by pixel in the order of rows. Used by Renderer.
 #pragma once
 
-#include "lib/api/image.h"
+#include "lib/render/image.h"
 
 #include <cstddef>
 #include <cstdint>

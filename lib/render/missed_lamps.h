@@ -2,9 +2,9 @@
 #pragma once
 
 #include "lib/film/error_estimate.h"
-#include "lib/render/render_settings.h"
 #include "lib/render/small_lamps.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 
 #include <cstdint>
 

@@ -2,9 +2,9 @@
 // which deals samples to its devices; since the film's sums are exact, it does not matter which device takes which.
 #pragma once
 
-#include "lib/film/device_film.h"
 #include "lib/kernel/buffer_writer.h"
 #include "lib/kernel/coverage.h"
+#include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/first_hits.h"
@@ -14,8 +14,8 @@
 #include "lib/kernel/resolve.h"
 #include "lib/kernel/shader_source.h"
 #include "lib/kernel/trace_pipelines.h"
-#include "lib/render/render_settings.h"
 #include "lib/render/schedule.h"
+#include "lib/scene/render_settings.h"
 #include "lib/vulkan/device.h"
 #include "lib/vulkan/instance.h"
 

@@ -1,9 +1,9 @@
 // Films on their way between devices and bytes. Used by Renderer.
 #pragma once
 
-#include "lib/film/device_film.h"
 #include "lib/film/film_bytes.h"
 #include "lib/film/tile_samples.h"
+#include "lib/kernel/device_film.h"
 
 #include <cstddef>
 #include <span>

@@ -1,5 +1,5 @@
 // Exact sums: the device's fixed-point additions against sums of the same floats in wider integers on the host.
-#include "lib/film/device_film.h"
+#include "lib/kernel/device_film.h"
 
 #include "film_sums.spv.h"
 #include "tests/device/probe.h"

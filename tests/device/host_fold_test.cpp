@@ -1,5 +1,5 @@
 // A fold of the film's parts on the host: in which pixels, with which sums, and whether it can be undone.
-#include "lib/film/host_fold.h"
+#include "lib/kernel/host_fold.h"
 
 #include "tests/device/vulkan_fixture.h"
 

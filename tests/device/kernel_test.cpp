@@ -1,5 +1,5 @@
 // The kernel as Renderer runs it, on a device that is used otherwise than by default: what it adds to the film.
-#include "lib/film/device_film.h"
+#include "lib/kernel/device_film.h"
 #include "lib/kernel/kernel.h"
 #include "lib/kernel/trace_pipelines.h"
 #include "tests/device/coursework_gpu_scene.h"

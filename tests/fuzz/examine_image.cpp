@@ -4,8 +4,8 @@
 
 #include "lib/base/error.h"
 #include "lib/kernel/gpu_scene.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
+#include "lib/scene/render_settings.h"
 #include "lib/scene/scene.h"
 #include "tests/support/image_target.h"
 

@@ -7,9 +7,9 @@
 #include "lib/kernel/gpu_scene.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/kernel/scene_features.h"
-#include "lib/render/render_settings.h"
 #include "lib/scene/camera.h"
 #include "lib/scene/lamp_tree.h"
+#include "lib/scene/render_settings.h"
 #include "lib/scene/scene.h"
 
 #include <pt/stats.h>

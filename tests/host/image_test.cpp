@@ -1,6 +1,6 @@
 // The rules of an image in the caller's memory.
-#include "lib/api/image.h"
 #include "lib/base/error.h"
+#include "lib/render/image.h"
 #include "tests/support/image_target.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The rules of render settings and their defaults.
 #include "lib/base/error.h"
-#include "lib/render/render_settings.h"
+#include "lib/scene/render_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "lib/film/device_film.h"
+#include "lib/kernel/device_film.h"
 
 #include "lib/base/error.h"
 

@@ -1,5 +1,5 @@
 // The rules of images that callers ask for; see image.h.
-#include "lib/api/image.h"
+#include "lib/render/image.h"
 
 #include "lib/base/rules.h"
 #include "lib/film/pixel_format.h"

@@ -1,5 +1,5 @@
 // The rules of render settings and their defaults; see render_settings.h.
-#include "lib/render/render_settings.h"
+#include "lib/scene/render_settings.h"
 
 #include "lib/base/rules.h"
 

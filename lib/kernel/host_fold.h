@@ -2,8 +2,8 @@
 // writes for one invocation after the other, takes many times as long. Made by Kernel for the submission that follows.
 #pragma once
 
-#include "lib/film/device_film.h"
 #include "lib/film/part_words.h"
+#include "lib/kernel/device_film.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "lib/film/host_fold.h"
+#include "lib/kernel/host_fold.h"
 
 #include <algorithm>
 #include <array>
