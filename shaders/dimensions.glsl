@@ -61,10 +61,4 @@ vec4 direction_numbers(SampleKey branch, uint begin, uint count)
     return GLOSS == 1u ? numbers : numbers.xyzz;
 }
 
-// With ONE_LAST_DIRECTION: the shared direction likewise (x, y, z), and which branch takes it (w).
-vec4 last_direction_numbers(SampleKey key)
-{
-    return direction_numbers(key, blocks_of_sample() - 1u, 1u);
-}
-
 #endif

@@ -36,35 +36,33 @@ PT_CONSTANT ID_CURVATURE = 11;       // 1: some plane has a curvature
 PT_CONSTANT ID_POINT_BLOCKS = 12;    // blocks that the binding of the point table holds
 PT_CONSTANT ID_INSIDE = 13;          // 1: the camera is inside a sphere, so paths may be
 PT_CONSTANT ID_PLANES_BLOCK = 14;    // 1: a plane may stand between a surface that a path reaches and a lamp
-PT_CONSTANT ID_ONE_LAST_DIRECTION = 15; // 1: of the branches one takes the last direction (shaders/last_direction.glsl)
-PT_CONSTANT ID_OVERLAP = 16;         // 1: dispatches, and invocations of one, may add to a pixel at the same time
-PT_CONSTANT ID_PLANES_EMIT = 17;     // 1: some plane, or sphere held as one, emits
-PT_CONSTANT ID_SKY_COUNT = 18;       // emitting spheres that hold the camera, next after the lamps
-PT_CONSTANT ID_KNOWN_SIDES = 19;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
-PT_CONSTANT ID_PLANES_MOVE = 20;     // 1: some sphere held as a plane moves while the shutter is open
-PT_CONSTANT ID_CLOSE_LAMPS = 21;     // 1: some lamp nearly coincides with another sphere
-PT_CONSTANT ID_STARTS_AHEAD = 22;    // 1: camera rays start on a plane across the view, ahead of the pinhole
-PT_CONSTANT ID_TREE = 23;            // 1: most spheres are in a tree
-PT_CONSTANT ID_TREE_LAMPS = 24;      // lamps among them, the last ones of ID_LAMP_COUNT
-PT_CONSTANT ID_TREE_COLORS = 25;     // 1: spheres of the tree have colours of their own
-PT_CONSTANT ID_LAMP_TREE_LEVELS = 26; // of the tree of lamps, below its top; 0: there is none
-PT_CONSTANT ID_LAMP_TREE_WORDS = 27;  // of the scene buffer that are the tree's
-PT_CONSTANT ID_WALK_TRIPS = 28;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
-PT_CONSTANT ID_SPOT_COUNT = 29;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
-PT_CONSTANT ID_ORTHOGRAPHIC = 30;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
+PT_CONSTANT ID_OVERLAP = 15;         // 1: dispatches, and invocations of one, may add to a pixel at the same time
+PT_CONSTANT ID_PLANES_EMIT = 16;     // 1: some plane, or sphere held as one, emits
+PT_CONSTANT ID_SKY_COUNT = 17;       // emitting spheres that hold the camera, next after the lamps
+PT_CONSTANT ID_KNOWN_SIDES = 18;     // 1: the camera, which is on no plane, tells the side of surfaces on which paths are
+PT_CONSTANT ID_PLANES_MOVE = 19;     // 1: some sphere held as a plane moves while the shutter is open
+PT_CONSTANT ID_CLOSE_LAMPS = 20;     // 1: some lamp nearly coincides with another sphere
+PT_CONSTANT ID_STARTS_AHEAD = 21;    // 1: camera rays start on a plane across the view, ahead of the pinhole
+PT_CONSTANT ID_TREE = 22;            // 1: most spheres are in a tree
+PT_CONSTANT ID_TREE_LAMPS = 23;      // lamps among them, the last ones of ID_LAMP_COUNT
+PT_CONSTANT ID_TREE_COLORS = 24;     // 1: spheres of the tree have colours of their own
+PT_CONSTANT ID_LAMP_TREE_LEVELS = 25; // of the tree of lamps, below its top; 0: there is none
+PT_CONSTANT ID_LAMP_TREE_WORDS = 26;  // of the scene buffer that are the tree's
+PT_CONSTANT ID_WALK_TRIPS = 27;      // 0: an invocation ends each walk; otherwise trips until walks that have ended are left
+PT_CONSTANT ID_SPOT_COUNT = 28;      // spots to which the first vertex sends a ray of its own (shaders/spots.glsl)
+PT_CONSTANT ID_ORTHOGRAPHIC = 29;     // 1: camera rays are parallel; then STARTS_AHEAD is 1
 // Surfaces that camera rays pass through: the last lamps but for the tree's, the first skies, the last of the spheres that do
 // not emit, and the first planes.
-PT_CONSTANT ID_HIDDEN_LAMPS = 31;
-PT_CONSTANT ID_HIDDEN_SKIES = 32;
-PT_CONSTANT ID_HIDDEN_OTHERS = 33;
-PT_CONSTANT ID_HIDDEN_PLANES = 34;
-PT_CONSTANT ID_TREE_INSIDE = 35;     // 1: the camera is inside a sphere of the tree, or too near to tell
-PT_CONSTANT ID_TREE_LEVELS = 36;     // nodes on the way to the deepest, or some more
-PT_CONSTANT ID_UNROLLED = 37;        // surfaces over which loops are unrolled, at the most
-PT_CONSTANT ID_INTEGER_ORDER = 38;   // 1: integers are compared faster than floats (shaders/maths.glsl)
-PT_CONSTANT ID_UNIFORM_READS = 39;   // 1: words of the scene buffer, which has few, are read by the uniform binding
-PT_CONSTANT ID_KEEP_SHIFTS = 40;     // 1: what shifts a pixel's points is kept from sample to sample (sampler.glsl)
-PT_CONSTANT CONSTANT_COUNT = 41;
+PT_CONSTANT ID_HIDDEN_LAMPS = 30;
+PT_CONSTANT ID_HIDDEN_SKIES = 31;
+PT_CONSTANT ID_HIDDEN_OTHERS = 32;
+PT_CONSTANT ID_HIDDEN_PLANES = 33;
+PT_CONSTANT ID_TREE_INSIDE = 34;     // 1: the camera is inside a sphere of the tree, or too near to tell
+PT_CONSTANT ID_TREE_LEVELS = 35;     // nodes on the way to the deepest, or some more
+PT_CONSTANT ID_UNROLLED = 36;        // surfaces over which loops are unrolled, at the most
+PT_CONSTANT ID_INTEGER_ORDER = 37;   // 1: integers are compared faster than floats (shaders/maths.glsl)
+PT_CONSTANT ID_UNIFORM_READS = 38;   // 1: words of the scene buffer, which has few, are read by the uniform binding
+PT_CONSTANT CONSTANT_COUNT = 39;
 // With SCENE_IN_CONSTANTS the floats of the scene buffer follow, component i of word w as constant_id
 // CONSTANT_COUNT + 4 w + i.
 PT_CONSTANT CONSTANT_SCENE_WORDS = 64;
@@ -88,24 +86,21 @@ PT_CONSTANT SAMPLER_SOBOL = 4;
 // They come in blocks of up to four. First the blocks that all branches of a sample share: the place in the pixel (2)
 // and the time (1, with MOTION); for each of a few lamps (EVERY_LAMP_LIMIT) its place as seen from the first vertex
 // (2); with spots, the way by one of them: the direction (2) and which spot (1), and at the spot what a later vertex
-// consumes: lamp (3) and direction (2 or 3); with ONE_LAST_DIRECTION that direction (2 or 3) and which branch takes it
-// (1). Then those of a branch, for each vertex that it leaves: the place on a lamp (2) and which lamp (1, if there are
-// several) unless every lamp has been sampled there; the direction (2), the specular or diffuse lobe (1, with GLOSS)
-// and survival of Russian roulette (1, for long paths), but for a last direction that it shares. The dimensions of a
-// sequence are dealt to the blocks in this order, but to a shared last direction after all others: the low ones are its
-// best, and go to what makes most of the picture.
+// consumes: lamp (3) and direction (2 or 3). Then those of a branch, for each vertex that it leaves: the place on a
+// lamp (2) and which lamp (1, if there are several) unless every lamp has been sampled there; the direction (2), the
+// specular or diffuse lobe (1, with GLOSS) and survival of Russian roulette (1, for long paths). The dimensions of a
+// sequence are dealt to the blocks in this order: the low ones are its best, and go to what makes most of the picture.
 PT_CONSTANT EVERY_LAMP_LIMIT = 4;    // scenes with no more lamps sample every one at the first vertex
 PT_CONSTANT SPOT_LIMIT = 8;          // spots that a scene may have
 PT_CONSTANT ROULETTE_MIN_LENGTH = 8; // paths that may be this long play Russian roulette
 
 PT_FUNCTION uint camera_dimensions(uint motion) { return 2 + motion; }
-// Blocks before those of the way by a spot, of that way, and of all that branches share; that of the last direction, if
-// they share it, comes last.
+// Blocks before those of the way by a spot, of that way, and of all that branches share.
 PT_FUNCTION uint every_lamp_blocks(uint lamp_count) { return 1 + (lamp_count <= EVERY_LAMP_LIMIT ? lamp_count : 0); }
 PT_FUNCTION uint spot_blocks(uint spot_count) { return spot_count > 0 ? 3 : 0; }
-PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count, uint one_last_direction)
+PT_FUNCTION uint shared_blocks(uint lamp_count, uint spot_count)
 {
-    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count) + one_last_direction;
+    return every_lamp_blocks(lamp_count) + spot_blocks(spot_count);
 }
 PT_FUNCTION uint chosen_lamp_dimensions(uint vertex, uint lamp_count)
 {
@@ -115,19 +110,17 @@ PT_FUNCTION uint direction_dimensions(uint gloss, uint max_path_length)
 {
     return 2 + gloss + (max_path_length >= ROULETTE_MIN_LENGTH ? 1 : 0);
 }
-PT_FUNCTION uint last_direction_dimensions(uint gloss) { return 2 + gloss + 1; }
 PT_FUNCTION uint vertex_blocks(uint vertex, uint lamp_count)
 {
     return chosen_lamp_dimensions(vertex, lamp_count) > 0 ? 2 : 1;
 }
 
 // Blocks of a sample and one of its branches.
-PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count, uint one_last_direction)
+PT_FUNCTION uint path_blocks(uint max_path_length, uint lamp_count, uint spot_count)
 {
-    const uint of_sample = shared_blocks(lamp_count, spot_count, one_last_direction);
+    const uint of_sample = shared_blocks(lamp_count, spot_count);
     const uint first = of_sample + vertex_blocks(1, lamp_count);
-    return max_path_length < 2 ? of_sample
-                               : first + (max_path_length - 2) * vertex_blocks(2, lamp_count) - one_last_direction;
+    return max_path_length < 2 ? of_sample : first + (max_path_length - 2) * vertex_blocks(2, lamp_count);
 }
 
 // Blocks of a row of the point table, one sample's: the shared ones, then for each branch its own. The points of the

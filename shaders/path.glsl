@@ -5,7 +5,6 @@
 #include "camera.glsl"
 #include "dimensions.glsl"
 #include "intersect.glsl"
-#include "last_direction.glsl"
 #include "lights.glsl"
 #include "phong.glsl"
 #include "spots.glsl"
@@ -74,13 +73,6 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         radiance += light_by_way_of_spot(vertex, material, spots, key, time);
     }
 
-    // With ONE_LAST_DIRECTION branches end before their last direction, which one of them takes for all.
-    vec4 last_numbers;
-    Reservoir reservoir;
-    if (ONE_LAST_DIRECTION == 1u) {
-        last_numbers = last_direction_numbers(key);
-        reservoir = empty_reservoir(arrival, last_numbers.w);
-    }
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
@@ -105,15 +97,11 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         if (MAX_PATH_LENGTH > 2u && path.alive) {
             do {
                 extend(path, branch_numbers, later_vertex_blocks(path.vertex_count), path.vertex_count, time);
-            } while (path.alive && path.vertex_count < BRANCH_END);
+            } while (path.alive && path.vertex_count < MAX_PATH_LENGTH);
         }
-        if (ONE_LAST_DIRECTION == 1u && path.alive)
-            end_branch(path, branch_numbers, time, reservoir);
         radiance += path.radiance;
         ++branch;
     } while (branch < BRANCH_COUNT);
-    if (ONE_LAST_DIRECTION == 1u)
-        radiance += light_in_last_direction(reservoir, last_numbers, time);
     return radiance;
 }
 

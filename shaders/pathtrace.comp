@@ -37,7 +37,6 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
 {
     FrameConstants held = frame;
     SampleKey key = key_of_pixel(held.seed, pixel_index);
-    keep_shifts(key);
     do {
         vec3 radiance = path_radiance(held, pixel, key_of_sample(key, held, done));
         if (TREE == 0u || !walk_was_cut)

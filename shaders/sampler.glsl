@@ -6,8 +6,6 @@
 #include "maths.glsl"
 #include "scene.glsl"
 
-layout(constant_id = ID_KEEP_SHIFTS) const uint KEEP_SHIFTS = 0;
-
 // The points of the sequence, a row of blocks for each sample: coordinates as multiples of 2^-32, the same in every
 // pixel. A uniform buffer, since all invocations read the same block at a time.
 layout(set = 0, binding = BINDING_POINTS) uniform Points { uvec4 blocks[POINT_BLOCKS]; } points;
@@ -21,7 +19,7 @@ struct SampleKey {
 };
 
 // Blocks that the branches of a sample share.
-uint blocks_of_sample() { return shared_blocks(LAMP_COUNT, SPOT_COUNT, ONE_LAST_DIRECTION); }
+uint blocks_of_sample() { return shared_blocks(LAMP_COUNT, SPOT_COUNT); }
 
 // The key of a branch of a sample: beyond the shared blocks it is a sample of its own, number B i + b. Where that
 // passes 2^32 the seed changes, and with it the table's points, so that no branch repeats another's numbers.
@@ -68,30 +66,9 @@ uvec4 shift_of(SampleKey key, uint block)
     return key.shift * odd;
 }
 
-// A shift does not depend on the sample, but not all compilers take it out of the loop over samples. So it is kept
-// where paths are so short that all blocks are known when the kernel is compiled (0.98 of the time on lavapipe 22.3
-// with two vertices).
-const uint MOST_KEPT = 8u;
-uvec4 kept_shifts[MOST_KEPT];
-
 bool all_in_table()
 {
-    return path_blocks(MAX_PATH_LENGTH, LAMP_COUNT, SPOT_COUNT, ONE_LAST_DIRECTION) <= TABLE_BLOCKS;
-}
-
-bool shifts_are_kept()
-{
-    bool few = MAX_PATH_LENGTH <= 2u && all_in_table() && TABLE_BLOCKS <= MOST_KEPT;
-    return KEEP_SHIFTS == 1u && SAMPLER != SAMPLER_RANDOM && few;
-}
-
-// To be called before the first sample of a pixel.
-void keep_shifts(SampleKey key)
-{
-    if (shifts_are_kept())
-        [[unroll]] for (uint block = 0u; block < MOST_KEPT; ++block)
-            if (block < TABLE_BLOCKS)
-                kept_shifts[block] = shift_of(key, block);
+    return path_blocks(MAX_PATH_LENGTH, LAMP_COUNT, SPOT_COUNT) <= TABLE_BLOCKS;
 }
 
 // The sample's numbers of a block, as multiples of 2^-32. Sobol points are shifted digit by digit in base 2, by
@@ -104,7 +81,7 @@ uvec4 sample_words(SampleKey key, uint block)
     if (!in_table)
         return pcg4d(uvec4(key.pixel, key.sample_index, block + key.seed.x, key.seed.y));
     uvec4 point = points.blocks[key.row + block];
-    uvec4 shift = shifts_are_kept() ? kept_shifts[block] : shift_of(key, block);
+    uvec4 shift = shift_of(key, block);
     return SAMPLER == SAMPLER_SOBOL ? point ^ shift : SAMPLER == SAMPLER_HALTON_CP ? point + shift : point;
 }
 

@@ -45,7 +45,6 @@ layout(constant_id = ID_HIDDEN_SKIES) const uint HIDDEN_SKIES = 0;
 layout(constant_id = ID_HIDDEN_OTHERS) const uint HIDDEN_OTHERS = 0;
 layout(constant_id = ID_HIDDEN_PLANES) const uint HIDDEN_PLANES = 0;
 layout(constant_id = ID_UNIFORM_READS) const uint UNIFORM_READS = 0;
-layout(constant_id = ID_ONE_LAST_DIRECTION) const uint ONE_LAST_DIRECTION = 0;
 layout(constant_id = ID_UNROLLED) const uint UNROLLED = 112;
 
 layout(set = 0, binding = BINDING_SCENE_UNIFORM) uniform SceneUniform {

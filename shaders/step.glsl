@@ -221,7 +221,7 @@ void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, La
 Material material_to_leave(uint surface, uint vertex_count)
 {
     Material material = material_of(surface);
-    bool last = ONE_LAST_DIRECTION == 0u && vertex_count + 1u == MAX_PATH_LENGTH;
+    bool last = vertex_count + 1u == MAX_PATH_LENGTH;
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 

@@ -12,7 +12,7 @@ namespace pt {
 
 inline void set_device_constants(std::span<std::uint32_t> constants, const vulkan::DevicePolicy &policy) {
     constants[gpu::ID_UNROLLED] = policy.unrolled;
-    constants[gpu::ID_INTEGER_ORDER] = policy.integer_order ? 1 : 0;
+    constants[gpu::ID_INTEGER_ORDER] = policy.compiles_for_cpu ? 1 : 0;
 }
 
 } // namespace pt

@@ -215,10 +215,9 @@ FromStart from_start(const PreparedScene &scene, const Camera &camera, const Ren
 
 } // namespace
 
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
-                   bool one_last_direction) {
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
     const auto [distinct, start] = from_start(scene, camera, settings);
-    return gpu_scene(distinct, scene, start, settings, one_last_direction);
+    return gpu_scene(distinct, scene, start, settings);
 }
 
 KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
@@ -227,9 +226,9 @@ KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, con
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
-                   const RenderSettings &settings, bool one_last_direction) {
+                   const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
-    const Features features = features_of(distinct, surfaces, scene, start, settings, one_last_direction);
+    const Features features = features_of(distinct, surfaces, scene, start, settings);
     return {features,
             words_of(surfaces, scene, start, features),
             frame_constants(start, settings, scene.film_unit),

@@ -24,16 +24,14 @@ struct GpuScene {
     double start_distance;                  // of the coordinates' origin from the pinhole, along the view (ray_start.h)
 };
 
-// one_last_direction: whether devices are faster so, where the scene allows it (DevicePolicy). Throws
-// PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for it.
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings,
-                   bool one_last_direction = true);
+// Throws PT_ERROR_UNSUPPORTED if a sphere would have to be held as a plane but moves too far for it.
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
 // What the words are of, in the order in which kernels number it; what is in a tree follows.
 KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings);
 
 // The same of what is left of the scene without twins, seen from where camera rays start.
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
-                   const RenderSettings &settings, bool one_last_direction = true);
+                   const RenderSettings &settings);
 
 } // namespace pt

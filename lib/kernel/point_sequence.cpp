@@ -193,10 +193,6 @@ std::uint32_t owen_scrambled(std::uint32_t coordinate, std::uint32_t seed) {
     return reversed_bits(v);
 }
 
-std::uint32_t PointLayout::early_dimensions() const {
-    return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + shared_blocks - late_blocks, 0U);
-}
-
 std::uint32_t PointLayout::shared_dimensions() const {
     return std::accumulate(block_dimensions.begin(), block_dimensions.begin() + shared_blocks, 0U);
 }
@@ -283,17 +279,14 @@ std::vector<PointBlock> point_table(std::uint32_t sampler, std::uint64_t seed, s
             table.push_back(block);
         }
     };
-    const auto early_blocks = block_dimensions.first(layout.shared_blocks - layout.late_blocks);
-    const auto late_blocks = block_dimensions.subspan(early_blocks.size(), layout.late_blocks);
+    const auto shared_blocks = block_dimensions.first(layout.shared_blocks);
     const auto branch_blocks = block_dimensions.subspan(layout.shared_blocks);
-    const std::uint32_t early = layout.early_dimensions();
+    const std::uint32_t shared = layout.shared_dimensions();
     const std::uint32_t all = layout.dimensions();
-    const std::uint32_t late = all - (layout.shared_dimensions() - early); // the first of the late ones
     for (const std::uint32_t index : indices) {
-        add_blocks(writer.coordinates(index, 0, early), early_blocks);
-        add_blocks(writer.coordinates(index, late, all), late_blocks);
+        add_blocks(writer.coordinates(index, 0, shared), shared_blocks);
         for (std::uint32_t branch = 0; branch < layout.branches; ++branch)
-            add_blocks(writer.coordinates(std::uint64_t{index} * layout.branches + branch, early, late), branch_blocks);
+            add_blocks(writer.coordinates(std::uint64_t{index} * layout.branches + branch, shared, all), branch_blocks);
     }
     return table;
 }

@@ -26,18 +26,16 @@ std::uint32_t prime_base(std::uint32_t dimension);
 std::uint32_t radical_inverse(std::uint64_t index, std::uint32_t dimension);
 
 // What a row of the point table consists of (gpu_layout.h, row_blocks): blocks of up to four dimensions, dealt in
-// order, but to the late ones after all others.
+// order.
 struct PointLayout {
     std::vector<std::uint32_t> block_dimensions; // how many each block has: the shared blocks, then those of a branch
     std::uint32_t shared_blocks;
     std::uint32_t branches;
-    std::uint32_t late_blocks = 0; // of the shared ones, at their end: they matter less than those of the branches
 
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(block_dimensions.size()); }
     std::uint32_t row_blocks() const { return gpu::row_blocks(block_count(), shared_blocks, branches); }
 
-    // Dimensions of the shared blocks without and with the late ones, and of all.
-    std::uint32_t early_dimensions() const;
+    // Dimensions of the shared blocks, and of all.
     std::uint32_t shared_dimensions() const;
     std::uint32_t dimensions() const;
 };

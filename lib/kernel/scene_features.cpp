@@ -4,7 +4,6 @@
 #include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/lamp_tree_words.h"
 #include "lib/kernel/light_spots.h"
-#include "lib/kernel/open_directions.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
@@ -30,11 +29,6 @@ std::uint64_t loop_trips_per_walk(const Features &features) {
 }
 
 namespace {
-
-// From so many on paths branch less: those that a device puts into a tree, as DevicePolicy::tree_from has it, since
-// walks through a list cost less. (Error times CPU time of 4 branches over those of 2, 70 to 111 spheres in a list:
-// 0.79 to 0.98 with three vertices, 0.96 to 1.05 with six; with 1,000 or more, in a tree, they lose a third.)
-constexpr std::size_t least_many_spheres = 113;
 
 // Whether all of a sphere lies where the camera is, in the convex region that planes cut out. Paths stay there, and
 // no plane comes between two points of it.
@@ -90,28 +84,6 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
     return (features.max_path_length - 1) * vertex;
 }
 
-// Whether next to all paths are as long as they may be: they cannot leave a sphere that holds the camera, nor what
-// planes all but enclose.
-bool is_closed(const KernelSurfaces &surfaces, const SeenScene &distinct) {
-    constexpr double few = 0.2; // less than between a floor and a wall, more than in a corner of three planes
-    const auto holds = [](const SeenSphere &sphere) { return !sphere.hidden && holds_camera(sphere); };
-    return std::ranges::any_of(surfaces.spheres, holds) || open_directions(distinct.planes) < few;
-}
-
-// Whether branches share their last direction, for which all else is to be known. It must find lamps alone, which the
-// branches sample as well, so that it matters little; and the more vertices there are before it, the less it does.
-// Where paths end early the branches would have no such direction, but lavapipe takes it all the same; and to look at
-// many lamps once more costs more than is saved. (Error times CPU time over that of a direction for each branch,
-// lavapipe at 512 bits: coursework with 6, 5, 4 and 3 vertices 0.92, 0.92, 0.92 and 1.07, its floor alone with 6 1.32,
-// that and one wall 1.02, two walls 0.97; mirror-wall with 6, 5 and 4 0.99, 0.99 and 2.4; many-lamps 1.17.)
-bool shares_last_direction(const Features &features, const KernelSurfaces &surfaces, const SeenScene &distinct) {
-    constexpr std::uint32_t least_length = 5;
-    const bool lamps_are_few = features.lamp_count > 0 && features.lamp_count <= gpu::EVERY_LAMP_LIMIT;
-    const bool finds_lamps_alone = features.sky_count == 0 && !features.planes_emit;
-    return features.max_path_length >= least_length && branch_count(features) > 1 && !features.tree && lamps_are_few &&
-           finds_lamps_alone && is_closed(surfaces, distinct);
-}
-
 } // namespace
 
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera) {
@@ -149,7 +121,7 @@ KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree
 }
 
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
-                     const Camera &camera, const RenderSettings &render, bool one_last_direction) {
+                     const Camera &camera, const RenderSettings &render) {
     const auto lamps = std::span(surfaces.spheres).first(surfaces.lamp_count);
     const auto glows = [&](const CurvedPlane &plane) { return emits(scene.scene.materials[plane.material]); };
     const auto moves = [](const CurvedPlane &plane) { return plane.way != glm::dvec3(0.0); };
@@ -176,7 +148,9 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
     features.sphere_count = static_cast<std::uint32_t>(surfaces.spheres.size());
     features.plane_count = static_cast<std::uint32_t>(surfaces.planes.size());
     const std::size_t sphere_count = scene.scene.spheres.size() + (tree ? tree->sphere_count() : 0);
-    features.many_spheres = sphere_count >= least_many_spheres;
+    // Walks through a list cost less. (Error times CPU time of 4 branches over those of 2, 70 to 111 spheres in a list:
+    // 0.79 to 0.98 with three vertices, 0.96 to 1.05 with six; with 1,000 or more, in a tree, they lose a third.)
+    features.many_spheres = sphere_count >= default_tree_from;
     features.tree = tree != nullptr;
     features.tree_colors = tree && tree->has_colors();
     features.tree_lamps = tree_lamps;
@@ -221,8 +195,6 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         SceneBlocks(features).word_count + gpu::SPOT_LIMIT <= gpu::UNIFORM_SCENE_WORDS)
         features.spot_count = static_cast<std::uint32_t>(light_spots(surfaces, scene.scene.materials).size());
     features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
-    features.one_last_direction =
-        one_last_direction && samples_lamps(render) && shares_last_direction(features, surfaces, distinct.seen);
     return features;
 }
 
@@ -245,8 +217,7 @@ std::uint32_t further_lamps(const Features &features, std::uint32_t branches) {
 } // namespace
 
 PointLayout point_layout(const Features &features) {
-    const std::uint32_t one_last = features.one_last_direction ? 1 : 0;
-    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count, features.spot_count, one_last);
+    const std::uint32_t shared = gpu::shared_blocks(features.lamp_count, features.spot_count);
     const std::uint32_t branches = branch_count(features);
     if (features.sampler == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
@@ -259,8 +230,6 @@ PointLayout point_layout(const Features &features) {
         blocks[spot + 1] = gpu::chosen_lamp_dimensions(2, features.lamp_count);
         blocks[spot + 2] = direction;
     }
-    if (features.one_last_direction)
-        blocks.back() = gpu::last_direction_dimensions(features.gloss ? 1 : 0);
     std::uint32_t left = sequence_dimensions - std::accumulate(blocks.begin(), blocks.end(), 0U);
     for (std::uint32_t vertex = 1; vertex < features.max_path_length; ++vertex) {
         const std::uint32_t lamp = gpu::chosen_lamp_dimensions(vertex, features.lamp_count);
@@ -268,12 +237,10 @@ PointLayout point_layout(const Features &features) {
             break;
         if (lamp > 0)
             blocks.push_back(lamp);
-        if (features.one_last_direction && vertex + 1 == features.max_path_length)
-            break;
         blocks.push_back(direction);
         left -= lamp + direction;
     }
-    return {blocks, shared, branches, one_last};
+    return {blocks, shared, branches};
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Features &features) {
@@ -316,7 +283,6 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> specialization_constants(const Fe
             static_cast<std::uint32_t>(lamp_tree_words(features.lamp_count, features.motion));
     }
     constants[gpu::ID_SPOT_COUNT] = features.spot_count;
-    constants[gpu::ID_ONE_LAST_DIRECTION] = features.one_last_direction ? 1 : 0;
     constants[gpu::ID_SCENE_SOURCE] = features.scene_in_uniform ? gpu::SCENE_IN_UNIFORM : gpu::SCENE_IN_STORAGE;
     return constants;
 }
@@ -332,8 +298,7 @@ std::uint64_t loop_trips_per_sample(const Features &features) {
     const std::uint64_t way = features.spot_count > 0
                                   ? std::uint64_t{4 + branches} * features.spot_count + 2 * walk + lamp_trips(features)
                                   : 0;
-    const std::uint64_t last_direction = features.one_last_direction ? lamp_trips(features) + walk : 0;
-    return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features) + last_direction;
+    return 1 + walk + way + first_vertex + branches * loop_trips_per_branch(features);
 }
 
 // An empty scene still costs something.
@@ -349,9 +314,8 @@ double surface_tests_per_path(const Features &features, const SphereTree *tree) 
     const std::uint32_t branches = branch_count(features);
     const std::uint64_t vertices = std::uint64_t{branches} * (features.max_path_length - 1);
     const std::uint32_t by_spot = features.spot_count > 0 ? 3 : 0; // the ray to it, and two from there
-    const std::uint32_t shared = features.one_last_direction ? branches - 1 : 0;
     return surface_tests_per_ray(features, tree) *
-           static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices - shared);
+           static_cast<double>(1 + further_lamps(features, branches) + by_spot + 2 * vertices);
 }
 
 std::uint32_t feature_bits(const Features &features) {

@@ -51,7 +51,6 @@ struct Features {
     bool close_lamps;  // some lamp nearly coincides with another sphere (twins.h)
     bool lamp_tree;    // lamps are chosen by a tree (lib/scene/lamp_tree.h)
     std::uint32_t spot_count; // of light_spots.h, to which the first vertex sends a ray of its own
-    bool one_last_direction;  // one branch takes the last direction for all (shaders/last_direction.glsl)
     bool starts_ahead;        // camera rays start on a plane across the view (ray_start.h)
     bool orthographic;        // and are parallel
     bool scene_in_uniform;    // the scene, with the words of a material for each surface, fits into a uniform buffer
@@ -85,9 +84,8 @@ struct KernelSurfaces {
 // tree: NULL if there is none.
 KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
 
-// one_last_direction: whether devices are faster so, where the scene allows it.
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
-                     const Camera &camera, const RenderSettings &render, bool one_last_direction);
+                     const Camera &camera, const RenderSettings &render);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with

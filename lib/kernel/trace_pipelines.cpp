@@ -29,8 +29,7 @@ std::vector<std::uint32_t> constants_of_features(const vulkan::Device &device, c
     set_device_constants(result, device.policy());
     result[gpu::ID_WALK_TRIPS] = features.tree ? device.policy().walk_trips : 0;
     const bool fits = SceneBlocks(features).word_count <= gpu::UNIFORM_SCENE_WORDS;
-    result[gpu::ID_UNIFORM_READS] = device.policy().uniform_reads && fits ? 1 : 0;
-    result[gpu::ID_KEEP_SHIFTS] = device.policy().keep_shifts ? 1 : 0;
+    result[gpu::ID_UNIFORM_READS] = device.policy().compiles_for_cpu && fits ? 1 : 0;
     result[gpu::ID_OVERLAP] = device.policy().invocations > 0 ? 1 : 0;
     return result;
 }

@@ -15,7 +15,7 @@ namespace pt {
 
 // Raised by whoever changes the bits of any sample, in the kernel or in what the host prepares for it, or which samples
 // a target error takes.
-inline constexpr std::uint32_t estimator_version = 5;
+inline constexpr std::uint32_t estimator_version = 6;
 
 // Where a picture's samples are taken, and how fast, is not part of it: rows, ranges, submissions, the number of equal
 // devices, and whether kernels have the scene's numbers as constants (trace_pipelines.h) leave every bit as it is.

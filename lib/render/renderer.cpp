@@ -34,7 +34,8 @@ Renderer::Renderer(const CreateSettings &settings) :
     source_(settings.shader_directory),
     code_(source_.read()),
     instance_(settings.vulkan ? vulkan::Instance(settings.log, settings.vulkan->instance)
-                              : vulkan::Instance(settings.log, settings.validation)) {
+                              : vulkan::Instance(settings.log, settings.validation)),
+    tree_from_(settings.tree_from) {
     if (settings.vulkan)
         use_device_of(*settings.vulkan, settings);
     else
@@ -58,7 +59,6 @@ void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulka
     vulkan::DevicePolicy policy =
         settings.like_gpus ? vulkan::gpu_like_policy() : vulkan::default_policy(vulkan::describe(physical_device));
     policy.scene_in_constants = policy.scene_in_constants && settings.scene_kernels;
-    policy.tree_from = settings.tree_from.value_or(policy.tree_from);
     policy.adaptive_from = settings.adaptive_from.value_or(policy.adaptive_from);
     devices_.push_back(std::make_unique<RenderDevice>(instance_, physical_device, std::move(logical_device), policy,
                                                       code_, settings.submit_milliseconds * 1e-3));
@@ -86,8 +86,7 @@ void Renderer::discard_samples() noexcept {
 
 void Renderer::set_scene(CheckedScene scene, WorkProgress &progress) {
     require_alive();
-    PreparedScene prepared(std::move(scene), devices_.front()->device().policy().tree_from, scene_ ? &*scene_ : nullptr,
-                           progress);
+    PreparedScene prepared(std::move(scene), tree_from_, scene_ ? &*scene_ : nullptr, progress);
     progress.finish();
     discard_samples();
     gpu_scene_.reset();
@@ -161,8 +160,7 @@ void Renderer::require_samples() const {
 
 const std::shared_ptr<const GpuScene> &Renderer::gpu_scene_of_settings() {
     if (!gpu_scene_)
-        gpu_scene_ = std::make_shared<const GpuScene>(
-            gpu_scene(*scene_, *camera_, *settings_, devices_.front()->device().policy().one_last_direction));
+        gpu_scene_ = std::make_shared<const GpuScene>(gpu_scene(*scene_, *camera_, *settings_));
     return gpu_scene_;
 }
 

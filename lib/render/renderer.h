@@ -47,17 +47,15 @@ struct CreateSettings {
     std::uint32_t submit_milliseconds = 50;
     std::optional<vulkan::CallerVulkan> vulkan; // the device, without validation; or else the library makes its own
     vulkan::KernelStore kernel_store;
-    std::uint32_t devices_of_each = 1;      // render devices on each that is named: tests share work where there is one
-    bool like_gpus = false;                 // CPUs are used as GPUs are: for tests without one
-    std::optional<std::uint32_t> tree_from; // DevicePolicy's: for tests of trees over few spheres
-    std::optional<std::uint32_t> adaptive_from; // likewise: for tests of few samples
+    std::uint32_t devices_of_each = 1; // render devices on each that is named: tests share work where there is one
+    bool like_gpus = false;            // CPUs are used as GPUs are: for tests without one
+    std::uint32_t tree_from = default_tree_from; // for tests of trees over few spheres
+    std::optional<std::uint32_t> adaptive_from;  // likewise: for tests of few samples
 };
 
 // All Vulkan devices of this machine.
 std::vector<pt_device_info> list_devices();
 
-// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that those
-// that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
 // What pt_accumulate is asked for.
 struct SamplesWanted {
     std::uint32_t count;                // more in every pixel, or with a target error at most
@@ -66,6 +64,8 @@ struct SamplesWanted {
     std::vector<std::uint32_t> by_tile; // more in each tile, without a target error; empty: in all alike
 };
 
+// Methods throw pt::Error. A failed one has changed nothing, except that a lost device stays lost, and that those
+// that take samples keep whole ones. While samples are under way poll(), cancel() and what is const may be called.
 class Renderer {
 public:
     explicit Renderer(const CreateSettings &settings);
@@ -180,6 +180,7 @@ private:
     ShaderSource source_;
     KernelCode code_;
     vulkan::Instance instance_;
+    std::uint32_t tree_from_;
     std::vector<std::unique_ptr<RenderDevice>> devices_; // at least one
     FilmView view_{devices_};
     std::optional<PreparedScene> scene_;

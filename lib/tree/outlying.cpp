@@ -10,7 +10,7 @@ namespace pt {
 
 namespace {
 
-// Every ray tests each of them. With so many that takes as long as a walk through a tree (DevicePolicy::tree_from), so
+// Every ray tests each of them. With so many that takes as long as a walk through a tree (default_tree_from), so
 // a picture takes twice as long at most. Inside the tree they would cost more: its boxes grow by 2^-19 of its reach,
 // and rays test all spheres that are closer together than that.
 constexpr std::size_t most_outlying = 50;

@@ -104,11 +104,8 @@ DevicePolicy default_policy(const pt_device_info &info) {
             .tests_per_second = tests_per_second(info.kind),
             .unrolled = cpu ? DevicePolicy{}.unrolled : gpu_unrolled,
             .adaptive_from = cpu ? 0 : DevicePolicy{}.adaptive_from,
-            .one_last_direction = cpu,
             .walk_trips = cpu ? 0 : gpu_walk_trips,
-            .integer_order = cpu,
-            .uniform_reads = cpu,
-            .keep_shifts = cpu,
+            .compiles_for_cpu = cpu,
             .resolve_on_device = !cpu};
 }
 

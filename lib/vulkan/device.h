@@ -47,20 +47,14 @@ struct DevicePolicy {
     // with 256; 100 spheres 1.3 and 1.0 times at path length 3, 1.7 and 1.2 times at 6. Each surface takes 10
     // milliseconds to compile, which sets the limit.
     std::uint32_t unrolled = 112;
-    // From so many spheres on, all but a few are in a tree. On lavapipe that is where loops are no longer unrolled; on
-    // an H200 a tree is as fast as testing each from 160 spheres on with three vertices, from 115 with six.
-    std::uint32_t tree_from = 113;
     // Tiles are told apart from so many samples of a pixel on (lib/film/adaptive_rule.h), with paths of two vertices
     // from four times as many. On GPUs a check of the error takes as long as some samples, so pictures that need no
     // more are done sooner without. 0, or a power of two from 16 on.
     std::uint32_t adaptive_from = 256;
-    // Kernels are faster if branches share their last direction (shaders/last_direction.glsl): lavapipe takes 0.93 of
-    // the time with six vertices, an H200 1.02 to 1.06. The first of several devices decides.
-    bool one_last_direction = false;
-    std::uint32_t walk_trips = 0;   // specialization constant ID_WALK_TRIPS, in scenes with a tree
-    bool integer_order = false;     // kernels run faster where integers are compared, not floats (shaders/maths.glsl)
-    bool uniform_reads = false;     // what differs between invocations is read faster from uniform than storage buffers
-    bool keep_shifts = false;       // kernels run faster that keep what shifts a pixel's points (shaders/sampler.glsl)
+    std::uint32_t walk_trips = 0; // specialization constant ID_WALK_TRIPS, in scenes with a tree
+    // Kernels run faster where integers are compared, not floats (shaders/maths.glsl), and where what differs between
+    // invocations is read from uniform buffers, not storage buffers.
+    bool compiles_for_cpu = false;
     bool resolve_on_device = false; // its kernels make images and error estimates of a film faster than the host does
 };
 

@@ -108,32 +108,6 @@ TEST(PointTable, BranchesArePointsOfTheirOwnInTheDimensionsThatTheyDoNotShare) {
     }
 }
 
-// The low dimensions go to the branches before the late blocks that they share.
-TEST(PointTable, LateBlocksHaveTheLastDimensions) {
-    const pt::PointLayout layout{{1, 2, 4, 2, 3}, 3, 2, 1};
-    const Indices indices = {0, 5, 0x80000001U};
-    const Table table = pt::point_table(PT_SAMPLER_HALTON, seed, indices, layout);
-    ASSERT_EQ(layout.early_dimensions(), 3U);
-    ASSERT_EQ(layout.row_blocks(), 3U + 2U * 2U);
-    ASSERT_EQ(table.size(), indices.size() * layout.row_blocks());
-    const auto block = [](std::uint64_t index, std::uint32_t first, std::uint32_t count) {
-        pt::PointBlock inverses{};
-        for (std::uint32_t i = 0; i < count; ++i)
-            inverses[i] = pt::radical_inverse(index, first + i);
-        return inverses;
-    };
-    auto row = table.begin();
-    for (const std::uint32_t index : indices) {
-        EXPECT_EQ(*row++, block(index, 0, 1));
-        EXPECT_EQ(*row++, block(index, 1, 2));
-        EXPECT_EQ(*row++, block(index, 8, 4));
-        for (std::uint32_t branch = 0; branch < 2; ++branch) {
-            EXPECT_EQ(*row++, block(std::uint64_t{2} * index + branch, 3, 2));
-            EXPECT_EQ(*row++, block(std::uint64_t{2} * index + branch, 5, 3));
-        }
-    }
-}
-
 constexpr std::uint32_t table_net_digits = 8;
 constexpr std::uint32_t table_net_size = 1U << table_net_digits;
 

@@ -18,8 +18,7 @@ MOST_WORDS_IN_ALL = 28_200
 
 # What pages say, and what the code has instead of the numbers: a file and its text, with groups in the same order.
 NUMBERS = (
-    (r"[Ff]rom (\d+) spheres\s+on", "lib/vulkan/device.h", r"tree_from = (\d+);"),
-    (r"scenes of (\d+) spheres or more", "lib/kernel/scene_features.cpp", r"least_many_spheres = (\d+);"),
+    (r"(?:[Ff]rom|scenes of) (\d+) spheres\s+o[nr]\b", "lib/kernel/prepared_scene.h", r"default_tree_from = (\d+);"),
     (r"[Uu]p to (\d+) (?:spheres )?that reach\s+(\d+) times as far", "lib/tree/outlying.cpp",
      r"most_outlying = (\d+);[^@]*much_farther = (\d+)\.0;"),
     (r"[Ff]rom (\d+) lamps\s+on", "lib/kernel/lamp_tree_words.h", r"least_tree_lamps = (\d+);"),
