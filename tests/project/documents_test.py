@@ -73,6 +73,18 @@ def missing_files(page, names, files):
     return [name for name in names if name not in files and not any((folder / name).exists() for folder in folders)]
 
 
+def commands_without_source(text):
+    """Of Python scripts in a page's shell commands: those that are missing, and options that no script beside it has."""
+    wrong = []
+    for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
+        for line in block.replace("\\\n", " ").splitlines():
+            script, options = (re.findall(r"[\w/]+/\w+\.py\b", line) or [""])[0], re.findall(r"(?<!\S)--[\w-]+", line.split("#")[0])
+            source = "".join(path.read_text(encoding="utf-8") for path in (ROOT / script).parent.glob("*.py"))
+            if script:
+                wrong += [script] * (not (ROOT / script).exists()) + [name for name in options if f'"{name}"' not in source]
+    return wrong
+
+
 class Documents(unittest.TestCase):
     def test_links_lead_somewhere(self):
         self.assertIn(ROOT / "README.md", PAGES)
@@ -104,6 +116,12 @@ class Documents(unittest.TestCase):
         layout = (ROOT / "shaders/gpu_layout.h").read_text(encoding="utf-8")
         parts, words = (int(re.search(rf"FILM_{name} = (\d+);", layout)[1]) for name in ("PARTS", "WORDS"))
         self.assertEqual(set(re.findall(r"(\d+) bytes a pixel", text)), {str(4 * parts * words)})
+
+    def test_commands_have_their_scripts_and_options(self):
+        for page in PAGES:
+            self.assertEqual(commands_without_source(page.read_text(encoding="utf-8")), [], page)
+        text = "```sh\npython3 tests/bench/scale.py --no-such --counts 1\npython3 tests/no/such.py\n```"
+        self.assertEqual(commands_without_source(text), ["--no-such", "tests/no/such.py"])
 
     def test_pages_are_short(self):
         words = {path: len(path.read_text(encoding="utf-8").split()) for path in PAGES if path.name != "CHANGELOG.md"}
