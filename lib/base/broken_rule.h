@@ -23,21 +23,21 @@ struct BrokenRule {
     std::string text() const;
 };
 
-// The first of them in full, and how many there are: a scene of a million spheres may break as many.
+// The first rules in full, and the number of all: a scene of a million spheres may break as many.
 class BrokenRules {
 public:
     static constexpr std::size_t most_kept = 8;
 
     void add(BrokenRule rule);
 
-    // From then on rules need not be put into words.
+    // Whether further rules need not be put into words.
     bool is_full() const { return first_.size() == most_kept; }
     void count_one() { ++count_; }
 
     const std::vector<BrokenRule> &first() const { return first_; }
     std::size_t count() const { return count_; }
 
-    // A line for each that is kept, and the number of the others.
+    // A line for each rule that is kept, and the number of the others.
     std::string text() const;
 
 private:

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// Of a sequence of numbers, whatever is between them in memory. Equal numbers are equal: -0 is 0.
+// The digest of a sequence of numbers, wherever they are in memory. -0 counts as 0.
 class Digest {
 public:
     Digest();

@@ -1,4 +1,4 @@
-// Words most of which are small, or one of seven, in few bytes: how the build embeds SPIR-V
+// Packs words, most of them small or one of seven frequent ones, into few bytes: how the build embeds SPIR-V
 // (cmake/SpirvToHeader.cmake). A word is the number of its hexadecimal digits, 0 to 8, and the digits; or 9 to 15 for
 // one of the seven. These are the digits of the bytes, the low one of each first.
 #pragma once

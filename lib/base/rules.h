@@ -57,7 +57,7 @@ class Violations {
 public:
     void add(BrokenRule rule);
 
-    // Where no more are kept, a rule need not be put into words to be counted.
+    // If no more are kept, a rule is counted without being put into words.
     bool only_count() const { return broken_.is_full(); }
     void count_one() { broken_.count_one(); }
 
@@ -102,8 +102,7 @@ public:
             refuse(member, number_text(value), broken);
     }
 
-    // An element of a column, of which the caller knows already that it breaks a rule: of many millions the most are
-    // only counted.
+    // An element of a column that is known to break a rule: of many millions most are only counted.
     template <typename Value>
     void refuse_element(const Member &member, std::size_t element, const Value &value, std::string_view rule) const {
         if (violations_.only_count())

@@ -73,7 +73,7 @@ constexpr std::uint32_t first_word(Opcode opcode, std::uint32_t word_count) {
     return word_count << 16U | opcode;
 }
 
-// What the code has that is not known here.
+// Thrown for code with something that is not known here.
 struct Unknown {};
 
 // Calls use(instruction, its offset) for each instruction from an offset on, until it returns false.

@@ -43,8 +43,8 @@ inline std::uint32_t struct_size_of(const void *user, const char *name, std::int
     return size;
 }
 
-// Of a struct of which this library knows known bytes: others, from a newer header, must not ask for what is unknown
-// here.
+// For a struct with so many bytes known to this library: bytes beyond, from a newer header, must not ask for anything
+// unknown here.
 inline void require_known(const void *user, std::uint32_t size, std::size_t known, const char *name,
                           std::int64_t index) {
     const auto *bytes = static_cast<const unsigned char *>(user);

@@ -5,7 +5,7 @@
 
 namespace pt {
 
-// A stage that has done less than it was to, or nothing, counts as done.
+// A stage that ended early counts as done.
 void WorkProgress::enter(double share_of_rest, double work) {
     begin_ = end_;
     end_ += share_of_rest * (1.0 - end_);

@@ -7,13 +7,13 @@
 
 namespace pt {
 
-// Thrown where the caller asks to stop. It ends where the call does, which returns PT_CANCELLED.
+// Thrown when the caller asks to stop. It is caught at the end of the call, which returns PT_CANCELLED.
 struct Cancelled {};
 
-// The work is a row of stages. Within each the share that is told grows with the work that is done.
+// The work is a sequence of stages. Within each, the reported share grows with the work done.
 class WorkProgress {
 public:
-    // Tells nobody.
+    // Reports to nobody.
     WorkProgress() = default;
 
     // function may be NULL.
@@ -25,7 +25,7 @@ public:
     // The stage that begins now is this share of what is left of the whole, and has so much work, in any unit.
     void enter(double share_of_rest, double work);
 
-    // So much of the stage's work is done, for which so many elements were looked at: by these is decided when the
+    // So much of the stage's work is done, for which so many elements were looked at. Their number decides when the
     // caller is told.
     void add(double work, std::size_t elements) {
         done_ += work;
@@ -41,8 +41,8 @@ public:
     void finish();
 
 private:
-    // Half a millisecond to some: often enough for callers who watch, and seldom enough for those who are called
-    // slowly.
+    // They take between half a millisecond and several: often enough for those who watch, rarely enough for slow
+    // callbacks.
     static constexpr std::size_t elements_between_calls = std::size_t{1} << 17;
 
     void tell();

@@ -21,7 +21,7 @@ public:
 
     std::uint64_t size_bytes() const { return size_bytes_; }
 
-    // Of the first pixel's word of a plane of a part of a tile. Parts without samples are not there.
+    // Where the first pixel's word is in a plane of a part of a tile. Parts without samples are not there.
     std::uint64_t plane_offset(std::size_t tile, std::uint32_t part, std::size_t plane) const;
     bool has_part(std::size_t tile, std::uint32_t part) const { return tiles_[tile].counts[part] > 0; }
     const PartCounts &counts(std::size_t tile) const { return tiles_[tile].counts; }
@@ -37,7 +37,7 @@ private:
     std::uint64_t size_bytes_;
 };
 
-// Throws PT_ERROR_INVALID_ARGUMENT where a caller's memory for a film is smaller than it takes.
+// Throws PT_ERROR_INVALID_ARGUMENT if a caller's memory is too small for a film.
 void require_room(std::uint64_t size_bytes, std::uint64_t needed);
 
 // Writes a film to memory of the layout's size: the sums of each tile in any pieces, then end().

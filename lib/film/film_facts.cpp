@@ -14,8 +14,7 @@ namespace pt {
 
 namespace {
 
-// Of images that a program of this library could have made: unit exponents are those of radiance up to 2^60 times
-// 10^18.
+// A limit that no film of this library exceeds: its unit exponents are those of radiance up to 2^60 times 10^18.
 constexpr std::int64_t most_unit_exponent = 300;
 
 std::optional<std::string> value_in(const FilmIdentity &identity, const std::string &name) {

@@ -22,8 +22,8 @@ struct FilmFacts {
 // Throws PT_ERROR_INCOMPATIBLE if a fact is not there, or is not what pt_save_film could have written.
 FilmFacts facts_of(const FilmIdentity &identity);
 
-// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact in which a film's identity differs from that of what it is to
-// be added to. place: what that is, "as in this context".
+// Throws PT_ERROR_INCOMPATIBLE with a rule for each fact in which two identities differ: a film's, and that of what it
+// is to be added to. place: what that is, "as in this context".
 void require_same(const FilmIdentity &film, const FilmIdentity &other, const std::string &place);
 
 } // namespace pt

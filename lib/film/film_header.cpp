@@ -20,10 +20,10 @@ constexpr std::string_view tile_name = "tile";
 constexpr std::string_view samples_name = "samples";
 constexpr std::string_view round_name = "round";
 
-// Far beyond the rounds of any error that is a double.
+// Far beyond the rounds that any error in a double takes.
 constexpr std::uint64_t max_round = 10'000;
 
-// Several times what there are: each takes many times the memory of a short line.
+// Several times as many as there are. Without a limit, short lines would take many times their memory.
 constexpr std::size_t max_facts = 100;
 
 [[noreturn]] void refuse(const std::string &message) {
@@ -42,7 +42,7 @@ std::string_view take_line(std::string_view &text) {
     return line;
 }
 
-// The numbers of a line, separated by blanks; nothing if it has another count of them or anything else.
+// The numbers of a line, separated by blanks; nothing if it has more, fewer, or anything else.
 template <std::size_t Count>
 std::optional<std::array<std::uint64_t, Count>> numbers(std::string_view text) {
     std::array<std::uint64_t, Count> values{};
@@ -86,7 +86,7 @@ void read_samples(std::string_view value, FilmHeader &header) {
     samples.add(range);
 }
 
-// Two numbers, of which the first may be negative.
+// Two numbers; the first may be negative.
 void read_round(std::string_view value, FilmHeader &header) {
     const bool negative = value.starts_with('-');
     const auto round = numbers<2>(value.substr(negative ? 1 : 0));
@@ -96,7 +96,7 @@ void read_round(std::string_view value, FilmHeader &header) {
     header.round = {negative ? -number : number, (*round)[1]};
 }
 
-// Of each tile, and of all together: they are pixels of one image.
+// Checks each tile, and all together: they are pixels of one image.
 void require_counts(const std::vector<FilmTile> &tiles) {
     std::uint64_t pixels = 0;
     for (const FilmTile &tile : tiles) {

@@ -12,7 +12,7 @@
 
 namespace pt {
 
-// All that decides the bits of a picture's samples, as names and values: a film adds only to one whose facts are equal.
+// All that decides the bits of a picture's samples, as names and values. Films add up only if these are equal.
 struct FilmFact {
     std::string name;
     std::string value;
@@ -40,7 +40,7 @@ struct FilmTile {
 struct FilmHeader {
     FilmIdentity identity;
     std::vector<FilmTile> tiles; // their sums follow in this order
-    AdaptiveRound round{};       // that has been begun on the way to a target error, if there is one
+    AdaptiveRound round{};       // the one under way to a target error, if any
 
     bool operator==(const FilmHeader &) const = default;
 };
@@ -48,8 +48,7 @@ struct FilmHeader {
 // Ends with an empty line.
 std::string text_of(const FilmHeader &header);
 
-// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if it is not that, letter by letter, or of another
-// version.
+// Reads what text_of has written. Throws PT_ERROR_INCOMPATIBLE if a letter differs from that, or the version.
 FilmHeader parsed_film_header(std::string_view text);
 
 } // namespace pt

@@ -9,15 +9,15 @@ namespace {
 
 constexpr std::uint64_t min_part = 8; // samples
 
-// The smallest multiple from an index on.
+// The smallest multiple that is not below an index.
 std::uint64_t multiple_from(std::uint64_t index, std::uint64_t factor) {
     return (index + factor - 1) / factor * factor;
 }
 
 } // namespace
 
-// Of two numbers the common leading digits, a one, and zeros: no other number above the first, and not above the
-// second, ends with as many zeros.
+// The common leading digits of two numbers, then a one, then zeros: no other number above the first and up to the
+// second ends with as many zeros.
 std::uint64_t split_of(const SampleRange &hull) {
     if (hull.count() < 2)
         return multiple_from(hull.end, min_part);

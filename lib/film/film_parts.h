@@ -23,14 +23,14 @@ using PartCounts = std::array<std::uint64_t, gpu::FILM_PARTS>;
 // begin at a multiple of 2^(k - 1): the best sets that a sequence has.
 //
 // Among the indices within a range just one has the most zeros, since between two with equally many lies one with more.
-// So the split of a film that is made of others either is the split of one of them too, or that one lies on one side of
-// it as a whole. Two parts for each film are all that is needed to add films in any order with the same result.
+// So when films are added, the split of the sum is a film's own split, or that film lies on one side of it as a whole.
+// Hence two parts are enough to add films in any order with the same result.
 std::uint64_t split_of(const SampleRange &hull);
 
 PartCounts part_counts(const SampleSet &samples);
 
-// Whether a sample is added to a part that has none yet. before: from the first to the last that there are; split: with
-// the sample. Where the split has moved, all samples of before are on one side of it.
+// Whether a sample is the first of its part. before: the range of the samples so far; split: the split with the sample.
+// If the split has moved, all samples of before are on one side of it.
 bool begins_part(const SampleRange &before, std::uint64_t split, std::uint64_t sample);
 
 } // namespace pt

@@ -12,7 +12,8 @@ namespace pt {
 // The tiles of a film of these pixels of an image, as few as may be.
 std::vector<FilmTile> film_tiles(const TileSamples &samples, const Rectangle &pixels);
 
-// What tiles that lie in these pixels of an image say of a grid over them; nothing if they cut tiles of that grid.
+// The samples, by tile of a grid over these pixels of an image, of the film's tiles in them; nothing if these cut tiles
+// of the grid.
 std::optional<TileSamples> tile_samples(const std::vector<FilmTile> &tiles, const Rectangle &pixels);
 
 } // namespace pt

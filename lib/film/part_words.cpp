@@ -9,13 +9,13 @@ namespace pt {
 
 namespace {
 
-// What a word becomes, and what the next more significant one takes in: 0 or 1.
+// What a word becomes, and the carry into the next more significant one: 0 or 1.
 struct WordAndCarry {
     std::uint32_t word;
     std::uint32_t carry;
 };
 
-// In 32 bits, which compilers do for several pixels at once.
+// In 32 bits, so that compilers do several pixels at once.
 WordAndCarry sum_of(std::uint32_t a, std::uint32_t b, std::uint32_t carry) {
     const std::uint32_t sum = a + b;
     const std::uint32_t with_carry = sum + carry;

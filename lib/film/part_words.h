@@ -1,5 +1,4 @@
-// The words of consecutive pixels in a part of a film, as exact sums that are added to those of another part or taken
-// off them again.
+// Adds the exact sums of consecutive pixels in a part of a film to those of another part, and takes them off again.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ struct PartWords {
 void add_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                std::size_t pixel_count) noexcept;
 
-// Undoes that.
+// Undoes the addition.
 void subtract_words(const PartWords<std::uint32_t> &to, const PartWords<const std::uint32_t> &from,
                     std::size_t pixel_count) noexcept;
 

@@ -13,7 +13,7 @@ static_assert(PT_FORMAT_RGB32F == gpu::FORMAT_RGB32F && PT_FORMAT_RGBA32F == gpu
 
 namespace {
 
-// Pixels with an alpha of 1, each component as it is made of a float.
+// Pixels with an alpha of 1; convert makes a component of a float.
 template <typename Convert>
 void write_with_alpha(std::span<const float> values, std::byte *to, const Convert &convert) {
     for (std::size_t first = 0; first < values.size(); first += 3) {

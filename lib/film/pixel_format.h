@@ -21,11 +21,11 @@ constexpr std::uint32_t pixel_bytes(std::uint32_t format) {
     return components * component_bytes(format);
 }
 
-// The float16 that is nearest to a number >= 0, of two the even one; infinity from 65520 on. By whole numbers, as in
+// The float16 nearest to a number >= 0, ties to even; infinity from 65520 on. In whole numbers, as in
 // shaders/half.glsl.
 std::uint16_t half_bits(float value);
 
-// Writes pixels, of which R, G and B are given, in a format that has them.
+// Writes pixels, given as R, G and B, in a format that has them.
 void write_pixels(std::span<const float> values, std::uint32_t format, std::byte *to);
 
 } // namespace pt

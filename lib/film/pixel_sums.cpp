@@ -39,7 +39,7 @@ private:
     std::size_t pixel_;
 };
 
-// Of pixels next to each other, in blocks.
+// Estimates of pixels next to each other, in blocks.
 class Estimation {
 public:
     Estimation(const PixelSums &sums, double unit, const EstimatePlanes &to) :
@@ -68,7 +68,7 @@ private:
         return sums_.plane(part, plane).subspan(pixel).data();
     }
 
-    // Of a block whose pixels have the same samples, none left out, as nearly all have.
+    // For a block whose pixels have the same samples, none left out, as in nearly all blocks.
     bool estimate_alike(std::size_t first, std::size_t to_first) {
         const std::uint32_t *const a = words(older_part, gpu::FILM_ACCEPTED, first);
         const std::uint32_t *const b = words(newer_part, gpu::FILM_ACCEPTED, first);
@@ -107,7 +107,7 @@ private:
                     estimate_one(first + i, to_first + i, channel);
     }
 
-    // Exactly.
+    // By quotient.h, whatever the sums.
     void estimate_one(std::size_t pixel, std::size_t to, std::size_t channel) {
         const PartPixel a(sums_, older_part, pixel);
         const PartPixel b(sums_, newer_part, pixel);

@@ -1,5 +1,5 @@
 // Exact sums of samples in consecutive pixels, on the host: a value. Read from devices (device_film.h) and from bytes
-// (film_format.h), added, and turned into radiance and its error.
+// (film_bytes.h), added, and turned into radiance and its error.
 #pragma once
 
 #include "lib/film/film_parts.h"
@@ -21,7 +21,7 @@ struct PixelEstimates {
     std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
-// Rows of some of consecutive pixels.
+// Rows of some of a number of consecutive pixels.
 struct PixelRows {
     std::size_t first;
     std::size_t width;
@@ -82,10 +82,10 @@ public:
     // Radiance is the mean in units, a power of two; rounded as quotient.h says.
     PixelEstimates estimates(double unit, bool with_standard_error) const;
 
-    // The same of some pixels; returns the samples left out of them.
+    // The same for some pixels; returns the samples left out of them.
     std::uint64_t estimate(const PixelRows &pixels, double unit, const EstimatePlanes &to) const;
 
-    // Of all samples of each pixel, as R, G, B.
+    // The number of samples of each pixel, as R, G, B.
     std::vector<float> sample_counts() const;
 
     bool operator==(const PixelSums &) const = default;
@@ -95,7 +95,7 @@ private:
     std::vector<std::uint32_t> words_;
 };
 
-// Throws PT_ERROR_INTERNAL, which tells that a driver lost work, if a pixel does not hold the expected samples.
+// Throws PT_ERROR_INTERNAL if a pixel does not hold the expected samples: a driver lost work.
 void require_samples(const PartCounts &done, const PartCounts &expected);
 
 } // namespace pt

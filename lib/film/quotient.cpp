@@ -29,14 +29,14 @@ Number difference_of(const Number &a, const Number &b) {
     return {a.high - b.high - (a.low < b.low ? 1 : 0), a.low - b.low};
 }
 
-// Its leading 64 bits, the first of which is set: bits * 2^exponent, or more by less than 2^exponent if inexact.
+// The leading 64 bits of a number, the first one set: bits * 2^exponent, or more by less than 2^exponent if inexact.
 struct LeadingBits {
     std::uint64_t bits;
     int exponent;
     bool inexact;
 };
 
-// Of a number that is not 0.
+// For numbers that are not 0.
 LeadingBits leading_bits(WideSum number) {
     const auto high = static_cast<std::uint64_t>(number >> 64);
     const auto low = static_cast<std::uint64_t>(number);
@@ -57,7 +57,7 @@ LeadingBits leading_bits(const Number &number) {
         leading.inexact = leading.inexact || number.low != 0;
         return leading;
     }
-    // Of a short high part the low one fills the rest: no more than 63 bits are missing, of which it has 32.
+    // If the high part is short, the low one fills up: at most 63 bits are missing, and it has 32.
     const int missing = 32 - leading.exponent;
     const std::uint64_t low = std::uint64_t{number.low} << 32;
     leading.bits |= low >> (64 - missing);
@@ -65,17 +65,16 @@ LeadingBits leading_bits(const Number &number) {
     return leading;
 }
 
-// quotient * 2^exponent, or a little more if that is inexact, rounded to nearest, ties to even. quotient has 26 bits at
-// least.
+// quotient * 2^exponent, or a little more if inexact, rounded to nearest, ties to even. quotient has at least 26 bits.
 float rounded(std::uint64_t quotient, int exponent, bool inexact) {
-    // Of 26 bits more than the last of a float is left; the others count as a little more.
+    // 26 bits are two more than a float has; those below count as "a little more".
     const int further = 63 - 25 - std::countl_zero(quotient);
     const auto leading = static_cast<std::uint32_t>(quotient >> further);
     inexact = inexact || std::uint64_t{leading} << further != quotient;
     const int magnitude = 25 + further + exponent; // the number is in [2^magnitude, 2^(magnitude + 1))
     if (magnitude > 127)
         return std::numeric_limits<float>::infinity();
-    // Of a float with the exponent -126 or less the last bit is 2^-149.
+    // A float with the exponent -126 or less has the last bit 2^-149.
     const int float_exponent = std::max(magnitude, -126);
     const int dropped = std::min(2 + float_exponent - magnitude, 31);
     const std::uint32_t kept = leading >> dropped;
@@ -91,12 +90,12 @@ float quotient(const LeadingBits &dividend, std::uint32_t divisor, int exponent)
                    dividend.inexact || dividend.bits % divisor != 0);
 }
 
-// As a double, of exponents within its range.
+// As a double, for exponents within its range.
 double power_of_two(int exponent) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
-// The largest whole number whose square is no more. The root of the double nearest to the square may be off by one.
+// The largest whole number whose square is not above a number. The root in double may be off by one.
 std::uint32_t square_root(std::uint64_t square) {
     auto root = static_cast<std::uint64_t>(std::min(std::sqrt(static_cast<double>(square)), 0x1.fffffffep31));
     while (root * root > square)
@@ -106,9 +105,9 @@ std::uint32_t square_root(std::uint64_t square) {
     return static_cast<std::uint32_t>(root);
 }
 
-// The float that a number is rounded to which is within 2^-50 of itself from this one, where all those are rounded to
-// the same, which is nearly always (Ziv 1991, Fast evaluation of elementary mathematical functions with correctly
-// rounded last bit).
+// The float to which every number within 2^-50 of this one, relatively, is rounded; nothing if they are not rounded
+// alike, which is rare (Ziv 1991, Fast evaluation of elementary mathematical functions with correctly rounded last
+// bit).
 std::optional<float> rounded_alike(double approximate) {
     constexpr std::uint64_t tie = std::uint64_t{1} << 28; // of the 29 bits that a float does not have
     const std::uint64_t below_float = std::bit_cast<std::uint64_t>(approximate) % (2 * tie);
@@ -118,7 +117,7 @@ std::optional<float> rounded_alike(double approximate) {
     return std::nullopt;
 }
 
-// Within 2^-52 of itself: of its halves the upper one is rounded, and so is their sum.
+// Within 2^-52 of itself: the upper half is rounded, and so is the sum of both.
 double nearly(WideSum number) {
     return static_cast<double>(static_cast<std::uint64_t>(number >> 64)) * 0x1p64 +
            static_cast<double>(static_cast<std::uint64_t>(number));
@@ -126,7 +125,7 @@ double nearly(WideSum number) {
 
 } // namespace
 
-// In double first, with three roundings.
+// Tries double first, with three roundings.
 float mean_of(WideSum sum, std::uint32_t count, int exponent) {
     if (sum == 0 || count == 0)
         return 0.0F;
@@ -150,8 +149,8 @@ double PartWeights::scale() const {
     return power_of_two(exponent_) / divisor_;
 }
 
-// The numerator |A b - B a| is exact. Of sums below 2^96 the products have 128 bits, and the quotient is found in
-// double as a rule; a power of two that a double has not is left to whole numbers.
+// The numerator |A b - B a| is exact. For sums below 2^96 the products have 128 bits, and double mostly suffices for
+// the quotient; powers of two beyond double are left to whole numbers.
 PartDifference PartWeights::difference(WideSum sum_a, WideSum sum_b, int exponent) const {
     exponent += exponent_;
     if ((sum_a | sum_b) >> 96 == 0 && std::abs(exponent) <= 1022) {

@@ -12,7 +12,7 @@ namespace pt {
 
 namespace {
 
-// The sum of whole numbers below 2^53, the first times 2^32.
+// The sum of two whole numbers below 2^53, the first times 2^32.
 struct WideNumber {
     double value; // rounded once
     double lost;  // by that: 0 if nothing was
@@ -20,22 +20,22 @@ struct WideNumber {
     WideNumber(double high, double low) : value(0x1p32 * high + low), lost(low - (value - 0x1p32 * high)) {}
 };
 
-// Far more than the few roundings, each of a 2^53th, that a quotient has.
+// Far more than the few roundings of a quotient, each of a 2^53th.
 constexpr double margin_of_roundings = 0x1p-50;
 
 double margin(const WideNumber &number, double margin_if_exact) {
     return number.lost == 0.0 ? margin_if_exact : margin_of_roundings;
 }
 
-// The bits in which the floats differ to which a number less by a share of itself and one more by that are rounded.
-// What lies between is rounded to the same float if they do not (Ziv 1991, see quotient.cpp).
+// A number made smaller and larger by a share of itself: the bits in which the two rounded floats differ. If there are
+// none, all numbers in between are rounded to the same float (Ziv 1991, see quotient.cpp).
 std::uint32_t round_alike(double approximate, double share, float &rounded) {
     rounded = static_cast<float>(approximate - share * approximate);
     return std::bit_cast<std::uint32_t>(rounded) ^
            std::bit_cast<std::uint32_t>(static_cast<float>(approximate + share * approximate));
 }
 
-// The three words of a sum that is usual, those above the first as one number, which is exact.
+// The three words of a usual sum; the two above the first make one number, which is exact.
 struct Words {
     double low;
     double high;
@@ -59,8 +59,9 @@ bool has_any(const BlockDoubts &doubts) {
     return any != 0;
 }
 
-// By a power of two nothing is lost: what lies in the middle of two floats is known to do so. Whole numbers > 0 times a
-// usual factor are no less than the least normal float, and finite in double. Other factors are left to quotient.h.
+// A factor that is a power of two loses nothing, so numbers in the middle of two floats are known to be there. Whole
+// numbers > 0 times a usual factor are at least the least normal float, and finite in double. Other factors are left to
+// quotient.h.
 BlockQuotients::Scale BlockQuotients::scale_of(double factor) {
     if (!(factor >= 0x1p-126 && factor <= 0x1p126))
         return {0.0, 0.0};

@@ -1,5 +1,5 @@
-// What the sums of eight pixels with the same numbers of samples show, at once: the floats of quotient.h. In loops over
-// the pixels without branches, in double, which compilers turn into vector instructions.
+// The floats of quotient.h for eight pixels with the same numbers of samples at once: loops over the pixels, without
+// branches and in double, which compilers turn into vector instructions.
 #pragma once
 
 #include "shaders/gpu_layout.h"
@@ -21,8 +21,8 @@ struct BlockSums {
 // One number of each pixel.
 using BlockFloats = std::array<float, block_pixels>;
 
-// Not 0 where a pixel's floats are not known for sure: sums beyond the usual, and quotients that are rounded and too
-// near to the middle of two floats, are left to quotient.h.
+// Not 0 where a pixel's floats are not certain: unusually large sums, and quotients too close to the middle of two
+// floats, are left to quotient.h.
 using BlockDoubts = std::array<std::uint32_t, block_pixels>;
 
 bool has_any(const BlockDoubts &doubts);
@@ -35,18 +35,18 @@ struct BlockEstimates {
 
 class BlockQuotients {
 public:
-    // a, b: samples of a pixel in the parts, one at least in both together.
+    // a, b: samples of a pixel in the parts, at least one in both together.
     BlockQuotients(std::uint32_t a, std::uint32_t b, int exponent);
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
 
     BlockDoubts means(const BlockSums &a, const BlockSums &b, BlockFloats &to) const;
 
-    // Of parts with one sample at least in each.
+    // For parts with at least one sample each.
     BlockDoubts estimates(const BlockSums &a, const BlockSums &b, BlockEstimates &to) const;
 
 private:
-    // What whole numbers are multiplied with.
+    // A factor of whole numbers.
     struct Scale {
         double factor = 1.0;
         double margin_if_exact = 0.0; // of a product of a number without rounding, as a share of it

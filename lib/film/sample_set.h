@@ -49,7 +49,7 @@ public:
     // The first samples from an index on that are not in the set, up to the next that is; empty if all are.
     SampleRange next_missing(std::uint64_t from) const;
 
-    // What is added must not overlap, what is removed must be there.
+    // Samples that are added must not be there yet, samples that are removed must be.
     void add(const SampleRange &range);
     void add(const SampleSet &other);
     void remove(const SampleRange &range);

@@ -35,7 +35,7 @@ struct RangesBefore {
     static std::pair<std::uint64_t, std::uint64_t> ends(const SampleRange &range) { return {range.first, range.end}; }
 };
 
-// Of each tile, the first with equal samples: numbers to be compared in place of sets, which may have many ranges.
+// For each tile the first one with equal samples: comparing these numbers is faster than comparing sets of many ranges.
 std::vector<std::size_t> first_equals(const std::vector<FilmTile> &tiles) {
     std::map<const SampleSet *, std::size_t, RangesBefore> known;
     std::vector<std::size_t> firsts;
@@ -58,7 +58,7 @@ std::vector<TileMap::Span> runs_of(const TileMap::Band &band, const std::vector<
     return runs;
 }
 
-// Those of rows that meet the same tiles, from left to right.
+// The pieces of rows that meet the same tiles, from left to right.
 std::vector<TileMap::Piece> cut_rows(const std::vector<TileMap::Span> &spans, const Rectangle &rows) {
     std::vector<TileMap::Piece> pieces;
     std::uint32_t x = rows.x;

@@ -33,8 +33,8 @@ public:
         std::optional<std::size_t> tile;
     };
 
-    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in no more bands than it has rows, so that a map takes
-    // no more memory than its film's sums.
+    // Throws PT_ERROR_INCOMPATIBLE if tiles overlap. A tile is in no more bands than it has rows, so a map takes no
+    // more memory than its film's sums.
     explicit TileMap(const std::vector<FilmTile> &tiles);
 
     // From the top to the bottom, without rows that have no pixels.
@@ -50,7 +50,7 @@ private:
     std::vector<Band> bands_;
 };
 
-// The smallest rectangle with all tiles, of which there is at least one.
+// The smallest rectangle with all tiles; there is at least one.
 Rectangle bounds_of(const std::vector<FilmTile> &tiles);
 
 // The one list of tiles with these samples of these pixels, however they were listed: neighbours in a row with equal

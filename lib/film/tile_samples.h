@@ -1,5 +1,4 @@
-// Which samples each tile of a film holds. Most tiles share their samples with many others, so that each different set
-// is kept once.
+// Which samples each tile of a film holds. Many tiles have the same samples, so each different set is kept once.
 #pragma once
 
 #include "lib/film/film_parts.h"
@@ -36,17 +35,17 @@ public:
     std::uint64_t most() const;
     std::uint64_t total() const; // of all pixels together
 
-    // What is added must not be there; tiles ascend.
+    // The samples that are added must not be there yet; tiles are in ascending order.
     void add(std::span<const std::uint32_t> tiles, const SampleRange &range);
     void set(std::size_t tile, const SampleSet &samples);
 
-    // Those of consecutive rows of pixels, the first being the first of a row of tiles.
+    // The samples of consecutive rows of pixels, which begin with a row of tiles.
     TileSamples rows(std::uint32_t first_row, std::uint32_t row_count) const;
 
     // Takes no memory.
     void clear() noexcept;
 
-    // Forgets sets that no tile has, and what tells tiles apart where nothing does.
+    // Forgets sets that no tile has and, if all tiles have the same set, the list of tiles.
     void tidy();
 
     // Whether all tiles hold the same as in the other.

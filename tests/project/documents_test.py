@@ -1,5 +1,6 @@
-"""Tests of what the project's pages say of itself: links lead somewhere, names and numbers are those of the code, and the
-library's page names every function. Arguments: the project's folder."""
+"""Tests of what the project's pages say of itself: links lead somewhere, names and numbers are those of the code, and
+the library's page names every function; and that comments name files that are there. Arguments: the project's
+folder."""
 
 import pathlib
 import re
@@ -74,7 +75,8 @@ def missing_files(page, names, files):
 
 
 def commands_without_source(text):
-    """Of Python scripts in a page's shell commands: those that are missing, and options that no script beside it has."""
+    """Of Python scripts in a page's shell commands: those that are missing, and options that no script beside it
+    has."""
     wrong = []
     for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
         for line in block.replace("\\\n", " ").splitlines():
@@ -122,6 +124,14 @@ class Documents(unittest.TestCase):
             self.assertEqual(commands_without_source(page.read_text(encoding="utf-8")), [], page)
         text = "```sh\npython3 tests/bench/scale.py --no-such --counts 1\npython3 tests/no/such.py\n```"
         self.assertEqual(commands_without_source(text), ["--no-such", "tests/no/such.py"])
+
+    def test_comments_name_files_that_exist(self):
+        files = {path.name for path in ROOT.rglob("*.*") if not path.relative_to(ROOT).parts[0].startswith((".", "build"))}
+        files.add("sysexits.h")  # the system's
+        for path in (path for path in code_files() if path.suffix in (".h", ".cpp", ".glsl", ".comp")):
+            comments = " ".join(re.findall(r"//[^\n]*|/\*.*?\*/", path.read_text(encoding="utf-8"), re.DOTALL))
+            names = re.findall(r"([\w-]+\.(?:h|cpp|glsl|comp|py|md|cmake|sh))\b", comments)
+            self.assertEqual(sorted(set(names) - files), [], path)
 
     def test_pages_are_short(self):
         words = {path: len(path.read_text(encoding="utf-8").split()) for path in PAGES if path.name != "CHANGELOG.md"}

@@ -46,7 +46,7 @@ def load(data: Any, *, frame: int | None = None, columns: Columns = None, format
 
 def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None, format: str | None = None,
            drop_nonfinite: bool = False) -> Iterator[Particles]:
-    """Frames from the first to the last one, which is among them; a file is read on from frame to frame."""
+    """Frames from the first to the last, inclusive; a file is read on from frame to frame."""
     if isinstance(data, Particles):
         yield data
         return
@@ -60,7 +60,7 @@ def frames(data: Any, first: int = 0, last: int = -1, *, columns: Columns = None
 
 
 def _index(source: Frames, frame: int) -> int:
-    """Counted from 0; files are looked through only where it takes the number of frames."""
+    """The number of a frame, counted from 0; files are searched only if the number of frames is needed."""
     if frame >= 0 and source.has(frame):
         return frame
     count = source.count()

@@ -61,7 +61,7 @@ Legend: TypeAlias = "ColorBar | Swatches | None"
 
 
 def srgb(name: str, color: Any) -> RGB:
-    """From "#rrggbb", a name that matplotlib knows, or three numbers from 0 to 1."""
+    """A color from "#rrggbb", a name that matplotlib knows, or three numbers from 0 to 1."""
     if isinstance(color, str) and len(color) == 7 and color[0] == "#":
         try:
             red, green, blue = bytes.fromhex(color[1:])
@@ -77,7 +77,7 @@ def srgb(name: str, color: Any) -> RGB:
 
 
 def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """Shape (n, 3) or, of one colour for all, (3,)."""
+    """Colors in shape (n, 3), or (3,) for one color for all."""
     color = given.color
     count = len(particles.positions)
     if isinstance(color, str) and "=" in color:
@@ -122,14 +122,14 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
 
 
 def _components(particles: Particles, name: str) -> list[str]:
-    """Of a vector: "vx,vy,vz", or what "velocity" and "v" stand for."""
+    """The components of a vector: "vx,vy,vz", or those that "velocity" and "v" stand for."""
     ways = [[f"{name}[{k}]" for k in range(3)], [f"{name}{axis}" for axis in "xyz"], [f"{name}_{axis}" for axis in "xyz"]]
     found = [way for way in ways if all(each in particles.columns for each in way)]
     return found[0] if found else name.split(",")
 
 
 def _direct(colors: Any, notes: list[str]) -> Bytes:
-    """sRGB from 0 to 1 of floats, from 0 to the largest of unsigned integers, and to 255 of others."""
+    """sRGB: floats from 0 to 1, unsigned integers from 0 to their largest, other integers from 0 to 255."""
     array = np.asarray(colors)
     if array.dtype.kind == "i" and array.size and 0 <= array.min() and array.max() <= 255:
         array = array.astype(np.uint8)
@@ -176,8 +176,8 @@ def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> t
 
 def _of_categories(title: str, names: list[str], codes: Array, given: Options, known: Mapping[str, RGB], numbered: bool,
                    wanted: list[str]) -> tuple[Bytes, Legend]:
-    """numbered: names are numbers, mostly from 1: then the number says the colour, so that files agree. wanted: must be
-    among the names."""
+    """numbered: names are numbers, mostly from 1; then the number decides the color, so that files agree. wanted: must
+    be among the names."""
     order = names if isinstance(given.categories, bool) else list(given.categories)
     for option, each in (("color", wanted), ("categories", names)):
         missing = [name for name in each if name not in order]
@@ -195,7 +195,7 @@ def _of_categories(title: str, names: list[str], codes: Array, given: Options, k
 
 
 def distinct_colors(count: int) -> list[RGB]:
-    """As many as are wanted, no two alike: the palette, then hues by the golden ratio in rings of lightness."""
+    """As many colors as are wanted, no two alike: the palette, then hues by the golden ratio in rings of lightness."""
     colors: list[RGB] = list(PALETTE)
     k = 0
     while len(colors) < count:
@@ -208,7 +208,7 @@ def distinct_colors(count: int) -> list[RGB]:
 
 
 def _colormap(colormap: Any) -> Any:
-    """Of matplotlib, by its name or as an object."""
+    """A color map of matplotlib, by its name or as an object."""
     if not isinstance(colormap, str):
         return colormap
     colormaps = module("matplotlib", "a colour map").colormaps
@@ -245,7 +245,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
 
 
 def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple[float, float]:
-    """Of all finite numbers; of 1% to 99% of them where few are far from all others."""
+    """The range of all finite numbers; or of 1% to 99% of them, if a few are far from all others."""
     least, largest = math.inf, -math.inf
     floor = 0.0 if given.scale == "log" else -math.inf
     for rows in chunks(len(values)):

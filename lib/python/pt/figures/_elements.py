@@ -69,7 +69,7 @@ def distinct(labels: Array) -> tuple[Array, Array]:
 
 
 def categories(labels: Array) -> tuple[list[str], Array]:
-    """The different labels in ascending order, as text, and of each particle which it is."""
+    """The different labels in ascending order, as text, and for each particle the index of its label."""
     values, codes = distinct(labels)
     order = np.argsort(values)
     names = [f"{value:.9g}" if labels.dtype.kind == "f" else str(value) for value in values[order]]
@@ -77,7 +77,7 @@ def categories(labels: Array) -> tuple[list[str], Array]:
 
 
 def _letters(label: str) -> str:
-    """Without digits, charges and what follows them: Fe of Fe2+, H of 1HB2, C of C_3."""
+    """The letters of a label, without digits, charges and what follows them: Fe for Fe2+, H for 1HB2, C for C_3."""
     found = re.match(r"[\d\s]*([A-Za-z]*)", label)
     return found.group(1) if found else ""
 
@@ -114,5 +114,5 @@ def elements_of(labels: Array) -> tuple[Array | None, list[str]]:
 
 
 def listed(names: list[str], most: int = 8) -> str:
-    """Names for a message, the first of them where they are many."""
+    """Names for a message; of many only the first."""
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")

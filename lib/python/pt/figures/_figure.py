@@ -62,7 +62,7 @@ class Drawn:
 
 
 def prepare(particles: Particles, options: Options, scale: float | None = None) -> Drawn:
-    """Radii, ranges of colours and categories are those of all particles, also of those that are not shown."""
+    """Radii, ranges of colors and categories come from all particles, shown or not."""
     notes = list(particles.notes)
     if not len(particles.positions):
         raise ValueError(f"{particles.name} has no particles")
@@ -87,7 +87,7 @@ def prepare(particles: Particles, options: Options, scale: float | None = None) 
 
 
 def _check(name: str, radii: Array, shown: Array | None) -> None:
-    """Names the first that is no radius."""
+    """Refuses radii, naming the first that is none."""
     for rows in chunks(len(radii)):
         good: Array = np.isfinite(radii[rows]) & (radii[rows] > 0.0)
         if not good.all():
@@ -99,7 +99,7 @@ def _check(name: str, radii: Array, shown: Array | None) -> None:
 
 def _in_range(positions: Array, radii: Array, cell: Cell | None, scale: float | None
               ) -> tuple[Array, Array, Cell | None, float]:
-    """In units in which the library's lengths go as far as the data do."""
+    """The particles in units that suit the library's range of lengths."""
     if scale is None:
         largest = max(float(radii.max()), 0.0 if cell is None else float(np.abs(cell.vectors).max()),
                       *(float(np.abs(positions[rows]).max()) for rows in chunks(len(positions))))
@@ -125,7 +125,7 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
 
 @dataclass(frozen=True)
 class Staged:
-    """Everything about a figure but its samples."""
+    """All of a figure except its samples."""
 
     drawn: Drawn
     layout: Layout
@@ -192,13 +192,13 @@ class Figure(Image):
         self._staged, self._stage, self._shares = staged, stage, shares
 
     def to_srgb8(self, exposure: float | None = None) -> npt.NDArray[np.uint8]:
-        """The picture as bytes of sRGB, shape (height, width, 3), or 4 with a transparent background. exposure: stops by
-        which balls are brighter; None: that of the figure, and if that is None too, automatic."""
+        """The picture as bytes of sRGB, shape (height, width, 3), or 4 with a transparent background. exposure: stops
+        by which balls are brighter; None: that of the figure, and if that is None too, automatic."""
         pixels: npt.NDArray[np.uint8] = self.picture(np.uint8, exposure)
         return pixels
 
     def picture(self, dtype: Any = np.uint8, exposure: float | None = None) -> npt.NDArray[Any]:
-        """to_srgb8, or as uint16."""
+        """The same as to_srgb8, or as uint16."""
         exposure = self.exposure if exposure is None else exposure
         exposure = automatic_exposure(self.radiance) if exposure is None else exposure
         options = self._staged.options
@@ -214,7 +214,7 @@ class Figure(Image):
         return quantised(pixels, dtype)
 
     def _strip(self, height: int, background: Doubles | None, ink: str) -> Doubles:
-        """The legend on the background, as it stands at the right of the picture."""
+        """The legend on the background, as at the right of the picture."""
         size = self._staged.options.size
         words = raster(self.legend, height, ink)
         width = size[0] - self.shape[1] if size else _strip_width(words, height)
@@ -241,8 +241,8 @@ class Figure(Image):
         return encode_png(self.picture(np.uint8 if bits == 8 else np.uint16, exposure))
 
     def save(self, path: Path, *, exposure: float | None = None, bits: int = 8) -> None:
-        """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The file
-        is there whole or not at all. ValueError: another ending."""
+        """Writes the picture if the path ends in .png or .jpg, and the linear radiance if it ends in .exr or .npy. The
+        file is there whole or not at all. ValueError: another ending."""
         format = format_of(path, (*PICTURES, "npy"))
         if format == "npy":
             super().save(path)
@@ -251,12 +251,12 @@ class Figure(Image):
             write_atomically(path, lambda file: file.write(data))
 
     def save_legend(self, path: Path) -> None:
-        """What the colours say, as .svg, .pdf or .png. ValueError: they say nothing, or another ending."""
+        """The legend as .svg, .pdf or .png. ValueError: the colors have no meaning, or another ending."""
         self._staged.save_legend(path)
 
     def save_scene(self, path: Path) -> None:
-        """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the cell
-        and colour bar are no part of it; neither is the seed."""
+        """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the
+        cell and colour bar are no part of it; neither is the seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:
@@ -264,7 +264,7 @@ class Figure(Image):
 
 
 def _background(background: Any) -> tuple[Doubles | None, str]:
-    """Linear light, or None where it is transparent; and the colour of words on it."""
+    """The background in linear light, None if transparent, and the color of words on it."""
     if isinstance(background, str) and background == "transparent":
         return None, INK
     color = (255, 255, 255) if isinstance(background, str) and background == "white" else srgb("background", background)
@@ -273,7 +273,7 @@ def _background(background: Any) -> tuple[Doubles | None, str]:
 
 
 def _strip_width(words: Doubles, height: int) -> int:
-    """Pixels that the legend takes at the right of the picture."""
+    """Columns of pixels that the legend takes at the right of the picture."""
     return words.shape[1] + 2 * max(8, round(0.025 * height))
 
 

@@ -23,7 +23,8 @@ MOST_ASPECT: Final = 2.0
 
 @dataclass(frozen=True)
 class Balls:
-    """What has to be seen whole. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), like a cell's corners."""
+    """What has to be seen whole. centers: shape (n, 3). radii: shape (n,). points: shape (k, 3), like a cell's
+    corners."""
 
     centers: Array
     radii: Array
@@ -38,7 +39,7 @@ class Balls:
 
 @dataclass(frozen=True)
 class View:
-    """The direction of a figure, and the size of its picture; what it needs to know of balls is how far they reach."""
+    """The direction of a figure, and the size of its picture. Of the balls it needs only how far they reach."""
 
     compass: Compass
     axes: Doubles
@@ -59,7 +60,7 @@ class View:
     @staticmethod
     def of(balls: Balls, view: Direction, up: Direction, projection: str, size: tuple[int, int] | None,
            turns: bool = False) -> View:
-        """turns: all of what a turntable shows is to be seen."""
+        """turns: everything that a turntable shows must be in view."""
         compass = Compass.of(up_vector(up))
         height = 0.0
         if view == "three-quarter":
@@ -76,7 +77,7 @@ class View:
         return View(compass, axes, size, projection, spin)
 
     def turned(self, angle: float) -> View:
-        """From where a turntable's camera is when it has gone so far round, radians."""
+        """The view of a turntable's camera that has gone round by so many radians."""
         assert self.spin is not None
         return replace(self, axes=self.axes @ _rotation(self.spin.axis, angle).T)
 
@@ -86,13 +87,13 @@ class View:
         return vertical * (self.size[0] / self.size[1]), vertical
 
     def reaches(self, balls: Balls) -> Doubles:
-        """In the directions that place needs; of several frames their maximum."""
+        """How far balls reach in the directions that place() needs; for several frames the maximum."""
         down = -(self.axes @ self.compass.up)
         return balls.reach(self.axes, np.vstack([SIDES, down[None], pyramid(self.tangents)]), self.spin)
 
 
 def _shape(extents: Doubles) -> tuple[int, int]:
-    """Of what is seen, though not of a ribbon: as many pixels in all as PIXELS, sides being multiples of 8."""
+    """The size of a picture with the shape of what is seen, but no ribbon: PIXELS in all, sides multiples of 8."""
     aspect = min(max(float(extents[0] / extents[1]), 1.0 / MOST_ASPECT), MOST_ASPECT)
     sides = [8 * math.floor(side / 8.0 + 0.5) for side in (math.sqrt(PIXELS * aspect), math.sqrt(PIXELS / aspect))]
     return sides[0], sides[1]

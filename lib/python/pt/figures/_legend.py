@@ -22,7 +22,7 @@ def _matplotlib(part: str = "") -> Any:
 
 
 def _plain(text: str) -> str:
-    """As it is, and not as TeX."""
+    """Text as it is, and not as TeX."""
     return text.replace("$", r"\$")
 
 
@@ -60,7 +60,7 @@ def _draw_swatches(sheet: Any, swatches: Swatches, height: float, font: float, i
 
 
 def save(legend: Legend, file: Any, format: str) -> None:
-    """The same bytes for the same legend. format: svg, pdf, png."""
+    """A file's bytes, equal for equal legends. format: svg, pdf, png."""
     dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
     with _matplotlib().rc_context({"svg.hashsalt": "pt"}):
         draw(legend, 2.4, 10.0, "#222222").savefig(file, format=format, dpi=200, bbox_inches="tight", pad_inches=0.08,
@@ -68,7 +68,8 @@ def save(legend: Legend, file: Any, format: str) -> None:
 
 
 def raster(legend: Legend, height: int, ink: Any) -> npt.NDArray[np.float64]:
-    """Shape (rows, columns, 4), from 0 to 1, no higher than the picture as far as text allows. height: of it, pixels."""
+    """Pixels in shape (rows, columns, 4), from 0 to 1, no higher than the picture if the text allows. height: the
+    picture's."""
     font = max(9.0, 0.02 * height * POINTS_PER_INCH / PIXELS_PER_INCH)
     buffer = io.BytesIO()
     draw(legend, 0.62 * height / PIXELS_PER_INCH, font, ink).savefig(

@@ -1,5 +1,5 @@
-"""What a figure can be told. Of this one description are the keywords of pt.figure() and the options of pt-figure, their
-words in help() and --help, and their checks."""
+"""What a figure can be told. Of this one description are the keywords of pt.figure() and the options of pt-figure,
+their words in help() and --help, and their checks."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ MOST_SAMPLES: Final = 65536  # for a target error
 
 
 def _option(group: str, default: Any, metavar: str, words: str, **more: Any) -> Any:
-    """more: choices; rule, what must hold, and how it is told; flag, its name on the command line; read, what makes it of
-    text there."""
+    """more: choices; rule, what must hold, and how it is told; flag, its name on the command line; read, what makes it
+    of text there."""
     return field(default=default, metadata={"group": group, "metavar": metavar, "words": words, **more})
 
 
@@ -126,12 +126,12 @@ class Options:
 
     @property
     def reading(self) -> dict[str, Any]:
-        """What load() and frames() take besides their frames."""
+        """The options of load() and frames() besides their frames."""
         return {"columns": self.columns, "format": self.format, "drop_nonfinite": self.drop_nonfinite}
 
     @property
     def most_samples(self) -> int:
-        """That a pixel gets."""
+        """The most samples that a pixel gets."""
         return self.samples or (SAMPLES if self.error is None else MOST_SAMPLES)
 
 

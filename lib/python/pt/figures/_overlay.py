@@ -24,7 +24,7 @@ LEAST_RADIUS: Final = 2.5  # of a ball with an outline, in widths of the line: o
 
 @dataclass(frozen=True)
 class Shares:
-    """Of each pixel, shape (height, width), from 0 to 1."""
+    """The share of each pixel, shape (height, width), from 0 to 1."""
 
     particles: Doubles
     lines: Doubles
@@ -45,18 +45,18 @@ class Overlaid:
 
 
 def line_width(size: tuple[int, int]) -> float:
-    """Pixels: a thousandth and a half of the picture's longer side, and never less than one."""
+    """Width of lines in pixels: 0.0016 of the picture's longer side, at least one."""
     return max(1.0, 0.0016 * max(size))
 
 
 def cell_edges(origin: Doubles, vectors: Doubles) -> list[tuple[Doubles, Doubles]]:
-    """Twelve lines."""
+    """The twelve edges of the cell."""
     corners = cell_corners(origin, vectors)
     return [(corners[k], corners[k | 1 << edge]) for k in range(8) for edge in range(3) if not k >> edge & 1]
 
 
 def cell_corners(origin: Doubles, vectors: Doubles) -> Doubles:
-    """Shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
+    """Corners, shape (8, 3): bit i of a corner's index says whether it is at the end of edge i."""
     ends = np.arange(8)[:, None] >> np.arange(3) & 1
     corners: Doubles = origin + ends @ vectors
     return corners
@@ -108,7 +108,7 @@ def _first_hits(context: Context, settings: RenderSettings, top: int, bottom: in
 
 
 def _pixels_per_length(camera: Camera, height: int, depths: Array) -> Array:
-    """Across the view, at these depths."""
+    """Pixels per length across the view, at these depths."""
     if camera.vertical_extent is not None:
         return np.broadcast_to(height / camera.vertical_extent, depths.shape)
     assert camera.vertical_fov is not None

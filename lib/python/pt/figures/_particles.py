@@ -92,11 +92,11 @@ class Particles:
         return len(self.positions)
 
     def column(self, name: str) -> Array:
-        """Of that name, or the only one whose name differs in case alone."""
+        """The column of that name, or the only one whose name differs in case alone."""
         return self.columns[_found(self.columns, name, self.name)]
 
     def select(self, mask: Array) -> Particles:
-        """Those of a mask, a slice or indices, in that order. Particles that are all kept are not copied."""
+        """The particles of a mask, a slice or indices, in that order. If all are kept, they are not copied."""
         if mask.dtype == bool and mask.all():
             return self
         chosen = {key: None if value is None else value[mask] for key, value in
@@ -104,7 +104,7 @@ class Particles:
         return self._moved(self.positions[mask], mask, **chosen)
 
     def wrapped(self) -> Particles:
-        """With all particles moved into the cell along the edges in which it is periodic."""
+        """The particles moved into the cell along its periodic edges."""
         if self.cell is None:
             raise DataError(f"wrap: {self.name} has no cell")
         positions = self.positions.copy()
@@ -157,7 +157,7 @@ def assembled(name: str, given: Table, mapping: Mapping[str, str], drop_nonfinit
 
 
 def _split(name: str, columns: Mapping[str, npt.ArrayLike]) -> tuple[dict[str, Array], Array | None]:
-    """Columns of one dimension each; and the table of positions, if there is one, as it is."""
+    """Columns of one dimension each, and the table of positions, if any, as it is."""
     arrays = {key: _without_objects(np.asarray(values)) for key, values in columns.items()}
     count = next((array.shape[:1] for array in arrays.values()), ())
     for key, array in arrays.items():
@@ -189,7 +189,7 @@ def _without_objects(array: Array) -> Array:
 
 
 def _plain(name: str) -> str:
-    """In small letters, without units in brackets, separators and quotes: posx of "Pos_X [m]"."""
+    """A name in small letters, without units in brackets, separators and quotes: posx for "Pos_X [m]"."""
     name = re.sub(r"\s*[\[(](?!\d+[\])])[^\])]*[\])]\s*$", "", name)
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
@@ -207,7 +207,7 @@ def _found(columns: Mapping[str, Array], name: str, data: str) -> str:
 
 
 def _first(columns: Mapping[str, Array], names: tuple[str, ...]) -> str | None:
-    """The first of these names that is there, exactly rather than in another case."""
+    """The first of these names that is there; an exact match comes before another case."""
     folded: dict[str, str] = {}
     for each in columns:
         folded.setdefault(each.lower(), each)
@@ -272,7 +272,7 @@ def _positions(name: str, parts: dict[str, Array], table: Array | None, chosen: 
 
 
 def _common_table(columns: list[Array]) -> Array | None:
-    """That of which these are the columns, one by one."""
+    """The array whose columns these are, one by one."""
     table, count = columns[0].base, len(columns[0])
     if not isinstance(table, np.ndarray) or table.ndim != 2 or len(table) < count or table.shape[1] != len(columns):
         return None
@@ -282,7 +282,8 @@ def _common_table(columns: list[Array]) -> Array | None:
 
 
 def _flushed(positions: Array) -> Array:
-    """With 0 for what is negligible beside the largest coordinate: rounding leaves numbers like 3e-19."""
+    """Positions with 0 in place of numbers like 3e-19, which rounding leaves: negligible beside the largest
+    coordinate."""
     least, largest = np.inf, 0.0
     for rows in chunks(len(positions)):
         sizes = np.abs(positions[rows])
@@ -294,7 +295,7 @@ def _flushed(positions: Array) -> Array:
 
 
 def _finite(particles: Particles, drop: bool) -> Particles:
-    """Names the first row that cannot be drawn, or leaves such rows out."""
+    """Refuses rows that cannot be drawn, naming the first, or leaves them out."""
     good = np.isfinite(particles.positions[:, 0])
     for column in (*particles.positions.T[1:], *(() if particles.radii is None else (particles.radii,))):
         good &= np.isfinite(column)

@@ -22,7 +22,7 @@ STEPS: Final = np.indices((3, 3, 3)).reshape(3, 1, 27) - 1
 
 
 def column(particles: Particles, name: str) -> Array:
-    """By its name; radius, type and element also where the data call them otherwise."""
+    """A column by its name; radius, type and element also under other names of the data."""
     known = {"radius": particles.radii, "type": particles.types, "element": particles.elements}
     values = known.get(name) if name not in particles.columns else None
     if values is None:
@@ -33,7 +33,7 @@ def column(particles: Particles, name: str) -> Array:
 
 
 def radii_of(particles: Particles, radius: Radius, notes: list[str]) -> Array:
-    """Shape (n,), or of one number that stands for all. notes: gets what is worth telling."""
+    """Radii in shape (n,), or one number for all. notes: receives what is worth telling."""
     factor = 1.0
     if isinstance(radius, str):
         product = re.fullmatch(r"\s*([-+.\deE]+)\s*\*\s*(.+?)\s*", radius)
@@ -93,7 +93,7 @@ def _automatic(particles: Particles, notes: list[str]) -> Array:
 
 
 def _of_elements(particles: Particles, numbers: npt.NDArray[np.uint8], kind: str, notes: list[str]) -> Array:
-    """Those that are not known have the mean radius of those that are."""
+    """Radii of elements; unknown ones have the mean of the known."""
     table = (elements.COVALENT_RADII if kind == "covalent" else elements.VAN_DER_WAALS_RADII).astype(np.float32)
     there = np.flatnonzero(np.bincount(numbers, minlength=len(table)))
     known = there[table[there] > 0]
@@ -119,8 +119,8 @@ def _of_types(particles: Particles, radii: Mapping[str, float]) -> Array:
 
 
 def typical_radius(positions: Array) -> float:
-    """Half of what most nearest neighbours are apart, so that most balls just touch; of points at random half of the
-    median distance to the fourth neighbour. Neighbours at the same place do not count."""
+    """Half of the distance between most nearest neighbours, so that most balls just touch; for random points, half of
+    the median distance to the fourth neighbour. Neighbours at the same place do not count."""
     first, fourth = _neighbour_distances(positions)
     if not len(first):
         return 1.0
@@ -133,8 +133,8 @@ def typical_radius(positions: Array) -> float:
 
 
 def _neighbour_distances(positions: Array) -> tuple[Array, Array]:
-    """Of some particles the distances to the nearest and to the fourth neighbour, where these are in the cells of a
-    grid next to theirs."""
+    """For some particles the distances to the nearest and the fourth neighbour, as far as these are in adjacent cells
+    of a grid."""
     count = len(positions)
     low, high = (np.array([end(column) for column in positions.T], np.float64) for end in (np.min, np.max))
     extent = high - low
