@@ -133,6 +133,12 @@ class Documents(unittest.TestCase):
             names = re.findall(r"([\w-]+\.(?:h|cpp|glsl|comp|py|md|cmake|sh))\b", comments)
             self.assertEqual(sorted(set(names) - files), [], path)
 
+    def test_sources_are_cited(self):
+        text, sources = (ROOT / "shaders/README.md").read_text(encoding="utf-8").split("## Sources\n")
+        authors = re.findall(r"(?:^|\d{4}\. )(\w+)", sources.strip())
+        self.assertGreater(len(authors), 20)
+        self.assertEqual([author for author in authors if author not in text], [])
+
     def test_pages_are_short(self):
         words = {path: len(path.read_text(encoding="utf-8").split()) for path in PAGES if path.name != "CHANGELOG.md"}
         self.assertLess(sum(words.values()), MOST_WORDS_IN_ALL)
