@@ -44,7 +44,7 @@ extern "C" {
  *
  * Returns PT_PENDING where they are under way now, to be polled. PT_TARGET_REACHED: the image is good enough already,
  * and nothing is under way. All kernels that the samples may need are built here (pt_prepare builds most of them
- * ahead), and where the image has a number of samples at which a target error is looked at, that is done first.
+ * ahead), and if the image has a number of samples at which a target error is checked, that is done first.
  *
  * One thread at a time per context. Fails as pt_accumulate does, and with PT_ERROR_INVALID_ARGUMENT where info.progress
  * is not NULL. */
@@ -53,7 +53,7 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
 /** Takes in what devices have done since the last call, gives them more, and waits for them, for so many nanoseconds at
  * the most.
  *
- * With 0 it does not wait, with UINT64_MAX until all is done. It may take longer where a target error is looked at,
+ * With 0 it does not wait, with UINT64_MAX until all is done. It may take longer when a target error is checked,
  * which reads the image. It never builds a kernel: a scene that has been rendered for long enough to get one of its own
  * (PT_CREATE_NO_SCENE_KERNELS) gets it by the next pt_start.
  *
@@ -62,17 +62,17 @@ PT_API pt_result pt_start(pt_context *context, const pt_accumulate_info *info);
  *
  * One thread at a time per context. PT_PENDING: samples are under way still. All other results end what pt_start began,
  * but for the refusal of a call from a callback or beside another thread's. PT_OK: all samples are taken.
- * PT_TARGET_REACHED: fewer do. PT_CANCELLED: pt_cancel was called, and there are fewer samples than asked for, all of
- * them whole. PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER,
+ * PT_TARGET_REACHED: fewer were enough. PT_CANCELLED: pt_cancel was called, and there are fewer samples than asked for,
+ * all of them whole. PT_ERROR_INVALID_STATE: nothing is under way. PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_SHADER,
  * PT_ERROR_DEVICE_LOST: the driver said so. */
 PT_API pt_result pt_poll(pt_context *context, uint64_t nanoseconds, double *fraction);
 
-/** Begins no more samples, and returns at once. What pt_start began ends by pt_poll, and a pt_accumulate that is under
- * way by itself, as after a pt_progress_fn that asks to stop: with PT_CANCELLED, or with PT_OK if no sample was left to
- * begin. Again it does nothing more.
+/** Asks for no more samples, and returns at once. pt_poll then ends what pt_start began, and a pt_accumulate under way
+ * ends by itself, as after a pt_progress_fn that asks to stop: with PT_CANCELLED, or with PT_OK if no sample was left
+ * to begin. A second call does nothing more.
  *
  * Any thread, at any time before pt_destroy, also in callbacks and while another thread is in a call on the context.
- * PT_ERROR_INVALID_STATE: nothing is under way, which a caller beside a thread that polls may well meet. */
+ * PT_ERROR_INVALID_STATE: nothing is under way, as may well happen beside a thread that polls. */
 PT_API pt_result pt_cancel(pt_context *context);
 
 #ifdef __cplusplus

@@ -1,8 +1,8 @@
 /** @file
  * pt: images in memory of the library's, for programs that want each as soon as it is there.
  *
- * Of a megabyte or more, most of the time of pt_readback goes into copying pixels from memory that the device has
- * written to the caller's. Who reads them once, to encode, send or show them, can do so where they are.
+ * For images of a megabyte or more, pt_readback spends most of its time copying pixels from memory that the device has
+ * written to the caller's. Whoever reads them once, to encode, send or show them, can do so in place.
  */
 #ifndef PT_MAP_H
 #define PT_MAP_H

@@ -13,9 +13,9 @@
  * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
  *   only at its tail; a zero field means "default". A shorter struct is read as if zeros followed; a longer one is
  *   accepted only if the tail unknown to this library is zero (PT_ERROR_UNSUPPORTED). Elements of arrays have no
- *   struct_size and are frozen, but for pt_sphere_array, which grows like the others. Reserved fields must be zero.
- * - Ownership: what a call is given is copied or no longer needed when it returns, but for callbacks with their user
- *   pointers where that is said. Pointers must not be NULL where that is not allowed.
+ *   struct_size and are frozen, except pt_sphere_array, which grows like the others. Reserved fields must be zero.
+ * - Ownership: what a call is given is copied or no longer needed when it returns, except callbacks and their user
+ *   pointers where that is said. Pointers may be NULL only where that is allowed.
  * - Results: a call that fails (result < 0) has changed nothing, except that a lost device stays lost (destroy the
  *   context and create another) and that pt_accumulate may have taken some of its samples. Every failure has a message,
  *   see pt_last_error. Any function can fail with PT_ERROR_OUT_OF_HOST_MEMORY and PT_ERROR_INTERNAL, and with
@@ -103,20 +103,20 @@ typedef struct pt_material {
 enum {
     /** Rays from the camera pass through surfaces of the material; all other rays meet them as if the bit were not set.
      * So a lamp is out of the picture but lights it, and is in its reflections; a wall lets the camera look into a
-     * room. The spheres are tested one by one, also where others are in a tree (PT_FEATURE_TREE): they should be few.
-     * Of surfaces that stand for others (pt_sphere) it is the first whose material counts in this, too. */
+     * room. Such spheres are tested one by one, even if others are in a tree (PT_FEATURE_TREE): they should be few. If
+     * surfaces are merged (pt_sphere), the material of the first one counts here, too. */
     PT_MATERIAL_HIDDEN_FROM_CAMERA = 1
 };
 
 /** A ball. Visible, lit and emitting on both sides. The centre at time t is center + t * motion.
  *
- * Of spheres that float32 cannot tell apart as the camera sees them the first in the scene stands for all, and so of
- * planes: radii that differ by less than a 2^18th, and centres by less than a 2^18th of the radius plus a 2^21th of the
- * distance, but never by a quarter of the radius.
+ * Spheres too close for float32 to separate, seen from the camera, are merged; the first one in the scene wins. So are
+ * planes. That is where radii differ by less than a 2^18th, and centres by less than a 2^18th of the radius plus a
+ * 2^21th of the distance, but never by a quarter of the radius.
  *
- * Spheres in a tree (PT_FEATURE_TREE) count as one only if all that it holds of them is equal; of others at equal
- * distances the largest about one centre is seen. A camera that is nearer to the surface of one than a 2^22th of its
- * radius plus a 2^28th of the extent of those in the tree may see its other side. */
+ * Spheres in a tree (PT_FEATURE_TREE) are merged only if all that it holds of them is equal. Of different ones about
+ * one centre the largest is seen. A camera nearer to the surface of such a sphere than a 2^22th of its radius plus a
+ * 2^28th of the extent of those in the tree may see its other side. */
 typedef struct pt_sphere {
     double center[3]; /**< at time 0 */
     double radius;    /**< > 0 */
@@ -183,9 +183,9 @@ typedef struct pt_scene {
     uint32_t sphere_array_count;          /**< elements of sphere_arrays, at most 65536 */
     uint32_t reserved;                    /**< 0 */
     /** NULL, or called during pt_set_scene, which takes some seconds for ten million spheres: every few milliseconds
-     * while spheres are many, and in any case with 1 before the scene is taken over. If it asks to stop, pt_set_scene
-     * returns PT_CANCELLED, and all is as it was before, the scene and the samples too. The share grows about as time
-     * passes, and leaps where a tree is kept (PT_FEATURE_TREE). */
+     * if there are many spheres, and in any case with 1 before the scene is taken over. If it asks to stop,
+     * pt_set_scene returns PT_CANCELLED, and everything is as before, the scene and the samples too. The share grows
+     * about as time passes, and leaps if a tree is kept (PT_FEATURE_TREE). */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** PT_MATERIAL_* bits of each of materials, as many; NULL: 0 for all. The caller's, like the arrays. */
@@ -272,31 +272,31 @@ enum {
 typedef struct pt_accumulate_info {
     uint32_t struct_size; /**< sizeof(pt_accumulate_info) */
     /** samples to add to every pixel, >= 1; indices must stay below 2^32. With a target_error the most that it adds to
-     * those pixels that have most; 0: to others alone, which a call that was stopped may have left behind. */
+     * the pixels that have most; 0: only to others, which a call that was stopped may have left behind. */
     uint32_t sample_count;
-    /** NULL, or called after every submission to a device; during pt_accumulate alone, so that pt_start refuses it.
+    /** NULL, or called after every submission to a device, but only by pt_accumulate: pt_start refuses it.
      *
      * The share does not grow with submissions that take no sample: with several devices, those that make room for the
      * samples of another. Before its first call the driver builds a kernel, which cannot be interrupted. Mesa's
      * lavapipe takes a tenth of a second for that, and two or three more in the first submission that takes samples
      * unless its cache has the kernel (pt_prepare does both).
      *
-     * If it asks to stop, the call ends with the submissions that are under way then: two to each device at the most,
-     * and where one sample of all pixels takes several, those that complete it. */
+     * If it asks to stop, the call ends with the submissions that are under way then, at most two to each device; and
+     * if one sample of all pixels takes several submissions, with those that complete it. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
     /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
-     * PT_TARGET_REACHED, while PT_OK says that sample_count allows no more. The error is looked at when all pixels have
-     * as many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when none wants more for the
-     * bound of the time, and at no other time: where a sequence ends, and with which samples in which pixels, does not
-     * depend on how it is split over calls, devices, or films that are saved and added again. Finite, >= 0. */
+     * PT_TARGET_REACHED, or PT_OK if sample_count allows no more. The error is checked only when all pixels have as
+     * many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when no tile wants more for the
+     * present bound. So where a sequence ends, and with which samples in which pixels, does not depend on how it is
+     * split over calls, devices, or films that are saved and added again. Finite, >= 0. */
     double target_error;
     uint32_t sampling; /**< PT_SAMPLING_*: where samples go */
     uint32_t reserved; /**< 0 */
     /** NULL: all pixels alike, or as the target error decides. Else how many samples each tile takes, from none to
-     * sample_count, and there is no target error: for pt_render.first_sample and the next that the tile has not. Tiles
+     * sample_count: those from pt_render.first_sample on that the tile lacks. Then there must be no target error. Tiles
      * are squares of 8 x 8 pixels from the top left of what is rendered on, smaller at its edges, row by row. So
-     * machines share what a film is to take next (pt_plan_film). Read by the call alone. */
+     * machines share what a film is to take next (pt_plan_film). Read only during the call. */
     const uint32_t *tile_samples;
     uint32_t tile_count; /**< elements of tile_samples: all tiles of what is rendered, or 0 */
     uint32_t reserved2;  /**< 0 */
@@ -348,8 +348,8 @@ enum {
     PT_FORMAT_R32UI = 3 /**< one uint32_t: 4 bytes. For PT_QUANTITY_OBJECT, and for nothing else */
 };
 
-/** Memory of the caller's that receives an image, or a rectangle of it. The numbers of a pixel do not depend on what is
- * read besides it. */
+/** Memory of the caller's that receives an image, or a rectangle of it. A pixel's numbers do not depend on what else is
+ * read. */
 typedef struct pt_image {
     uint32_t struct_size; /**< sizeof(pt_image) */
     uint32_t quantity;    /**< PT_QUANTITY_* */
@@ -380,24 +380,24 @@ typedef void (*pt_log_fn)(void *user, int32_t level, const char *line);
 /** Gives back what pt_store_kernels_fn was given under a key, be it by another process.
  *
  * Returns how many bytes there are, 0 for none, and writes them to data if they are no more than size_bytes. First it
- * is called with NULL and 0, to learn their number. What it gives is checked and, if it is damaged or belongs to
- * another driver or version, left alone: the kernels are then built anew, and no call fails. key is as for
+ * is called with NULL and 0, to learn their number. Bytes that are damaged or belong to another driver or version are
+ * not used: the kernels are then built anew, and no call fails. key is as for
  * pt_store_kernels_fn, user is pt_create_info.kernels_user. */
 typedef uint64_t (*pt_load_kernels_fn)(void *user, const char *key, void *data, uint64_t size_bytes);
 
 /** Takes what a driver has made of kernels, to be kept under a key in place of what was there.
  *
- * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it is as fit for
- * the name of a file. data is valid during the call: from some dozens of bytes to some megabytes, mostly the driver's
- * own. Where it cannot be kept, nothing needs to be said. user is pt_create_info.kernels_user. */
+ * key has 32 hexadecimal digits, which stand for the device's model, its driver and the kernels' code; it can be the
+ * name of a file. data is valid during the call: from some dozens of bytes to some megabytes, mostly the driver's
+ * own. If it cannot be kept, no error is needed. user is pt_create_info.kernels_user. */
 typedef void (*pt_store_kernels_fn)(void *user, const char *key, const void *data, uint64_t size_bytes);
 
 /** Bits of pt_create_info.flags. */
 enum {
     PT_CREATE_VALIDATION = 1, /**< the Khronos validation layer reports to log; absent: PT_ERROR_UNSUPPORTED */
-    /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again,
-     * and the first scene of a context gets one, as does each that is rendered for some time, a second at first;
-     * building it takes a third of a second, and pt_poll builds none. Without, moving cameras build nothing. */
+    /** No kernels with a scene's numbers as constants. On CPUs such a kernel takes samples up to half as fast again.
+     * The first scene of a context gets one, as does each that is rendered for some time, a second at first. Building
+     * it takes a third of a second, and pt_poll builds none. With this bit, moving cameras build nothing. */
     PT_CREATE_NO_SCENE_KERNELS = 2
 };
 
@@ -417,8 +417,8 @@ typedef struct pt_create_info {
     const char *shader_dir;
     /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes
      * start sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have
-     * built kernels (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays meet first; on GPUs
-     * of anything, and pt_get_stats), also of those that fail. Drivers that have a cache of their own, as Mesa's
+     * built kernels, even if they fail (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays
+     * meet first; on GPUs any pt_readback, and pt_get_stats). Drivers with a cache of their own, such as Mesa's
      * lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
@@ -467,15 +467,15 @@ PT_API void pt_destroy(pt_context *context);
  *
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
- * Many spheres are put into a tree here, which takes most of the time. Where a scene has as many of them as the one
- * before, the tree's shape is kept while it is good, and the call takes a third to two fifths of the time: so where
- * spheres move a little from picture to picture, or change their colours alone. The image, its bits and its films do
- * not depend on that.
+ * Many spheres are put into a tree here, which takes most of the time. If a scene has as many of them as the one
+ * before, and they have only moved a little or changed their colours, the tree's shape is kept, and the call takes
+ * half of the time.
+ * The image, its bits and its films do not depend on that.
  *
  * One thread at a time per context. PT_CANCELLED: pt_scene.progress asked to stop. PT_ERROR_INVALID_SCENE: a rule is
- * broken; the message has a line for each rule
- * that is, as "spheres[3].radius = -1: must be > 0" or, of a column, "sphere_arrays[0].radius[123] = -1: must be > 0";
- * after eight lines it only counts. PT_ERROR_DEVICE_LOST. */
+ * broken; the message has a line for each broken rule, as "spheres[3].radius = -1: must be > 0" or, of a column,
+ * "sphere_arrays[0].radius[123] = -1: must be > 0"; after eight lines it only counts.
+ * PT_ERROR_DEVICE_LOST. */
 PT_API pt_result pt_set_scene(pt_context *context, const pt_scene *scene);
 
 /** Takes over a camera, and discards the samples accumulated so far.
@@ -497,10 +497,10 @@ PT_API pt_result pt_set_render(pt_context *context, const pt_render *render);
  * kept them.
  *
  * Without this call pt_accumulate builds what it needs. A context keeps the last eight kernels, so that settings which
- * come back find theirs; which one a scene needs is decided by what kinds of things are in it and how many, and on
- * which sides of them the camera is, not by where they are. Here a scene gets a kernel of its own at once where that is
- * faster (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are. Drivers cannot be interrupted, and so this call
- * cannot.
+ * come back find theirs. Which one a scene needs depends on the kinds and numbers of things in it, and on which sides
+ * of them the camera is, but not on where they are. Here a scene gets a kernel of its own at once if that is faster
+ * (see PT_CREATE_NO_SCENE_KERNELS). Samples stay as they are.
+ * Drivers cannot be interrupted, nor can this call.
  *
  * One thread at a time per context. PT_ERROR_INVALID_STATE: something is not set. PT_ERROR_UNSUPPORTED: the scene is
  * beyond the device. PT_ERROR_SHADER, PT_ERROR_OUT_OF_DEVICE_MEMORY, PT_ERROR_DEVICE_LOST: the driver said so. */

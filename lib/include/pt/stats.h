@@ -66,12 +66,12 @@ typedef struct pt_stats {
     double mean_sample_count;  /**< of all pixels */
 } pt_stats;
 
-/** The first number of samples above this one with which a target error is looked at while all pixels have as many: 16,
+/** The next number of samples at which a target error is checked while all pixels have equally many: 16,
  * 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none.
  * Any thread; never fails. */
 PT_API uint32_t pt_next_check(uint32_t sample_count);
 
-/** Writes what has been done; at any time but while samples are under way (pt/async.h), of a lost device too.
+/** Writes what has been done, also for a lost device; not while samples are under way (pt/async.h).
  *
  * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
  * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
