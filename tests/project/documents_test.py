@@ -61,11 +61,11 @@ def code_files():
 
 
 def names_of_code(text):
-    """Of a page's text: identifiers with an underscore that stand alone as code, and names of source files."""
+    """Of a page's text: identifiers with an underscore that stand alone as code, and names of source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
-    others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
+    others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}  # files, folders
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
-    return identifiers, {span for span in others if re.search(r"\w\.(h|cpp|glsl|comp)$", span)}
+    return identifiers, {span for span in others if re.search(r"\w\.(h|cpp|glsl|comp)$|^(cli|cmake|lib|shaders|tests)/", span)}
 
 
 def missing_files(page, names, files):
