@@ -61,11 +61,12 @@ def code_files():
 
 
 def names_of_code(text):
-    """Of a page's text: identifiers with an underscore that stand alone as code, and names of source files and folders."""
+    """Of a page: identifiers with an underscore that stand alone as code, and names of source files and folders."""
     spans = re.findall(r"`([\w./]+)(?:\(\))?`", re.sub(r"```.*?```", "", text, flags=re.DOTALL))
-    others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}  # files, folders
+    others = {span for span in spans if re.search(r"/|\.(h|c|cpp|glsl|comp|py|json|md|sh|exr|png)$", span)}
     identifiers = {word for span in spans if span not in others for word in span.split(".") if "_" in word}
-    return identifiers, {span for span in others if re.search(r"\w\.(h|cpp|glsl|comp)$|^(cli|cmake|lib|shaders|tests)/", span)}
+    source = r"\w\.(h|cpp|glsl|comp)$|^(cli|cmake|lib|shaders|tests)/"
+    return identifiers, {span for span in others if re.search(source, span)}
 
 
 def missing_files(page, names, files):
@@ -75,15 +76,17 @@ def missing_files(page, names, files):
 
 
 def commands_without_source(text):
-    """Of Python scripts in a page's shell commands: those that are missing, and options that no script beside it
-    has."""
+    """Of Python scripts in a page's shell commands: missing ones, and options that no script beside them has."""
     wrong = []
     for block in re.findall(r"```sh\n(.*?)```", text, re.DOTALL):
         for line in block.replace("\\\n", " ").splitlines():
-            script, options = (re.findall(r"[\w/]+/\w+\.py\b", line) or [""])[0], re.findall(r"(?<!\S)--[\w-]+", line.split("#")[0])
-            source = "".join(path.read_text(encoding="utf-8") for path in (ROOT / script).parent.glob("*.py"))
-            if script:
-                wrong += [script] * (not (ROOT / script).exists()) + [name for name in options if f'"{name}"' not in source]
+            script = re.search(r"[\w/]+/\w+\.py\b", line)
+            if script is None:
+                continue
+            path = ROOT / script[0]
+            source = "".join(each.read_text(encoding="utf-8") for each in path.parent.glob("*.py"))
+            options = re.findall(r"(?<!\S)--[\w-]+", line.split("#")[0])
+            wrong += [script[0]] * (not path.exists()) + [name for name in options if f'"{name}"' not in source]
     return wrong
 
 
