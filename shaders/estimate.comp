@@ -14,8 +14,8 @@ layout(push_constant) uniform Push { EstimateConstants estimate; };
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
-// Of each tile the samples in the older and in the newer part, and what its samples alone say of the sum of its values'
-// relative errors squared, and of that of light that none of them met.
+// Of each tile the samples in the older and in the newer part, where tiles differ, and what its samples alone say of the
+// sum of its values' relative errors squared, and of that of light that none of them met, where that is asked for.
 layout(set = 0, binding = BINDING_TILE_COUNTS) readonly buffer TileCounts { uvec2 counts[]; } tile_samples;
 layout(set = 0, binding = BINDING_TILE_SQUARES) writeonly buffer TileSquares { vec2 squares[]; } tile_errors;
 
@@ -296,7 +296,8 @@ void main()
     const uint first_column = sums_up_tile ? tile_place.y / TILE_SIZE * REGION_SIZE + tile_place.x : 0u;
 
     // How many samples pixels have.
-    const uvec2 expected = tile_samples.counts[film_tile(first_place)];
+    const bool are_even = estimate.sample_counts != uvec2(ANY_COUNT);
+    const uvec2 expected = are_even ? estimate.sample_counts : tile_samples.counts[film_tile(first_place)];
     const float sample_count = float(expected.x + expected.y);
     uvec2 counts[TILE_SIZE];
     Findings findings = Findings(uvec2(0u), 0u, 0u);
@@ -393,11 +394,13 @@ void main()
                     squares[RELATIVE_SQUARE][i] += square;
                 met_again += alone && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
                 unseen += unseen_square(mean, near.largest, sample_count, relative.offset);
-                const float level = mean_besides_and_without_largest(tile_set, mean);
-                own += vec2(once && stands_out(mean, level, relative)
-                                ? square_as_lamp(standard_errors[i], mean, relative)
-                                : relative_square(standard_errors[i], mean, lessers[i], level, relative),
-                            unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
+                if (estimate.by_tile == 1u) {
+                    const float level = mean_besides_and_without_largest(tile_set, mean);
+                    own += vec2(once && stands_out(mean, level, relative)
+                                    ? square_as_lamp(standard_errors[i], mean, relative)
+                                    : relative_square(standard_errors[i], mean, lessers[i], level, relative),
+                                unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
+                }
             }
         barrier(); // before the next channel's means
     }
@@ -439,7 +442,7 @@ void main()
     write_region_error(gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x, invocation, size);
 
     // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
-    if (sums_up_tile && all(lessThan(tile_place, size)))
+    if (estimate.by_tile == 1u && sums_up_tile && all(lessThan(tile_place, size)))
         tile_errors.squares[film_tile(region_place + tile_place)] =
             of_tile.findings.unknown > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : of_tile.own;
 }

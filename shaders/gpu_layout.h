@@ -396,6 +396,8 @@ struct EstimateConstants {
     uint strip_pixel_count;
     uint row_count;
     uint first_tile;       // of the strip, in the film
+    uvec2 sample_counts;   // of each pixel in the older and in the newer part; ANY_COUNT: those that its tile has
+    uint by_tile;          // 1: what tiles say of themselves is asked for too
     float relative_offset; // in film units
     float relative_scale;
 };
@@ -420,7 +422,8 @@ static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_w
 static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
-static_assert(sizeof(EstimateConstants) == 24 && sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
+static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);
+static_assert(sizeof(RegionError) == 88 && offsetof(RegionError, rejected) == 80);
 static_assert(sizeof(AddConstants) == 20 && offsetof(AddConstants, added_stride) == 16);
 } // namespace pt::gpu
 #endif

@@ -58,6 +58,11 @@ double squares_of_pieces(std::uint32_t pixels, std::uint32_t piece) {
     return static_cast<double>(whole) * piece * piece + rest * rest;
 }
 
+gpu::uvec2 counts_of(const SampleSet &set) {
+    const auto [older, newer] = part_counts(set);
+    return {static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer)};
+}
+
 RegionErrors errors_of(const gpu::RegionError &found, std::uint32_t width, std::uint32_t height, double unit,
                        const RelativeUnits &units) {
     require_no_loss(found.lost_pixels);
@@ -109,11 +114,11 @@ ErrorReader::ErrorReader(vulkan::Device &device, const vulkan::ComputePipeline &
 
 // The host writes in place, so no work that reads them may be under way.
 void ErrorReader::list_counts(const TileSamples &samples) {
+    if (samples.even())
+        return;
     std::vector<gpu::uvec2> of_sets;
-    for (const SampleSet &set : samples.sets()) {
-        const auto [older, newer] = part_counts(set);
-        of_sets.emplace_back(static_cast<std::uint32_t>(older), static_cast<std::uint32_t>(newer));
-    }
+    for (const SampleSet &set : samples.sets())
+        of_sets.push_back(counts_of(set));
     auto *const counts = reinterpret_cast<gpu::uvec2 *>(tile_counts_.host_memory().data());
     for (std::size_t tile = 0; tile < samples.grid().count(); ++tile)
         counts[tile] = of_sets[samples.set_of(tile)];
@@ -159,6 +164,9 @@ void ErrorReader::record_strip(const vk::raii::CommandBuffer &commands, std::siz
     constants.row_count = pixel_count / width;
     constants.first_tile =
         static_cast<std::uint32_t>(film_.grid().tile_at(0, film_.strips()[strip].first_pixel / width));
+    constants.sample_counts =
+        query.samples.even() ? counts_of(query.samples.sets().front()) : gpu::uvec2(gpu::ANY_COUNT);
+    constants.by_tile = query.by_tile.empty() ? 0 : 1;
     constants.relative_offset = units.offset;
     constants.relative_scale = units.scale;
     estimate_.dispatch(commands, sets_[strip], std::as_bytes(std::span(&constants, 1)), regions_of(width), {},

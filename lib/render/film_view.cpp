@@ -115,19 +115,16 @@ bool FilmView::reads_on_device() const {
 }
 
 // Regions come in one order, whoever sums them up: an image has the same estimate on one device and on several.
-void FilmView::estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples,
-                        std::vector<double> &tile_squares, bool is_recorded) {
+void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!reads_on_device()) {
-        if (samples.even())
-            read_films(films(devices_), samples, piece_pixels,
-                       [&](const PixelSums &sums) { estimator.add(sums.estimates(unit, true)); });
+        if (query.samples.even())
+            read_films(films(devices_), query.samples, piece_pixels,
+                       [&](const PixelSums &sums) { estimator.add(sums.estimates(query.unit, true)); });
         else
-            std::ranges::for_each(uneven_errors_.regions(samples, unit, reader_of(samples)), add);
+            std::ranges::for_each(uneven_errors_.regions(query.samples, query.unit, reader_of(query.samples)), add);
         return;
     }
-    tile_squares.resize(samples.grid().count());
-    const ErrorQuery query{unit, samples, tile_squares};
     if (!is_one_film())
         estimate_bands(query, add);
     else if (is_recorded)
@@ -156,9 +153,10 @@ void FilmView::estimate_bands(const ErrorQuery &query, const ErrorReader::Receiv
         if (!sum.error)
             sum.error.emplace(home().device(), home().estimate_pipeline(), sum.rows.film());
         const TileSamples samples = query.samples.rows(band.first_row, band.row_count);
-        sum.error->read(
-            {query.unit, samples, query.by_tile.subspan(grid.tile_at(0, band.first_row), samples.grid().count())},
-            receive);
+        std::span<double> by_tile = query.by_tile;
+        if (!by_tile.empty())
+            by_tile = by_tile.subspan(grid.tile_at(0, band.first_row), samples.grid().count());
+        sum.error->read({query.unit, samples, by_tile}, receive);
     }
 }
 

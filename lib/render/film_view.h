@@ -37,11 +37,10 @@ public:
     // replaced, or the next call. Elsewhere none.
     std::optional<std::span<std::byte>> map(const ImageQuery &query);
 
-    // Gives the estimator all that is known of the films' error. tile_squares: receives what is expected of each of
-    // their tiles (region_errors.h), where a kernel finds both at once. is_recorded: it is there already, of a
-    // submission that took the samples on the only device. Throws likewise.
-    void estimate(ErrorEstimator &estimator, double unit, const TileSamples &samples, std::vector<double> &tile_squares,
-                  bool is_recorded);
+    // Gives the estimator all that is known of the films' error, and where a kernel finds both at once what the query
+    // asks of tiles. is_recorded: it is there already, of a submission that took the samples on the only device.
+    // Throws likewise.
+    void estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded);
 
     // Whether the host finds what is expected of tiles, without the error of the image: it takes less time.
     bool finds_tile_squares_alone() const { return !reads_on_device(); }

@@ -29,18 +29,22 @@ Camera Renderer::ray_start() {
 const ErrorEstimate &Renderer::error() {
     if (!error_ && samples_.least() < min_estimate_samples)
         error_ = unknown_error();
-    if (!error_) {
-        const KernelsKept kept(devices_);
-        const std::uint64_t samples = samples_.total();
-        ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                                  may_miss_lamps(*scene_, ray_start(), *settings_, samples),
-                                  finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
-        view_.estimate(estimator, scene_->film_unit, samples_, tile_squares_,
-                       job_ && job_->accumulation.has_estimate());
-        rejected_samples_ = estimator.rejected();
-        error_ = hides_error(estimator.rejected(), samples) ? unknown_error() : estimator.result();
-    }
+    if (!error_)
+        look({}, job_ && job_->accumulation.has_estimate());
     return *error_;
+}
+
+// by_tile: as in ErrorQuery. is_recorded: as FilmView has it.
+void Renderer::look(std::span<double> by_tile, bool is_recorded) {
+    const KernelsKept kept(devices_);
+    const std::uint64_t samples = samples_.total();
+    ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
+                              may_miss_lamps(*scene_, ray_start(), *settings_, samples),
+                              finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
+    view_.estimate(estimator, {scene_->film_unit, samples_, by_tile}, is_recorded);
+    rejected_samples_ = estimator.rejected();
+    const bool is_unknown = samples_.least() < min_estimate_samples || hides_error(estimator.rejected(), samples);
+    error_ = is_unknown ? unknown_error() : estimator.result();
 }
 
 // Said, but no bound that ends a rendering: films that are added elsewhere do not know of lamps.
@@ -62,7 +66,11 @@ ErrorEstimate Renderer::error_with_lamps() {
 std::span<const double> Renderer::tile_squares() {
     if (view_.finds_tile_squares_alone())
         return view_.tile_squares(scene_->film_unit, samples_);
-    error();
+    if (tile_squares_.empty()) {
+        std::vector<double> squares(samples_.grid().count());
+        look(squares, false);
+        tile_squares_ = std::move(squares);
+    }
     return tile_squares_;
 }
 

@@ -208,6 +208,7 @@ void Renderer::take_over(TileSamples samples) noexcept {
 
 void Renderer::forget_error() noexcept {
     error_.reset();
+    tile_squares_.clear();
     rejected_samples_.reset();
 }
 
