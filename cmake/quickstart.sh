@@ -2,7 +2,7 @@
 # From a fresh clone on a bare Debian 12 to programs, a picture or passed tests:
 #   sh cmake/quickstart.sh render   builds the program for PNG and renders the coursework scene to coursework.png
 #   sh cmake/quickstart.sh build    builds the library, the program with all its parts and the examples into build/
-#   sh cmake/quickstart.sh test     builds everything and runs all tests: with the validation layer, then with sanitizers;
+#   sh cmake/quickstart.sh test     builds everything and runs all tests: with the validation layer, and with sanitizers;
 #                                   and looks over the library by clang-tidy
 # Each installs the packages that it needs, as root or through sudo. Without apt-get, install the equivalents first.
 set -eu
@@ -45,29 +45,29 @@ check() { # preset
     esac
 }
 
-# All run, whatever becomes of those before; the exit status is the worst of them. Tidy, most of which is one process,
-# runs beside the others, in the time that they leave a core idle; what it says comes last.
+# Leaves the exit status of a check, whatever it is.
+note_status() { # file, preset
+    status=0
+    check "$2" || status=$?
+    echo "$status" >"$1"
+}
+
+# All run side by side, so that no core is idle while one of them has a single process left; the exit status is the worst of
+# them. What the first says is seen as it comes, what the others say after it.
 test_all() {
-    tidy_output=$(mktemp)
-    check tidy >"$tidy_output" 2>&1 &
-    tidy=$!
+    folder=$(mktemp -d)
+    note_status "$folder/sanitize.status" sanitize >"$folder/sanitize" 2>&1 &
+    note_status "$folder/tidy.status" tidy >"$folder/tidy" 2>&1 &
+    note_status "$folder/release.status" release
+    wait
+    cat "$folder/sanitize" "$folder/tidy"
     worst=0
-    report=
     for preset in release sanitize tidy; do
-        status=0
-        case $preset in
-        tidy)
-            wait "$tidy" || status=$?
-            cat "$tidy_output"
-            rm "$tidy_output"
-            ;;
-        *) check "$preset" || status=$? ;;
-        esac
+        read -r status <"$folder/$preset.status"
         [ "$status" -le "$worst" ] || worst=$status
-        report="$report
-quickstart: $preset: $([ "$status" -eq 0 ] && echo passed || echo "FAILED with exit status $status")"
+        echo "quickstart: $preset: $([ "$status" -eq 0 ] && echo passed || echo "FAILED with exit status $status")"
     done
-    echo "$report"
+    rm -r "$folder"
     return "$worst"
 }
 
