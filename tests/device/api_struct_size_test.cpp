@@ -2,7 +2,9 @@
 // with older and newer headers get what the struct would say with zeros in place of what they do not know.
 #include "tests/device/api_fixture.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <utility>
 
 namespace api {
@@ -44,28 +46,43 @@ std::vector<uint32_t> misread_sizes(const T &value, const Call &call) {
     return misread;
 }
 
-// That a call looks at each byte behind the struct that the library knows, and says so; it is called name in messages.
+// A struct as a caller with a newer header has it.
+template <typename T>
+struct Newer {
+    T known;
+    unsigned char tail[16];
+};
+
+template <typename T>
+Newer<T> newer_than(const T &value) {
+    Newer<T> newer{value, {}};
+    newer.known.struct_size = sizeof newer;
+    return newer;
+}
+
+// That a call takes a newer struct with zeros behind what the library knows as it takes value, looks at each byte
+// there, and says which is set; and that it refuses sizes that no struct has. It is called name in messages.
 template <typename T, typename Call>
-void expect_tail_refused(const T &value, const std::string &name, const Call &call) {
-    struct Newer {
-        T known;
-        unsigned char tail[16];
-    };
-    for (std::size_t i = 0; i < sizeof(Newer::tail); ++i) {
-        Newer newer{value, {}};
-        newer.known.struct_size = sizeof(Newer);
+void expect_sizes_heeded(const T &value, const std::string &name, const Call &call) {
+    EXPECT_EQ(call(newer_than(value).known), call(value));
+    for (std::size_t i = 0; i < sizeof(Newer<T>::tail); ++i) {
+        Newer<T> newer = newer_than(value);
         newer.tail[i] = 1;
-        const Outcome outcome{PT_ERROR_UNSUPPORTED, name + ".struct_size = " + std::to_string(sizeof(Newer)) +
+        const Outcome outcome{PT_ERROR_UNSUPPORTED, name + ".struct_size = " + std::to_string(sizeof newer) +
                                                         ": byte " + std::to_string(sizeof(T) + i) +
                                                         " is set, but this library knows only the first " +
                                                         std::to_string(sizeof(T)) + " bytes of the struct"};
         EXPECT_EQ(call(newer.known), outcome);
     }
-    T absurd = value;
-    absurd.struct_size = 65537;
-    const Outcome outcome{PT_ERROR_INVALID_ARGUMENT,
-                          name + ".struct_size = 65537: must be the size of the struct (<= 65536)"};
-    EXPECT_EQ(call(absurd), outcome);
+    T wrong = value;
+    wrong.struct_size = 65537;
+    const Outcome absurd{PT_ERROR_INVALID_ARGUMENT,
+                         name + ".struct_size = 65537: must be the size of the struct (<= 65536)"};
+    EXPECT_EQ(call(wrong), absurd);
+    wrong.struct_size = 0;
+    const Outcome forgotten{PT_ERROR_INVALID_ARGUMENT,
+                            name + ".struct_size = 0: must be the size of the struct, which holds this field"};
+    EXPECT_EQ(call(wrong), forgotten);
 }
 
 const std::vector<uint32_t> none;
@@ -99,14 +116,14 @@ TEST_F(StructSizeTest, Scene) {
     scene.sphere_array_count = 1;
     EXPECT_EQ(call(scene).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(scene, call), none);
-    expect_tail_refused(scene, "scene", call);
+    expect_sizes_heeded(scene, "scene", call);
     const auto call_with = [&](const pt_sphere_array &another) {
         pt_scene changed = scene;
         changed.sphere_arrays = &another;
         return call(changed);
     };
     EXPECT_EQ(misread_sizes(array, call_with), none);
-    expect_tail_refused(array, "sphere_arrays[0]", call_with);
+    expect_sizes_heeded(array, "sphere_arrays[0]", call_with);
 }
 
 TEST_F(StructSizeTest, Camera) {
@@ -114,7 +131,7 @@ TEST_F(StructSizeTest, Camera) {
     const pt_camera camera{sizeof(pt_camera), 0, {1, 2, 3}, {4, 5, 7}, {0, 0, 1}, 0.5, 0.25, 0.75, 0};
     EXPECT_EQ(call(camera).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(camera, call), none);
-    expect_tail_refused(camera, "camera", call);
+    expect_sizes_heeded(camera, "camera", call);
 }
 
 TEST_F(StructSizeTest, Render) {
@@ -128,7 +145,7 @@ TEST_F(StructSizeTest, Render) {
     render.row_count = 3;
     EXPECT_EQ(call(render).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(render, call), none);
-    expect_tail_refused(render, "render", call);
+    expect_sizes_heeded(render, "render", call);
 }
 
 TEST_F(StructSizeTest, AccumulateInfo) {
@@ -138,7 +155,7 @@ TEST_F(StructSizeTest, AccumulateInfo) {
     const pt_accumulate_info info{sizeof info, 1, go_on, nullptr, 1e-9, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(call(info).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(info, call), none);
-    expect_tail_refused(info, "accumulate", call);
+    expect_sizes_heeded(info, "accumulate", call);
 }
 
 TEST_F(StructSizeTest, Image) {
@@ -154,7 +171,7 @@ TEST_F(StructSizeTest, Image) {
     image.format = PT_FORMAT_RGBA32F;
     EXPECT_EQ(call(image).first, PT_OK) << message();
     EXPECT_EQ(misread_sizes(image, call), none);
-    expect_tail_refused(image, "image", call);
+    expect_sizes_heeded(image, "image", call);
 }
 
 TEST(StructSize, CreateInfo) {
@@ -171,7 +188,7 @@ TEST(StructSize, CreateInfo) {
     info.log = ignore;
     info.submit_milliseconds = 2000;
     EXPECT_EQ(misread_sizes(info, call), none);
-    expect_tail_refused(info, "create", call);
+    expect_sizes_heeded(info, "create", call);
 }
 
 // What is written: as many bytes as the caller's struct has, the same as into the whole.
@@ -186,9 +203,18 @@ TEST_F(StructSizeTest, Stats) {
         EXPECT_EQ(pt_get_stats(context(), &older), PT_OK) << message();
         EXPECT_EQ(std::memcmp(&older, &expected, sizeof older), 0) << "of " << size << " bytes";
     }
-    pt_stats absurd{};
-    absurd.struct_size = 65537;
-    expect_failure(pt_get_stats(context(), &absurd), PT_ERROR_INVALID_ARGUMENT,
+    Newer<pt_stats> newer = newer_than(pt_stats{});
+    std::memset(newer.tail, 0x55, sizeof newer.tail);
+    EXPECT_EQ(pt_get_stats(context(), &newer.known), PT_OK) << message();
+    EXPECT_EQ(newer.known.struct_size, sizeof newer);
+    newer.known.struct_size = sizeof whole;
+    EXPECT_EQ(std::memcmp(&newer.known, &whole, sizeof whole), 0);
+    EXPECT_EQ(std::ranges::count(newer.tail, 0x55), std::ssize(newer.tail)) << "written behind the struct";
+    pt_stats wrong{};
+    expect_failure(pt_get_stats(context(), &wrong), PT_ERROR_INVALID_ARGUMENT,
+                   "stats.struct_size = 0: must be the size of the struct, which holds this field");
+    wrong.struct_size = 65537;
+    expect_failure(pt_get_stats(context(), &wrong), PT_ERROR_INVALID_ARGUMENT,
                    "stats.struct_size = 65537: must be the size of the struct (<= 65536)");
 }
 
