@@ -48,13 +48,6 @@ protected:
         ASSERT_EQ(pt_set_render(context(), &render), PT_OK) << pt_last_error(context());
     }
 
-    void accumulate(std::uint32_t samples) {
-        pt_accumulate_info info{};
-        info.struct_size = sizeof info;
-        info.sample_count = samples;
-        ASSERT_EQ(pt_accumulate(context(), &info), PT_OK) << pt_last_error(context());
-    }
-
     std::vector<float> read(std::uint32_t quantity) {
         std::vector<float> values(std::size_t{3} * picture_width * picture_height);
         const pt_image target = image_target(values, quantity);
@@ -163,22 +156,6 @@ TEST_F(Orthographic, AGlobeThatMovesHasToBeSeenFromAfar) {
             << pt_last_error(context());
         EXPECT_NE(std::string(pt_last_error(context())).find("where parallel rays start"), std::string::npos);
     }
-}
-
-// The exact sums of samples do not depend on the calls that took them.
-TEST_F(Orthographic, SplitsAgree) {
-    const pt_sphere ball{{0, 0.5, 0}, 1, {0.3, 0, 0}, 1, 0};
-    const pt_sphere lamp{{3, 5, 2}, 1, {0, 0, 0}, 2, 0};
-    const std::vector<pt_sphere> spheres{ball, lamp};
-    const pt_plane floor{{0, 1, 0}, 0, 1, 0};
-    set(spheres, {&floor, 1}, camera_from(1e6), 3);
-    accumulate(12);
-    const std::vector<float> whole = read(PT_QUANTITY_RADIANCE);
-    EXPECT_GT(mean(PT_QUANTITY_RADIANCE), 0.0);
-    set(spheres, {&floor, 1}, camera_from(1e6), 3);
-    for (const std::uint32_t part : {5U, 1U, 6U})
-        accumulate(part);
-    EXPECT_EQ(read(PT_QUANTITY_RADIANCE), whole);
 }
 
 } // namespace

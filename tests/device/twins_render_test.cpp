@@ -265,11 +265,6 @@ TEST_F(RandomTwins, SendTheirLightOnce) {
     expect_same_light_of_scenes(12, 1e-9, 1e-6);
 }
 
-// The same of many scenes. Takes minutes.
-TEST_F(RandomTwins, DISABLED_OfManyScenesSendTheirLightOnce) {
-    expect_same_light_of_scenes(200, 1e-9, 1e-6);
-}
-
 } // namespace
 
 } // namespace twins_render
