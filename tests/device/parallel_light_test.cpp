@@ -77,24 +77,26 @@ std::vector<Case> cases() {
 
 using ParallelLight = LightInDouble;
 
+// The first scene by every sampler, the others, as each takes kernels of their own, by the default and by another in
+// turn. Negative controls: views of the first that are a fiftieth wider, or turned by a twentieth, are told from it.
 TEST_F(ParallelLight, OfEachSamplerIsThatOfAPathTracerInDouble) {
-    for (const auto &[name, given, samples] : cases()) {
+    const std::vector<Case> all = cases();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto &[name, given, samples] = all[i];
         const Blocks exact = exact_blocks(given, samples);
         for (const std::uint32_t sampler : samplers)
-            EXPECT_LT(largest_error(given, exact, sampler), most_errors) << name << ", sampler " << sampler;
+            if (i == 0 || sampler == PT_SAMPLER_SOBOL || sampler == samplers[i % 3]) {
+                EXPECT_LT(largest_error(given, exact, sampler), most_errors) << name << ", sampler " << sampler;
+            }
+        if (i > 0)
+            continue;
+        Given wider = given;
+        wider.camera.vertical_extent *= 1.02;
+        EXPECT_GT(largest_error(wider, exact, PT_SAMPLER_SOBOL), most_errors);
+        Given turned = given;
+        turned.camera.up[0] += 0.05;
+        EXPECT_GT(largest_error(turned, exact, PT_SAMPLER_SOBOL), most_errors);
     }
-}
-
-// A view that is a fiftieth wider, or turned by a twentieth, is told from it.
-TEST_F(ParallelLight, OfAnotherViewIsSeen) {
-    const Given given = random_scene(1, 7, 1e5);
-    const Blocks exact = exact_blocks(given, 1000);
-    Given wider = given;
-    wider.camera.vertical_extent *= 1.02;
-    EXPECT_GT(largest_error(wider, exact, PT_SAMPLER_SOBOL), most_errors);
-    Given turned = given;
-    turned.camera.up[0] += 0.05;
-    EXPECT_GT(largest_error(turned, exact, PT_SAMPLER_SOBOL), most_errors);
 }
 
 // Rows alone, and short submissions, on a CPU of a part of the pixels, have the bits of the whole.

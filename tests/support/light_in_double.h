@@ -19,8 +19,7 @@ inline constexpr glm::uvec2 picture(24, 16);
 inline constexpr glm::uvec2 block(8, 8);
 inline constexpr std::uint32_t image_count = 12;
 inline constexpr std::uint32_t samples_of_image = 32;
-// That one of 120 blocks is off by more, in standard errors that 12 images tell, has a chance of 1/200; seeds are
-// fixed.
+// That one of 72 blocks is off by more, in standard errors that 12 images tell, has a chance of 1/330; seeds are fixed.
 inline constexpr double most_errors = 6.5;
 
 struct Given {
