@@ -1,17 +1,9 @@
-// The program `pt`: chooses the command, and turns every exception into an exit code.
+// The program `pt`: chooses the command, and turns every exception into an exit code. `pt NAME ...` runs `pt-NAME ...`
+// where NAME is no command of the program's own, as git and cargo do.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/json_text.h"
-#include "cli/base/message.h"
-#include "cli/base/other_program.h"
 #include "cli/base/text.h"
-#include "cli/base/usage.h"
-#include "cli/compare/compare_command.h"
-#include "cli/merge/merge_command.h"
-#include "cli/render/render_command.h"
-#include "cli/scene/scene_keys.h"
-#include "cli/selftest/selftest_command.h"
-#include "cli/tonemap/tonemap_command.h"
+#include "cli/commands.h"
 
 #include <CLI/CLI.hpp>
 
@@ -19,13 +11,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <fcntl.h>
-#include <functional>
+#include <filesystem>
 #include <iostream>
-#include <memory>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <unistd.h>
@@ -49,116 +40,96 @@ int fail(cli::ExitCode code, const std::string &message) {
     return static_cast<int>(code);
 }
 
-// The program with its commands, each of which says where its options go and what it runs.
-class Program {
-public:
-    Program() {
-        app_.require_subcommand(0, 1);
-        app_.formatter(std::make_shared<cli::HelpFormatter>());
-        app_.footer(
-            "pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon come\n"
-            "with the Python package.\n\n" +
-            std::string(cli::exit_code_help));
-        app_.set_version_flag("--version", "pt " + cli::version_text(), "Print the version and exit");
-        say_help(app_);
-        add_commands();
+// The program of that name in the first absolute folder of PATH that has it; empty if there is none. Empty and relative
+// entries are skipped, so that nothing of the current folder runs.
+std::string find_program(const std::string &file) {
+    const char *variable = std::getenv("PATH");
+    std::istringstream folders(variable == nullptr ? "" : variable);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::filesystem::path path = std::filesystem::path(folder) / file;
+        std::error_code ignored;
+        if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0)
+            return path;
     }
+    return {};
+}
 
-    int run(int argument_count, char **arguments) {
-        const std::string_view name = argument_count > 1 ? arguments[1] : "";
-        const std::vector<std::string> own = names();
-        if (cli::may_name_program(name) && std::ranges::find(own, name) == own.end()) {
-            cli::run_other_program(name, arguments + 1);
-            if (const std::string_view how = cli::installation_of(name); !how.empty())
-                return fail(cli::ExitCode::usage,
-                            "there is no pt-" + std::string(name) + " in the PATH, which " + std::string(how));
-        }
-        try {
-            app_.parse(arguments_of(argument_count, arguments));
-        } catch (const CLI::ParseError &error) {
-            if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-                return app_.exit(error); // --help and --version
-            return fail(cli::ExitCode::usage, cli::usage_reason(app_, error));
-        }
-        for (const Command &command : commands_)
-            if (command.app->parsed())
-                return command.run();
-        return fail(cli::ExitCode::usage, "a command is missing: " + cli::listed(names()) + " (see pt --help)");
+// Replaces this process by `pt-NAME`. arguments end with a null pointer, and begin with NAME. Returns only if there is
+// no such program.
+void run_other_program(std::string_view name, char *const *arguments) {
+    std::string program = find_program("pt-" + std::string(name));
+    if (program.empty())
+        return;
+    std::vector<char *> passed{program.data()};
+    do
+        passed.push_back(*++arguments);
+    while (passed.back() != nullptr);
+    execv(program.c_str(), passed.data());
+    throw cli::Failure(cli::ExitCode::file, program + ": cannot be run: " + std::strerror(errno));
+}
+
+// A name that may follow `pt-`: a file or a path does not.
+bool may_name_program(std::string_view name) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+    return !name.empty() && name.front() != '-' && name.find_first_not_of(letters) == std::string_view::npos;
+}
+
+// What of the Python package has the program of that name; empty for those that do not come with this project.
+std::string_view package_of(std::string_view name) {
+    return name == "figure"    ? "'./lib/python[figure]'"
+           : name == "tachyon" ? "./lib/python"
+           : name == "farm"    ? "'./lib/python[farm]'"
+                               : "";
+}
+
+// Without the program's name, the last first, as CLI11 takes them. Those behind "--" are files, whatever their names:
+// CLI11 takes it for the end of a list of values, and none for a part of an option that "./" stands before.
+std::vector<std::string> arguments_of(int argument_count, char **arguments) {
+    std::vector<std::string> given(arguments + std::min(argument_count, 1), arguments + argument_count);
+    if (const auto mark = std::find(given.begin(), given.end(), "--"); mark != given.end()) {
+        for (auto file = given.erase(mark); file != given.end(); ++file)
+            if (file->starts_with('-') && file->size() > 1)
+                file->insert(0, "./");
     }
+    std::reverse(given.begin(), given.end());
+    return given;
+}
 
-private:
-    // Without the program's name, the last first, as CLI11 takes them. Those behind "--" are files, whatever their
-    // names: CLI11 takes it for the end of a list of values, and none for a part of an option that "./" stands before.
-    static std::vector<std::string> arguments_of(int argument_count, char **arguments) {
-        std::vector<std::string> given(arguments + std::min(argument_count, 1), arguments + argument_count);
-        if (const auto mark = std::find(given.begin(), given.end(), "--"); mark != given.end()) {
-            for (auto file = given.erase(mark); file != given.end(); ++file)
-                if (file->starts_with('-') && file->size() > 1)
-                    file->insert(0, "./");
-        }
-        std::reverse(given.begin(), given.end());
-        return given;
+int run(int argument_count, char **arguments) {
+    CLI::App program("An offscreen path tracer for spheres and planes on any Vulkan device", "pt");
+    cli::Run chosen;
+    program.require_subcommand(0, 1);
+    program.formatter(cli::help_formatter());
+    program.footer("pt NAME runs the program pt-NAME, where NAME is none of these commands: figure, farm and tachyon\n"
+                   "come with the Python package.\n\n" +
+                   std::string(cli::exit_code_help));
+    program.set_version_flag("--version", "pt " + cli::version_text(), "Print the version and exit");
+    program.set_help_flag("-h,--help", "Print this help and exit");
+    for (const auto add :
+         {cli::add_render_command, cli::add_tonemap_command, cli::add_compare_command, cli::add_merge_command,
+          cli::add_selftest_command, cli::add_schema_command, cli::add_devices_command})
+        add(program, chosen);
+
+    const std::string name = argument_count > 1 ? arguments[1] : "";
+    const std::vector<std::string> own = cli::command_names(program);
+    if (may_name_program(name) && std::ranges::find(own, name) == own.end()) {
+        run_other_program(name, arguments + 1);
+        if (const std::string_view package = package_of(name); !package.empty())
+            return fail(cli::ExitCode::usage, cli::concat("there is no pt-", name,
+                                                          " in the PATH, which comes with the Python package: "
+                                                          "pip install ",
+                                                          package));
     }
-
-    struct Command {
-        CLI::App *app;
-        std::function<int()> run;
-    };
-
-    static void say_help(CLI::App &app) { app.set_help_flag("-h,--help", "Print this help and exit"); }
-
-    CLI::App &add(const std::string &name, const std::string &description, const std::string &notes,
-                  std::function<int()> run) {
-        CLI::App *app = app_.add_subcommand(name, description);
-        app->group("Commands");
-        app->footer(notes + (notes.empty() ? "" : "\n") + cli::exit_code_help);
-        say_help(*app);
-        commands_.push_back({app, std::move(run)});
-        return *app;
+    try {
+        program.parse(arguments_of(argument_count, arguments));
+    } catch (const CLI::ParseError &error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+            return program.exit(error); // --help and --version
+        return fail(cli::ExitCode::usage, cli::usage_reason(program, error));
     }
-
-    template <typename Options>
-    void add(const std::string &name, const std::string &description, const std::string &notes,
-             void (*add_options)(CLI::App &, Options &), int (*run_command)(const Options &), Options &options) {
-        add_options(add(name, description, notes, [run_command, &options] { return run_command(options); }), options);
-    }
-
-    void add_commands() {
-        add("render", "Render a scene file to images", cli::render_help, &cli::add_render_options, &cli::run_render,
-            render_);
-        add("tonemap", "Make a picture of a file of radiance, without rendering", cli::tonemap_help,
-            &cli::add_tonemap_options, &cli::run_tonemap, tonemap_);
-        add("compare", "Compare an image with a reference", cli::compare_help, &cli::add_compare_options,
-            &cli::run_compare, compare_);
-        add("merge", "Add films of one picture that were rendered apart", cli::merge_help, &cli::add_merge_options,
-            &cli::run_merge, merge_);
-        add("selftest", "Check a device against exact answers, in a second or so", cli::selftest_help,
-            &cli::add_selftest_options, &cli::run_selftest, selftest_);
-        add("schema", "Print the JSON Schema of scene files", "", [] {
-            std::cout << cli::json_text(cli::scene_schema());
-            return static_cast<int>(cli::ExitCode::done);
-        });
-        add("devices", "List the Vulkan devices", "", [this] {
-            return cli::run_devices(devices_as_json_);
-        }).add_flag("--json", devices_as_json_, "Print JSON");
-    }
-
-    std::vector<std::string> names() const {
-        std::vector<std::string> all;
-        for (const Command &command : commands_)
-            all.push_back(command.app->get_name());
-        return all;
-    }
-
-    CLI::App app_{"An offscreen path tracer for spheres and planes on any Vulkan device", "pt"};
-    std::vector<Command> commands_;
-    cli::RenderOptions render_;
-    cli::TonemapOptions tonemap_;
-    cli::CompareOptions compare_;
-    cli::MergeOptions merge_;
-    cli::SelftestOptions selftest_;
-    bool devices_as_json_ = false;
-};
+    return chosen ? chosen()
+                  : fail(cli::ExitCode::usage, "a command is missing: " + cli::listed(own) + " (see pt --help)");
+}
 
 } // namespace
 
@@ -171,7 +142,7 @@ int main(int argument_count, char **arguments) {
     occupy_closed_streams();
     int code = 0;
     try {
-        code = Program().run(argument_count, arguments);
+        code = run(argument_count, arguments);
     } catch (const cli::Failure &failure) {
         return fail(failure.code(), failure.what());
     } catch (const std::bad_alloc &) {

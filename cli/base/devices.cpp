@@ -1,9 +1,11 @@
 #include "cli/base/devices.h"
 
+#include "cli/base/environment.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/json_text.h"
+#include "cli/base/json.h"
+#include "cli/base/names.h"
 #include "cli/base/text.h"
-#include "cli/base/vector_width.h"
+#include "cli/commands.h"
 
 #include <pt/devices.h>
 
@@ -72,21 +74,27 @@ void print_json(const std::vector<pt_device_info> &devices) {
     std::cout << json_text(list);
 }
 
+int run_devices(bool as_json) {
+    choose_vector_width(); // it is part of llvmpipe's name
+    const std::vector<pt_device_info> devices = list_devices();
+    if (as_json)
+        print_json(devices);
+    else
+        print_table(devices);
+    const bool any_suitable =
+        std::any_of(devices.begin(), devices.end(), [](const pt_device_info &device) { return device.suitable != 0; });
+    return static_cast<int>(any_suitable ? ExitCode::done : ExitCode::no_device);
+}
+
 } // namespace
 
 std::string kind_name(std::uint32_t kind) {
-    switch (kind) {
-    case PT_DEVICE_INTEGRATED_GPU:
-        return "integrated GPU";
-    case PT_DEVICE_DISCRETE_GPU:
-        return "discrete GPU";
-    case PT_DEVICE_VIRTUAL_GPU:
-        return "virtual GPU";
-    case PT_DEVICE_CPU:
-        return "CPU";
-    default:
-        return "other";
-    }
+    static constexpr MethodNames names({{"other", PT_DEVICE_OTHER},
+                                        {"integrated GPU", PT_DEVICE_INTEGRATED_GPU},
+                                        {"discrete GPU", PT_DEVICE_DISCRETE_GPU},
+                                        {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
+                                        {"CPU", PT_DEVICE_CPU}});
+    return std::string(names.name(kind));
 }
 
 std::string memory_text(std::uint64_t bytes) {
@@ -118,16 +126,11 @@ std::string uuid_text(const std::uint8_t (&uuid)[16]) {
     return text;
 }
 
-int run_devices(bool as_json) {
-    choose_vector_width(); // it is part of llvmpipe's name
-    const std::vector<pt_device_info> devices = list_devices();
-    if (as_json)
-        print_json(devices);
-    else
-        print_table(devices);
-    const bool any_suitable =
-        std::any_of(devices.begin(), devices.end(), [](const pt_device_info &device) { return device.suitable != 0; });
-    return static_cast<int>(any_suitable ? ExitCode::done : ExitCode::no_device);
+void add_devices_command(CLI::App &program, Run &chosen) {
+    const auto as_json = std::make_shared<bool>(false);
+    add_command(program, chosen, "devices", "List the Vulkan devices", "", [as_json] {
+        return run_devices(*as_json);
+    }).add_flag("--json", *as_json, "Print JSON");
 }
 
 } // namespace cli

@@ -1,5 +1,4 @@
-// The command `pt devices` (which Vulkan devices there are and which can be used), and what is shown of a device and of
-// the library as text.
+// What is shown of a device and of the library as text.
 #pragma once
 
 #include <pt/pt.h>
@@ -20,8 +19,5 @@ std::string version_text();
 
 // 32 hexadecimal digits in the usual groups.
 std::string uuid_text(const std::uint8_t (&uuid)[16]);
-
-// Returns the exit code: ExitCode::no_device if none is suitable. Throws Failure.
-int run_devices(bool as_json);
 
 } // namespace cli

@@ -31,14 +31,14 @@ inline constexpr const char *exit_code_help =
     "  4    no usable Vulkan device or driver\n"
     "  5    device lost; another try may succeed\n"
     "  6    a file could not be read or written\n"
-    "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files were "
-    "written\n"
+    "  7    the target error was not reached, or samples that merge --spp asks for are missing; all files\n"
+    "       were written\n"
     "  8    the images that were compared differ by more than a limit\n"
     "  75   --time came first; all files were written, and --resume goes on from the checkpoint\n"
     "  129  SIGHUP: the samples done so far were written, if there were any, and the checkpoint\n"
     "  130  SIGINT: the same\n"
     "  143  SIGTERM: the same\n"
-    "A --watch that such a signal ends while it waits for changes has done its work: 0.\n";
+    "A --watch that such a signal ends while it waits for changes has done its work: 0.";
 
 class Failure : public std::runtime_error {
 public:

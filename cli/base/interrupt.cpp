@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <ctime>
 
 namespace cli {
@@ -51,16 +52,13 @@ void handle(int signal, void (*handler)(int)) {
 
 } // namespace
 
-void catch_interrupts() {
+void catch_signals() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction old {};
         sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) // whoever started this program wants that: a background job, nohup
             handle(signal, &note_signal);
     }
-}
-
-void catch_picture_requests() {
     handle(SIGUSR1, &note_picture_request);
 }
 
@@ -77,14 +75,7 @@ int interrupt_signal() {
 }
 
 std::string interrupt_name() {
-    switch (interrupt_signal()) {
-    case SIGINT:
-        return "SIGINT";
-    case SIGHUP:
-        return "SIGHUP";
-    default:
-        return "SIGTERM";
-    }
+    return std::string("SIG") + sigabbrev_np(interrupt_signal());
 }
 
 } // namespace cli

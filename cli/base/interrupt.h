@@ -6,9 +6,9 @@
 
 namespace cli {
 
-// From now on the first such signal is only noted; one that comes a second or more after it ends the program at once,
-// should a driver hang.
-void catch_interrupts();
+// From now on the first signal that ends a rendering is only noted; one that comes a second or more after it ends the
+// program at once, should a driver hang. SIGUSR1 is noted any number of times; before, it ends the program.
+void catch_signals();
 
 // Number of the signal that came; 0 if none did.
 int interrupt_signal();
@@ -16,10 +16,7 @@ int interrupt_signal();
 // "SIGINT"
 std::string interrupt_name();
 
-// From now on SIGUSR1 is noted, any number of times; before, it ends the program.
-void catch_picture_requests();
-
-// Whether one has come that forget_picture_request() has not taken away.
+// Whether a SIGUSR1 has come that forget_picture_request() has not taken away.
 bool has_picture_request();
 void forget_picture_request();
 

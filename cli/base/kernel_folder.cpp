@@ -1,7 +1,7 @@
 #include "cli/base/kernel_folder.h"
 
-#include "cli/base/atomic_file.h"
 #include "cli/base/exit_code.h"
+#include "cli/base/file.h"
 
 #include <algorithm>
 #include <exception>

@@ -1,6 +1,5 @@
 #include "cli/base/progress.h"
 
-#include "cli/base/message.h"
 #include "cli/base/text.h"
 
 #include <nlohmann/json.hpp>
@@ -52,10 +51,6 @@ Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixe
 Progress::~Progress() {
     if (style_ == ProgressStyle::line)
         output_ << erase_line << std::flush;
-}
-
-void Progress::update(double fraction, Clock::time_point now) {
-    update_samples(fraction * static_cast<double>(sample_count_), now);
 }
 
 void Progress::update_samples(double samples_of_part, Clock::time_point now) {

@@ -27,17 +27,14 @@ public:
     Progress &operator=(const Progress &) = delete;
     ~Progress(); // leaves the terminal's line empty for what is printed next
 
-    // The share that is done, in [0, 1]. Prints at most ten times a second, and at the end.
-    void update(double fraction, Clock::time_point now);
-
-    // From now on update() is told shares of one part of the work, which is [begin, end] of the whole, [0, 1].
+    // From now on the samples are those of one part of the work, which is [begin, end] of the whole, [0, 1].
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
 
-    // Like update(), by the samples that are done. The share that is shown never falls, even if expect() raises the
-    // total.
+    // The samples that are done. Prints at most ten times a second, and at the end. The share that is shown never
+    // falls, even if expect() raises the total.
     void update_samples(double samples_of_part, Clock::time_point now);
 
     // From now on this many samples a pixel are to be taken in all.

@@ -1,12 +1,10 @@
-#include "cli/compare/compare_command.h"
-
-#include "cli/base/atomic_file.h"
-#include "cli/base/common_options.h"
+// The command `pt compare`: two images, in numbers and in a picture of their difference.
 #include "cli/base/exit_code.h"
-#include "cli/base/json_text.h"
-#include "cli/base/message.h"
-#include "cli/base/output_file.h"
+#include "cli/base/file.h"
+#include "cli/base/json.h"
+#include "cli/base/options.h"
 #include "cli/base/text.h"
+#include "cli/commands.h"
 #include "cli/compare/image_difference.h"
 #include "cli/image/image_file.h"
 
@@ -20,6 +18,20 @@
 
 namespace cli {
 namespace {
+
+struct CompareOptions {
+    std::string image;
+    std::string reference;
+    std::string layer;      // of both; empty: the main one
+    std::string difference; // path of the picture of the differences; empty: none
+    std::string json;
+    bool quiet = false;
+
+    // Limits; nothing: none.
+    std::optional<double> mse;
+    std::optional<double> relative_mse;
+    std::optional<double> maximum;
+};
 
 void check_outputs(const CompareOptions &options) {
     if (!options.difference.empty() && image_format(options.difference) != ImageFormat::png)
@@ -125,8 +137,6 @@ struct CompareReport {
     }
 };
 
-} // namespace
-
 int run_compare(const CompareOptions &options) {
     check_outputs(options);
     const DecodedImage image = read_image(options.image);
@@ -138,7 +148,7 @@ int run_compare(const CompareOptions &options) {
     const CompareReport report{options, image, compare_images(values, wanted)};
     std::string text = report.text();
     if (!options.difference.empty()) {
-        const float largest = write_difference(options.difference, image.width, pixel_differences(values, wanted));
+        const float largest = write_difference(options.difference, image.width, report.difference.pixels);
         text += "wrote " + options.difference + ": relative differences from 0 to " + std::to_string(largest) + "\n";
     }
     write_report_file(options.json, json_text(report.json()));
@@ -150,31 +160,35 @@ int run_compare(const CompareOptions &options) {
     return static_cast<int>(exceeded.empty() ? ExitCode::done : ExitCode::images_differ);
 }
 
-const char *const compare_help =
-    "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and channels, "
-    "relative_mse\n"
-    "that of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files hold radiance, or both what displays take,\n"
-    "from 0 to 1. Pixels that are not finite in either image are left out and counted; any limit is exceeded then.\n\n"
-    "The picture of --difference shows the root of each pixel's relative_mse, from 0 (dark) to the largest (bright) "
-    "by\n"
-    "the color map viridis; pixels that are not finite are white.\n";
+constexpr const char *compare_help =
+    "For values x of the image and r of the reference, mse is the mean of (x-r)^2 over pixels and\n"
+    "channels, relative_mse that of (x-r)^2/(r^2+0.01), and maximum the largest |x-r|. Both files hold\n"
+    "radiance, or both what displays take, from 0 to 1. Pixels that are not finite in either image are\n"
+    "left out and counted; any limit is exceeded then.\n\n"
+    "The picture of --difference shows the root of each pixel's relative_mse, from 0 (dark) to the\n"
+    "largest (bright) by the color map viridis; pixels that are not finite are white.\n";
 
-void add_compare_options(CLI::App &command, CompareOptions &options) {
+} // namespace
+
+void add_compare_command(CLI::App &program, Run &chosen) {
+    const auto options = std::make_shared<CompareOptions>();
+    CLI::App &command = add_command(program, chosen, "compare", "Compare an image with a reference", compare_help,
+                                    [options] { return run_compare(*options); });
     constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
-    const std::string group = "Limits";
-    add_text(command, "IMAGE", options.image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
-    add_text(command, "REFERENCE", options.reference, "REFERENCE",
+    add_text(command, "IMAGE", options->image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
+    add_text(command, "REFERENCE", options->reference, "REFERENCE",
              "What it is compared with, of the same size and kind")
         ->required();
-    add_text(command, "--layer", options.layer, "NAME",
+    add_text(command, "--layer", options->layer, "NAME",
              "Compare this layer of both files (default: the channels R, G and B)");
-    add_text(command, "--difference", options.difference, "PNG", "Write a picture of where they differ (.png)");
-    add_number(command, "--max-mse", limit, options.mse, "Exit with 8 if mse is above X")->group(group);
-    add_number(command, "--max-relative-mse", limit, options.relative_mse, "Exit with 8 if relative_mse is above X")
-        ->group(group);
-    add_number(command, "--max-difference", limit, options.maximum, "Exit with 8 if maximum is above X")->group(group);
-    add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
-    add_quiet(command, options.quiet);
+    add_text(command, "--difference", options->difference, "PNG", "Write a picture of where they differ (.png)");
+    add_text(command, "--json", options->json, "JSON", "Write the figures as JSON; - is standard output");
+    add_quiet(command, options->quiet);
+    command.option_defaults()->group("Limits");
+    add_number<double>(command, "--max-mse", limit, options->mse, "Exit with 8 if mse is above X");
+    add_number<double>(command, "--max-relative-mse", limit, options->relative_mse,
+                       "Exit with 8 if relative_mse is above X");
+    add_number<double>(command, "--max-difference", limit, options->maximum, "Exit with 8 if maximum is above X");
 }
 
 } // namespace cli

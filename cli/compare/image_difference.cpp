@@ -26,18 +26,6 @@ bool is_finite(Values pixel) {
 
 } // namespace
 
-ImageError image_error(std::span<const float> image, std::span<const float> reference) {
-    ImageError sum;
-    for (std::size_t i = 0; i < image.size(); ++i) {
-        const double expected = reference[i];
-        const double difference = image[i] - expected;
-        sum.mse += difference * difference;
-        sum.relative_mse += difference * difference / (expected * expected + relative_offset);
-    }
-    const auto count = static_cast<double>(image.size());
-    return {sum.mse / count, sum.relative_mse / count};
-}
-
 std::array<std::uint8_t, 3> viridis(double number) {
     const double place = std::clamp(number, 0.0, 1.0) * (nodes.size() - 1);
     const std::size_t node = std::min(static_cast<std::size_t>(place), nodes.size() - 2);
@@ -52,43 +40,33 @@ std::array<std::uint8_t, 3> viridis(double number) {
 
 ImageDifference compare_images(Values image, Values reference) {
     ImageDifference total{};
+    total.pixels.reserve(image.size() / 3);
     for (std::size_t i = 0; i < image.size(); i += 3) {
-        const Values pixel = image.subspan(i, 3);
-        const Values wanted = reference.subspan(i, 3);
-        if (!is_finite(pixel) || !is_finite(wanted)) {
+        if (!is_finite(image.subspan(i, 3)) || !is_finite(reference.subspan(i, 3))) {
             ++total.not_finite;
+            total.pixels.push_back(std::numeric_limits<float>::quiet_NaN());
             continue;
         }
-        const ImageError error = image_error(pixel, wanted);
-        total.mse += error.mse;
-        total.relative_mse += error.relative_mse;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double difference = std::abs(double{pixel[channel]} - double{wanted[channel]});
+        double relative = 0.0;
+        for (std::size_t value = i; value < i + 3; ++value) {
+            const double expected = reference[value];
+            const double difference = std::abs(image[value] - expected);
+            total.mse += difference * difference;
+            relative += difference * difference / (expected * expected + relative_offset);
             if (difference > total.maximum) {
                 total.maximum = difference;
-                total.maximum_value = i + channel;
+                total.maximum_value = value;
             }
         }
+        total.relative_mse += relative;
+        total.pixels.push_back(static_cast<float>(std::sqrt(relative / 3.0)));
     }
-    const std::size_t pixel_count = image.size() / 3 - total.not_finite;
-    if (pixel_count > 0) {
-        total.mse /= static_cast<double>(pixel_count);
-        total.relative_mse /= static_cast<double>(pixel_count);
+    const std::size_t value_count = image.size() - 3 * total.not_finite;
+    if (value_count > 0) {
+        total.mse /= static_cast<double>(value_count);
+        total.relative_mse /= static_cast<double>(value_count);
     }
     return total;
-}
-
-std::vector<float> pixel_differences(Values image, Values reference) {
-    std::vector<float> differences;
-    differences.reserve(image.size() / 3);
-    for (std::size_t i = 0; i < image.size(); i += 3) {
-        const Values pixel = image.subspan(i, 3);
-        const Values wanted = reference.subspan(i, 3);
-        const bool known = is_finite(pixel) && is_finite(wanted);
-        differences.push_back(known ? static_cast<float>(std::sqrt(image_error(pixel, wanted).relative_mse))
-                                    : std::numeric_limits<float>::quiet_NaN());
-    }
-    return differences;
 }
 
 } // namespace cli

@@ -9,35 +9,24 @@
 
 namespace cli {
 
-struct ImageError {
-    double mse = 0.0; // mean of (x - r)^2 over pixels and channels
-    double relative_mse =
-        0.0; // mean of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
-};
-
-// Equally many values, at least one.
-ImageError image_error(std::span<const float> image, std::span<const float> reference);
-
 // sRGB of a number, which is clamped to [0, 1]. The published table has 256 entries: every fifth is held, and between
 // them colors are on straight lines, which differ from the table by 1/255 at the most.
 std::array<std::uint8_t, 3> viridis(double number);
 
 struct ImageDifference {
     // Means over the channels of the pixels that are finite in both images; 0 if there are none.
-    double mse;
-    double relative_mse; // of (x - r)^2 / (r^2 + 0.01) for a value x and the reference's r
+    double mse;          // of (x - r)^2 for a value x and the reference's r
+    double relative_mse; // of (x - r)^2 / (r^2 + 0.01): a dark pixel's error counts as much as a bright one's
 
     // The largest |x - r| of these.
     double maximum;
     std::size_t maximum_value; // where it is: an index into the values
 
-    std::size_t not_finite; // pixels with a channel that is not finite in either image
+    std::size_t not_finite;    // pixels with a channel that is not finite in either image
+    std::vector<float> pixels; // of each, the root of its relative MSE; NaN where it is not finite in either image
 };
 
 // Equally many values, three to a pixel.
 ImageDifference compare_images(std::span<const float> image, std::span<const float> reference);
-
-// Of each pixel, the root of its relative MSE; NaN where it is not finite in either image.
-std::vector<float> pixel_differences(std::span<const float> image, std::span<const float> reference);
 
 } // namespace cli

@@ -1,8 +1,7 @@
 #include "cli/film/film.h"
 
-#include "cli/base/atomic_file.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/text_file.h"
+#include "cli/base/file.h"
 
 #include <algorithm>
 #include <array>
@@ -93,13 +92,6 @@ pt_stats FilmHandle::stats() const {
     auto stats = sized<pt_stats>();
     require(pt_get_film_stats(film_, &stats));
     return stats;
-}
-
-std::vector<pt_film_tile> FilmHandle::tiles() const {
-    std::vector<pt_film_tile> tiles(info().tile_count, sized<pt_film_tile>());
-    for (std::uint32_t i = 0; i < tiles.size(); ++i)
-        require(pt_get_film_tile(film_, i, &tiles[i]));
-    return tiles;
 }
 
 std::vector<pt_sample_range> FilmHandle::ranges(std::uint32_t tile) const {

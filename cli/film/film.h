@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cli/base/context.h"
-#include "cli/base/library_error.h"
 
 #include <pt/film.h>
 
@@ -27,7 +26,6 @@ public:
 
     pt_film_info info() const;
     pt_stats stats() const;
-    std::vector<pt_film_tile> tiles() const;
     std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
 
     // Of the film's rectangle, three components to a pixel. quantity: PT_QUANTITY_*.

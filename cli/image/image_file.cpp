@@ -1,8 +1,7 @@
 #include "cli/image/image_file.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/base/output_file.h"
-#include "cli/image/png_encoder.h"
+#include "cli/base/file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -57,15 +56,9 @@ std::optional<ImageFormat> find_image_format(std::string_view name) {
 }
 
 std::uint32_t longest_side(ImageFormat format) {
-    switch (format) {
-    case ImageFormat::exr:
-        break;
-    case ImageFormat::png:
-        return 1'000'000; // libpng's default limit
-    case ImageFormat::jpeg:
-        return 65'500; // JPEG_MAX_DIMENSION of libjpeg
-    }
-    return 2'147'483'647; // sizes are 32-bit signed numbers
+    return format == ImageFormat::png    ? 1'000'000      // libpng's default limit
+           : format == ImageFormat::jpeg ? 65'500         // JPEG_MAX_DIMENSION of libjpeg
+                                         : 2'147'483'647; // sizes are 32-bit signed numbers
 }
 
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {

@@ -1,4 +1,5 @@
-#include "cli/image/png_encoder.h"
+// Encodes PNG images by libpng, without OpenImageIO, whose module takes 0.2 s and 200 MB to load.
+#include "cli/image/image_file.h"
 
 #include <png.h>
 

@@ -1,13 +1,12 @@
-#include "cli/merge/merge_command.h"
-
-#include "cli/base/common_options.h"
+// The command `pt merge`: films of one picture in, images and their sum out.
 #include "cli/base/devices.h"
-#include "cli/base/json_text.h"
-#include "cli/base/message.h"
-#include "cli/base/method_names.h"
-#include "cli/base/output_file.h"
-#include "cli/base/source_date.h"
+#include "cli/base/environment.h"
+#include "cli/base/file.h"
+#include "cli/base/json.h"
+#include "cli/base/names.h"
+#include "cli/base/options.h"
 #include "cli/base/text.h"
+#include "cli/commands.h"
 #include "cli/film/film.h"
 #include "cli/image/image_file.h"
 #include "cli/render/render_output.h"
@@ -24,6 +23,17 @@ namespace cli {
 namespace {
 
 using Ranges = std::vector<pt_sample_range>;
+
+struct MergeOptions {
+    std::vector<std::string> parts;
+
+    // The range of which missing samples are told: that of the parts' first and last one where nothing is given.
+    std::optional<std::uint32_t> first_sample;
+    std::optional<std::uint32_t> sample_count;
+
+    OutputOptions output;
+    std::vector<SceneOverride> display; // how pictures are shown
+};
 
 // What a sum of films has, and what it lacks.
 struct MergeReport {
@@ -188,8 +198,6 @@ bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeRep
     return has_film && written == output_count(output);
 }
 
-} // namespace
-
 int run_merge(const MergeOptions &options) {
     check(options);
     const std::unique_ptr<FilmHandle> film = sum_of(options.parts);
@@ -207,27 +215,33 @@ int run_merge(const MergeOptions &options) {
     return static_cast<int>(lacks ? ExitCode::target_missed : ExitCode::done);
 }
 
-const char *const merge_help =
-    "Samples are added exactly: the picture has the bits of one that was rendered whole, on the same model of device "
-    "with\n"
-    "the same driver, in whatever order the films are named. Needs no device. A film of another picture, one that is\n"
-    "damaged and one with samples that another has already are refused, with the difference, and nothing is written.\n";
+constexpr const char *merge_help =
+    "Samples are added exactly: the picture has the bits of one that was rendered whole, on the same\n"
+    "model of device with the same driver, in whatever order the films are named. Needs no device. A film\n"
+    "of another picture, one that is damaged and one with samples that another has already are refused,\n"
+    "with the difference, and nothing is written.\n";
 
-void add_merge_options(CLI::App &command, MergeOptions &options) {
-    command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
+} // namespace
+
+void add_merge_command(CLI::App &program, Run &chosen) {
+    const auto options = std::make_shared<MergeOptions>();
+    CLI::App &command = add_command(program, chosen, "merge", "Add films of one picture that were rendered apart",
+                                    merge_help, [options] { return run_merge(*options); });
+    command.add_option("PART", options->parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    add_output_options(command, options.output);
-    add_number(command, "--first-sample", natural_number, options.first_sample,
-               "First of the samples that there should be (default: the first there is)")
-        ->group("Samples");
-    add_number(command, "--spp", positive_number, options.sample_count,
-               "How many there should be from there on; those missing are told, with exit code 7 (default: up to the "
-               "last there is)")
-        ->group("Samples");
-    add_scene_options(command, options.display, false);
-    add_png_bits(command, options.output.png_bits);
-    add_quiet(command, options.output.quiet)->group("Messages");
+    add_output_options(command, options->output);
+    command.option_defaults()->group("Samples");
+    add_number<std::uint32_t>(command, "--first-sample", natural_number, options->first_sample,
+                              "First of the samples that there should be (default: the first there is)");
+    add_number<std::uint32_t>(
+        command, "--spp", positive_number, options->sample_count,
+        "How many there should be from there on; those missing are told, with exit code 7 (default: up to the "
+        "last there is)");
+    add_scene_options(command, options->display, false);
+    add_png_bits(command, options->output.png_bits);
+    command.option_defaults()->group("Messages");
+    add_quiet(command, options->output.quiet);
 }
 
 } // namespace cli

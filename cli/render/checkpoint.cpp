@@ -26,20 +26,20 @@ void require_first_samples(const std::string &path, const std::vector<pt_sample_
 
 } // namespace
 
-CheckpointObserver::CheckpointObserver(const Context &context, std::string path, double seconds,
-                                       std::function<void(const std::string &)> say) :
+Checkpoint::Checkpoint(const Context &context, std::string path, double seconds,
+                       std::function<void(const std::string &)> say) :
     context_(context),
     path_(std::move(path)),
     interval_(seconds),
     say_(std::move(say)),
     due_(Clock::now() + std::chrono::duration_cast<Clock::duration>(interval_)) {}
 
-void CheckpointObserver::stepped(const RenderState &state) {
-    if (pauses() && state.sample_count > saved_count_)
-        save(state.sample_count);
+void Checkpoint::step(std::uint32_t sample_count) {
+    if (is_due() && sample_count > saved_count_)
+        save(sample_count);
 }
 
-void CheckpointObserver::finish(std::uint32_t sample_count) {
+void Checkpoint::finish(std::uint32_t sample_count) {
     take_in();
     if (sample_count > 0 && sample_count != written_count_) {
         save(sample_count);
@@ -50,7 +50,7 @@ void CheckpointObserver::finish(std::uint32_t sample_count) {
 
 // The device waits while the film is copied, and no longer. The next checkpoint begins early enough to be there one
 // interval after this one is begun, if it takes as long as the last: no more than an interval's samples can be lost.
-void CheckpointObserver::save(std::uint32_t sample_count) {
+void Checkpoint::save(std::uint32_t sample_count) {
     take_in();
     saved_at_ = Clock::now();
     due_ = saved_at_ + std::chrono::duration_cast<Clock::duration>(std::max(interval_ - write_time_, interval_ / 2));
@@ -64,13 +64,13 @@ void CheckpointObserver::save(std::uint32_t sample_count) {
     task_.start([this] { write(); });
 }
 
-void CheckpointObserver::write() {
+void Checkpoint::write() {
     write_film_file(path_, film_);
     write_time_ = Clock::now() - saved_at_;
 }
 
 // What became of the last one.
-void CheckpointObserver::take_in() {
+void Checkpoint::take_in() {
     if (!task_.is_begun())
         return;
     try {
@@ -83,7 +83,7 @@ void CheckpointObserver::take_in() {
     }
 }
 
-void CheckpointObserver::tell_failure(const std::string &reason) {
+void Checkpoint::tell_failure(const std::string &reason) {
     if (!has_told_failure_)
         say_("no checkpoint: " + reason + "; the rendering goes on");
     has_told_failure_ = true;

@@ -3,7 +3,6 @@
 
 #include "cli/base/context.h"
 #include "cli/base/tasks.h"
-#include "cli/render/render_observer.h"
 #include "cli/render/render_task.h"
 
 #include <chrono>
@@ -15,23 +14,25 @@
 
 namespace cli {
 
-class CheckpointObserver : public RenderObserver {
+class Checkpoint {
 public:
-    // seconds: from one checkpoint to the next. say: shows a message.
-    CheckpointObserver(const Context &context, std::string path, double seconds,
-                       std::function<void(const std::string &)> say);
+    // seconds: from one to the next. say: shows a message.
+    Checkpoint(const Context &context, std::string path, double seconds, std::function<void(const std::string &)> say);
 
-    bool pauses() const override { return Clock::now() >= due_ && !task_.is_under_way(); }
-    void stepped(const RenderState &state) override;
+    bool is_due() const { return Clock::now() >= due_ && !task_.is_under_way(); }
 
-    // Writes what the file does not have yet of these samples, which are those of a pixel on the average, as in
-    // RenderState. Afterwards nothing is under way.
+    // Writes one if it is due. sample_count: of a pixel on the average.
+    void step(std::uint32_t sample_count);
+
+    // Writes what the file does not have yet of these samples. Afterwards nothing is under way.
     void finish(std::uint32_t sample_count);
 
     // Whether the file has all the samples that finish() was told of.
     bool is_valid() const { return is_valid_; }
 
 private:
+    using Clock = std::chrono::steady_clock;
+
     void save(std::uint32_t sample_count);
     void write();
     void take_in();

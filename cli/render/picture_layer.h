@@ -3,9 +3,8 @@
 #pragma once
 
 #include "cli/base/context.h"
-#include "cli/base/method_names.h"
+#include "cli/base/names.h"
 #include "cli/image/image_module.h"
-#include "cli/image/image_window.h"
 
 #include <cstdint>
 #include <vector>

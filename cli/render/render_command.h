@@ -1,15 +1,56 @@
-// The command `pt render`: scene file and options in, images out; and its other ways, of --frames, --parts and --watch.
+// The command `pt render`: scene file and options in, images out; its ways, of --frames, --parts and --watch, and what
+// all of them do on a context with one picture.
 #pragma once
 
-#include "cli/base/message.h"
+#include "cli/base/context.h"
+#include "cli/base/text.h"
+#include "cli/render/image_render.h"
 #include "cli/render/render_task.h"
 
 #include <pt/pt.h>
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
 namespace cli {
+
+// What a rendering came to that no signal has ended.
+struct Ending {
+    bool has_target;
+    bool target_reached;
+    bool timed_out; // before it ended by itself, though the target may be reached as it happens
+    bool has_checkpoint;
+    bool all_written;
+};
+
+// A file that is missing weighs more than samples that are; a checkpoint says that they can still be had.
+constexpr ExitCode outcome_of(const Ending &ending) {
+    if (!ending.all_written)
+        return ExitCode::file;
+    if (ending.timed_out && ending.has_checkpoint)
+        return ExitCode::resumable;
+    return ending.has_target && !ending.target_reached ? ExitCode::target_missed : ExitCode::done;
+}
+
+// outcome: ExitCode::signal for a rendering that was stopped. signal: what has ended it, or came after it; 0: none.
+constexpr int exit_code_of(ExitCode outcome, int signal) {
+    if (outcome != ExitCode::done && outcome != ExitCode::signal)
+        return static_cast<int>(outcome);
+    return signal == 0 ? static_cast<int>(ExitCode::done) : exit_code_of_signal(signal);
+}
+
+// For the report: when all began, and when the context began to be made ready.
+struct RenderTimes {
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point create_start{};
+};
+
+// Hands scene and settings over, takes samples and writes the files. A signal stops it with the samples done so far;
+// so does superseded(), but then nothing is written. Returns outcome_of() what it came to, or ExitCode::signal. Throws
+// Failure.
+ExitCode render_picture(const Context &context, const RenderTask &task, const RenderTimes &times,
+                        const Stop &superseded);
 
 // All return the exit code, and throw Failure.
 int run_render(const RenderOptions &options);
@@ -28,10 +69,6 @@ struct ValidationLog {
 
 // What the options say about the context. Refers to both.
 pt_create_info render_create_info(const RenderOptions &options, ValidationLog &log);
-
-// The frames of an animation, one after the other on one context. A frame that a signal stops is not written: each file
-// is a whole frame.
-int render_frames(const RenderOptions &options, ValidationLog &log);
 
 // Renders parts of a picture for another program, which shares it among machines and adds their films, as pt-farm does.
 //

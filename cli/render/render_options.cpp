@@ -1,10 +1,12 @@
 #include "cli/render/render_options.h"
 
-#include "cli/base/common_options.h"
-#include "cli/base/method_names.h"
-#include "cli/base/output_file.h"
+#include "cli/base/file.h"
+#include "cli/base/names.h"
+#include "cli/base/options.h"
 #include "cli/base/text.h"
+#include "cli/commands.h"
 #include "cli/render/picture_layer.h"
+#include "cli/render/render_command.h"
 
 #include <algorithm>
 #include <array>
@@ -42,36 +44,28 @@ CLI::Option *add_parsed(CLI::App &command, const std::string &name, std::optiona
     return command.add_option_function<std::string>(name, read, help);
 }
 
-CLI::Option *add_count(CLI::App &command, const std::string &name, std::uint32_t &target, const ValueRule &rule,
-                       const std::string &help) {
-    return add_value(
-        command, name, rule, [&target](const nlohmann::json &value) { target = value.get<std::uint32_t>(); }, help);
-}
-
 CLI::Option *add_seconds(CLI::App &command, const std::string &name, std::optional<double> &target,
                          const std::string &help) {
-    return add_number(command, name, seconds_rule, target, help)->type_name("S");
+    return add_number<double>(command, name, seconds_rule, target, help)->type_name("S");
 }
 
 void add_picture_options(CLI::App &command, RenderOptions &options) {
+    command.option_defaults()->group("Output");
     const auto read_layers = [&options](const std::string &text) { options.layers = parse_layers(text); };
     command
         .add_option_function<std::string>("--layers", read_layers, "Layers of .exr beside the mean, like depth,albedo")
-        ->type_name(listed(layer_names.names(), "|") + ",...")
-        ->group("Output");
-    command
-        .add_flag("--alpha", options.alpha,
-                  "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface")
-        ->group("Output");
+        ->type_name(listed(layer_names.names(), "|") + ",...");
+    command.add_flag("--alpha", options.alpha,
+                     "Give .exr and .png an alpha channel: the share of a pixel's samples that see a surface");
+    command.option_defaults()->group("Picture");
     add_parsed(command, "--crop", options.crop, &parse_rectangle,
                "must be four whole numbers like 10,20,640,480: x, y, width and height",
                "Render this part of the picture alone, in pixels from its top left corner")
-        ->type_name("X,Y,W,H")
-        ->group("Picture");
+        ->type_name("X,Y,W,H");
 }
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Samples";
+    command.option_defaults()->group("Samples");
     const auto read_error = [&options](const std::string &text) {
         options.target_error = parse_share(text).value_or(0.0);
         if (options.target_error <= 0.0)
@@ -81,42 +75,35 @@ void add_sampling_options(CLI::App &command, RenderOptions &options) {
         .add_option_function<std::string>(
             "--error", read_error,
             "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take all samples)")
-        ->type_name("E")
-        ->group(group);
+        ->type_name("E");
     add_name(
         command, "--sampling", options.sampling, [](std::string_view name) { return samplings.find(name); },
         "way to sample", samplings.names(),
         "Which pixels get more samples: adaptive, which is best with --error, those where they lessen the error "
-        "most; uniform none (default: best)")
-        ->group(group);
+        "most; uniform none (default: best)");
     add_seconds(command, "--time", options.time_limit,
-                "Stop after S seconds of taking samples, one sample at the least (default: take all samples)")
-        ->group(group);
+                "Stop after S seconds of taking samples, one sample at the least (default: take all samples)");
 }
 
 void add_lasting_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Checkpoints and parts";
+    command.option_defaults()->group("Checkpoints and parts");
     add_text(command, "--checkpoint", options.checkpoint, "FILM",
-             "Keep the samples so far in FILM (.ptfilm), from which --resume goes on")
-        ->group(group);
+             "Keep the samples so far in FILM (.ptfilm), from which --resume goes on");
     add_seconds(command, "--checkpoint-every", options.checkpoint_seconds,
-                "Write the checkpoint every S seconds, and at the end (default: 30)")
-        ->group(group);
-    command
-        .add_flag("--resume", options.resume,
-                  "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet")
-        ->group(group);
-    add_count(command, "--first-sample", options.first_sample, natural_number,
-              "Index of the first sample: parts have samples of one sequence (default: 0)")
-        ->group(group);
+                "Write the checkpoint every S seconds, and at the end (default: 30)");
+    command.add_flag(
+        "--resume", options.resume,
+        "Go on from the checkpoint, to the same bytes as without a stop; from the start if there is none yet");
+    add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
+                              "Index of the first sample: parts have samples of one sequence (default: 0)");
 }
 
 // For another program, which reads standard output and makes what is refused here.
 void add_parts_option(CLI::App &command, RenderOptions &options) {
+    command.option_defaults()->group("Checkpoints and parts");
     CLI::Option *parts = command.add_flag("--parts", options.parts,
                                           "Render the parts that are asked for on standard input, and write their "
                                           "films to standard output: for programs that share a picture, as pt-farm");
-    parts->group("Checkpoints and parts");
     for (const char *other :
          {"--output", "--format", "--standard-error", "--layers", "--alpha", "--film", "--stats", "--crop", "--time",
           "--checkpoint", "--resume", "--preview-every", "--piece-rows", "--watch", "--skip-existing"}) {
@@ -125,49 +112,62 @@ void add_parts_option(CLI::App &command, RenderOptions &options) {
 }
 
 void add_device_options(CLI::App &command, RenderOptions &options) {
-    const std::string group = "Device";
-    add_device(command, options.device)->group(group);
-    add_count(command, "--submit-ms", options.submit_milliseconds, positive_number,
-              "Aim for the length of one submission to the device (default: 50)")
-        ->group(group);
-    add_count(command, "--piece-rows", options.piece_rows, positive_number,
-              "Render the image in pieces of so many rows, for less memory on the device (default: the whole, or what "
-              "its memory holds)")
-        ->group(group);
-    command
-        .add_flag("--validation", options.validation,
-                  "Run with the Khronos validation layer; any message of it makes the exit code 1")
-        ->group(group);
+    command.option_defaults()->group("Device");
+    add_device(command, options.device);
+    add_number<std::uint32_t>(command, "--submit-ms", positive_number, options.submit_milliseconds,
+                              "Aim for the length of one submission to the device (default: 50)");
+    add_number<std::uint32_t>(
+        command, "--piece-rows", positive_number, options.piece_rows,
+        "Render the image in pieces of so many rows, for less memory on the device (default: the whole, or what "
+        "its memory holds)");
+    command.add_flag("--validation", options.validation,
+                     "Run with the Khronos validation layer; any message of it makes the exit code 1");
 }
 
 void add_live_options(CLI::App &command, RenderOptions &options) {
     static constexpr std::array<std::string_view, 3> styles{"auto", "json", "none"};
-    const std::string group = "Live view and editing";
+    command.option_defaults()->group("Live view and editing");
     add_seconds(command, "--preview-every", options.preview_seconds,
-                "Write the picture so far every S seconds (default: only on SIGUSR1)")
-        ->group(group);
-    command
-        .add_flag("--watch", options.watch,
-                  "Render again whenever the scene or a shader of --shader-dir changes, until Ctrl-C")
-        ->group(group);
-    add_shader_dir(command, options.shader_dir)->group(group);
+                "Write the picture so far every S seconds (default: only on SIGUSR1)");
+    command.add_flag("--watch", options.watch,
+                     "Render again whenever the scene or a shader of --shader-dir changes, until Ctrl-C");
+    add_shader_dir(command, options.shader_dir);
+    command.option_defaults()->group("Messages");
     add_name(
         command, "--progress", options.progress, [](std::string_view name) { return std::optional(name); }, "style",
-        styles, "On stderr: auto (a line if it is a terminal; the default), json (an object a line), none")
-        ->group("Messages");
+        styles, "On stderr: auto (a line if it is a terminal; the default), json (an object a line), none");
 }
 
 void add_animation_options(CLI::App &command, RenderOptions &options) {
+    command.option_defaults()->group("Animation");
     CLI::Option *frames =
         add_parsed(command, "--frames", options.frames, &parse_frames, "must be two whole numbers like 0-23, or one",
                    "Render these frames of the scene's animation; # signs in the names of files become the frame's "
                    "number")
-            ->type_name("A-B")
-            ->group("Animation");
+            ->type_name("A-B");
     command.add_flag("--skip-existing", options.skip_existing, "Leave out frames whose files are all there")
-        ->needs(frames)
-        ->group("Animation");
+        ->needs(frames);
 }
+
+constexpr const char *render_help =
+    "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean\n"
+    "of (x-r)^2 over pixels and channels for the image x and its limit r, relative_rmse the same of\n"
+    "(x-r)^2/(r^2+0.01). The summary shows relative_rmse and its bounds of 95% confidence; where it\n"
+    "cannot be known well, it is called uncertain, with the reason, and its bounds are wider. --error\n"
+    "stops sampling once the upper one is at or below E. --stats has both with bounds (rmse_low,\n"
+    "rmse_high, ...; null where unknown), uncertain, target_error (null without --error) and\n"
+    "target_reached. --standard-error is in units of radiance, infinite with a single sample.\n\n"
+    "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
+    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the\n"
+    "exponential of the mean of the logarithms of its pixels, each the mean of its three channels; black\n"
+    "ones do not count. It is rounded to hundredths and shown, so that it can be given as a number where\n"
+    "pictures are to be compared.\n\n"
+    "A file that cannot be written whole is left as it was. The metadata of images say what made them,\n"
+    "and no time: equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a\n"
+    "date.\n\n"
+    "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays\n"
+    "as it was until that is mended. A change stops the rendering under way. Sources that give the same\n"
+    "kernels and scene render nothing.\n";
 
 } // namespace
 
@@ -200,45 +200,22 @@ void add_png_bits(CLI::App &command, std::uint32_t &bits) {
 }
 
 void add_output_options(CLI::App &command, OutputOptions &options) {
+    command.option_defaults()->group("Output");
     command
         .add_option("-o,--output", options.images,
                     "Image to write, may be given again: .exr is linear 32-bit radiance; .png, .jpg are tone-mapped; "
                     "- is standard output")
         ->expected(1)
         ->take_all()
-        ->type_name("IMAGE")
-        ->group("Output");
+        ->type_name("IMAGE");
     add_format(command, options.format, image_format_names);
     add_text(command, "--standard-error", options.standard_error, "EXR",
-             "Write the standard error of every pixel (.exr), estimated from two parts of its samples")
-        ->group("Output");
+             "Write the standard error of every pixel (.exr), estimated from two parts of its samples");
     add_text(command, "--film", options.film, "FILM",
-             "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then")
-        ->group("Output");
+             "Write the film (.ptfilm): the exact sums of the samples, for `pt merge`; -o may be left out then");
     add_text(command, "--stats", options.stats, "JSON",
-             "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr")
-        ->group("Output");
+             "Write what is known of the image as JSON; - is standard output, the summary then goes to stderr");
 }
-
-const char *const render_help =
-    "The error is estimated from the image itself, once it has 16 samples: rmse is the root of the mean of (x-r)^2\n"
-    "over pixels and channels for the image x and its limit r, relative_rmse the same of (x-r)^2/(r^2+0.01). The\n"
-    "summary shows relative_rmse and its bounds of 95% confidence; where it cannot be known well, it is called\n"
-    "uncertain, with the reason, and its bounds are wider. --error stops sampling once the upper one is at or\n"
-    "below E. --stats has both with bounds (rmse_low, rmse_high, ...; null where unknown), uncertain, target_error\n"
-    "(null without --error) and target_reached. --standard-error is in units of radiance, infinite with a single\n"
-    "sample.\n\n"
-    "With --error or --time, --spp is the most samples of a pixel, by default 65536.\n\n"
-    "--exposure auto brings the average of the picture to middle grey, 0.18 (Reinhard et al. 2002): the exponential of "
-    "the\n"
-    "mean of the logarithms of its pixels, each the mean of its three channels; black ones do not count. It is rounded "
-    "to\n"
-    "hundredths and shown, so that it can be given as a number where pictures are to be compared.\n\n"
-    "A file that cannot be written whole is left as it was. The metadata of images say what made them, and no time:\n"
-    "equal runs give equal files. SOURCE_DATE_EPOCH, in seconds since 1970, gives them a date.\n\n"
-    "With --watch, what is wrong with a scene, its data or a shader is told once, and the picture stays as it was "
-    "until that is\n"
-    "mended. A change stops the rendering under way. Sources that give the same kernels and scene render nothing.\n";
 
 std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
     std::vector<std::uint32_t> wanted = layers;
@@ -247,7 +224,11 @@ std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
     return wanted;
 }
 
-void add_render_options(CLI::App &command, RenderOptions &options) {
+void add_render_command(CLI::App &program, Run &chosen) {
+    const auto shared = std::make_shared<RenderOptions>();
+    RenderOptions &options = *shared;
+    CLI::App &command = add_command(program, chosen, "render", "Render a scene file to images", render_help,
+                                    [shared] { return run_render(*shared); });
     add_text(command, "SCENE", options.scene, "SCENE", "Scene file (JSON); - is standard input")->required();
     add_output_options(command, options.output);
     add_scene_options(command, options.overrides, true);
@@ -259,7 +240,8 @@ void add_render_options(CLI::App &command, RenderOptions &options) {
     add_device_options(command, options);
     add_live_options(command, options);
     add_parts_option(command, options);
-    add_quiet(command, options.output.quiet)->group("Messages");
+    command.option_defaults()->group("Messages");
+    add_quiet(command, options.output.quiet);
 }
 
 } // namespace cli

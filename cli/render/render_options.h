@@ -3,7 +3,7 @@
 
 #include "cli/base/number.h"
 #include "cli/image/image_file.h"
-#include "cli/image/image_window.h"
+#include "cli/image/image_module.h"
 #include "cli/scene/scene_override.h"
 
 #include <pt/pt.h>
@@ -104,10 +104,5 @@ struct RenderOptions {
     // The layers that have to be read, that of alpha among them: PT_QUANTITY_*.
     std::vector<std::uint32_t> wanted_layers() const;
 };
-
-extern const char *const render_help;
-
-// The options write into `options` when the command line is parsed, so it has to live as long as the command.
-void add_render_options(CLI::App &command, RenderOptions &options);
 
 } // namespace cli

@@ -1,10 +1,8 @@
 #include "cli/render/render_output.h"
 
-#include "cli/base/atomic_file.h"
-#include "cli/base/message.h"
-#include "cli/base/output_file.h"
+#include "cli/base/text.h"
 #include "cli/film/film.h"
-#include "cli/image/display.h"
+#include "cli/image/tone_map.h"
 #include "cli/render/source_watch.h"
 
 #include <algorithm>
@@ -99,7 +97,7 @@ std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::strin
 void check_names(const RenderOptions &options) {
     check_combinations(options);
     std::vector<NamedFile> sources{{"the scene", options.scene}};
-    for (const auto &[path, contents] : read_shader_files(options.shader_dir))
+    for (const std::filesystem::path &path : shader_files(options.shader_dir))
         sources.push_back({"the shader", path});
     check_names(options.output, {});
     refuse_if(options.checkpoint == standard_stream,

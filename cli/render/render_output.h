@@ -1,7 +1,7 @@
 // The outputs of a rendering: checks before it, images after it.
 #pragma once
 
-#include "cli/base/output_file.h"
+#include "cli/base/file.h"
 #include "cli/image/image_file.h"
 #include "cli/render/picture_layer.h"
 #include "cli/render/render_options.h"

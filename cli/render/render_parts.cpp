@@ -1,6 +1,5 @@
 // The option --parts of `pt render`.
 #include "cli/base/text.h"
-#include "cli/base/vector_width.h"
 #include "cli/film/film.h"
 #include "cli/render/render_command.h"
 
@@ -113,7 +112,6 @@ int render_parts(const RenderTask &task, ValidationLog &log) {
     std::optional<PartsRender> renderer;
     while (const std::optional<Part> part = read_part(all_tiles)) {
         if (!renderer) {
-            choose_vector_width();
             renderer.emplace(task, log);
         }
         renderer->answer(*part);

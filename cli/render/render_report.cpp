@@ -1,10 +1,9 @@
 #include "cli/render/render_report.h"
 
 #include "cli/base/devices.h"
-#include "cli/base/json_text.h"
-#include "cli/base/method_names.h"
+#include "cli/base/json.h"
+#include "cli/base/names.h"
 #include "cli/base/text.h"
-#include "cli/image/display.h"
 
 #include <algorithm>
 #include <array>
@@ -17,27 +16,25 @@
 namespace cli {
 namespace {
 
-struct BitName {
-    std::uint32_t bit;
-    const char *name;
-};
-
-constexpr std::array feature_names{
-    BitName{PT_FEATURE_LAMPS, "lamps"},   BitName{PT_FEATURE_GLOSS, "gloss"},
-    BitName{PT_FEATURE_MOTION, "motion"}, BitName{PT_FEATURE_LARGE, "large"},
-    BitName{PT_FEATURE_TREE, "tree"},     BitName{PT_FEATURE_ORTHOGRAPHIC, "orthographic"},
-    BitName{PT_FEATURE_HIDDEN, "hidden"}};
-constexpr std::array uncertainty_names{BitName{PT_UNCERTAIN_RMSE, "rmse"},
-                                       BitName{PT_UNCERTAIN_RELATIVE_RMSE, "relative_rmse"},
-                                       BitName{PT_UNCERTAIN_UNSEEN, "unseen"}, BitName{PT_UNCERTAIN_UNMET, "unmet"}};
+constexpr MethodNames feature_names({{"lamps", PT_FEATURE_LAMPS},
+                                     {"gloss", PT_FEATURE_GLOSS},
+                                     {"motion", PT_FEATURE_MOTION},
+                                     {"large", PT_FEATURE_LARGE},
+                                     {"tree", PT_FEATURE_TREE},
+                                     {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
+                                     {"hidden", PT_FEATURE_HIDDEN}});
+constexpr MethodNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
+                                         {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
+                                         {"unseen", PT_UNCERTAIN_UNSEEN},
+                                         {"unmet", PT_UNCERTAIN_UNMET}});
 
 // Of those bits that are set.
 template <std::size_t Count>
-std::vector<std::string> names_of(std::uint32_t bits, const std::array<BitName, Count> &all) {
-    std::vector<std::string> names;
-    for (const auto &[bit, name] : all)
-        if ((bits & bit) != 0)
-            names.emplace_back(name);
+std::vector<std::string_view> names_of(std::uint32_t bits, const MethodNames<Count> &all) {
+    std::vector<std::string_view> names;
+    for (const std::string_view name : all.names())
+        if ((bits & all.find(name).value()) != 0)
+            names.push_back(name);
     return names;
 }
 

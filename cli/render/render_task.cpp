@@ -67,11 +67,6 @@ std::uint32_t image_count(const RenderOptions &options) {
            static_cast<std::uint32_t>(options.wanted_layers().size());
 }
 
-// What the library's progress callback needs.
-std::int32_t receive_share(void *user, double share) {
-    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
-}
-
 // What the library says of a scene is about it even where it is about no field.
 void require_scene(const Context &context, const SceneFile &scene, pt_result result) {
     if (result < 0) {
@@ -121,6 +116,10 @@ void require_host_memory(const RenderTask &task) {
                                 " of memory, more than the ", memory_text(most), " that this process can have"));
 }
 
+std::int32_t call_listener(void *user, double share) {
+    return (*static_cast<const std::function<bool(double)> *>(user))(share) ? 0 : 1;
+}
+
 void require(const Context &context, const RenderTask &task, pt_result result) {
     const LibraryError error = result < 0 ? context.last_error() : LibraryError{};
     if (!error.rules.empty())
@@ -136,7 +135,7 @@ bool describe_scene(const Context &context, const SceneFile &file, const std::fu
     scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
     const std::vector<std::uint32_t> flags = file.material_flags();
     scene.material_flags = flags.empty() ? nullptr : flags.data();
-    scene.progress = &receive_share;
+    scene.progress = &call_listener;
     scene.progress_user = &listener;
     const pt_result result = pt_set_scene(context.get(), &scene);
     require_scene(context, file, result);

@@ -36,6 +36,10 @@ std::uint64_t image_bytes(const RenderTask &task);
 // Of a call whose arguments come from the task.
 void require(const Context &context, const RenderTask &task, pt_result result);
 
+// A progress callback of the library's, whose user is a std::function<bool(double)>, which is told the share that is
+// done and returns whether it goes on.
+std::int32_t call_listener(void *user, double share);
+
 // Hands scene and camera over. goes_on is told the share of the scene that is taken over, and may end that by returning
 // false: then false is returned, and the context is as it was.
 bool describe_scene(const Context &context, const SceneFile &scene, const std::function<bool(double)> &goes_on);

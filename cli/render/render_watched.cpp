@@ -1,12 +1,9 @@
 // The option --watch of `pt render`.
+#include "cli/base/file.h"
 #include "cli/base/interrupt.h"
-#include "cli/base/message.h"
-#include "cli/base/output_file.h"
 #include "cli/base/text.h"
-#include "cli/base/vector_width.h"
 #include "cli/render/render_command.h"
 #include "cli/render/render_output.h"
-#include "cli/render/render_picture.h"
 #include "cli/render/source_watch.h"
 
 #include <pt/shaders.h>
@@ -62,15 +59,12 @@ public:
 
 private:
     // A watch that is ended while it waits has done its work.
-    int exit_code() const {
-        const bool stopped = outcome_ == Outcome::interrupted || outcome_ == Outcome::superseded;
-        return exit_code_of(outcome_.value_or(Outcome::written), stopped ? interrupt_signal() : 0);
-    }
+    int exit_code() const { return exit_code_of(outcome_, outcome_ == ExitCode::signal ? interrupt_signal() : 0); }
 
     // Where an edit can help, a failure is told and waited out; so it can where the shaders are edited, and lose
     // samples or the device, which then wants another context.
     void render_or_tell() {
-        outcome_.reset();
+        outcome_ = ExitCode::done;
         try {
             render();
         } catch (const Failure &failure) {
@@ -90,8 +84,8 @@ private:
     void render() {
         RenderTimes times;
         check_names(options_);
-        const SceneText text = read_scene_text(options_.scene);
-        RenderTask task(options_, parse_scene(text.text, text.path, options_.overrides));
+        SceneText text = read_scene_text(options_.scene);
+        RenderTask task(options_, parse_scene(std::move(text.text), text.path, options_.overrides));
         const std::vector<std::string> columns = column_paths(task.scene);
         sources_.follow({columns.begin(), columns.end()}); // before they are read
         task.load();
@@ -106,9 +100,9 @@ private:
         const auto superseded = [this] { return sources_.changed(std::chrono::milliseconds{0}); };
         rendered_scene_.reset();
         outcome_ = render_picture(*context_, task, times, superseded);
-        if (outcome_ == Outcome::written || outcome_ == Outcome::target_missed) {
+        if (outcome_ == ExitCode::done || outcome_ == ExitCode::target_missed) {
             edited_.clear();
-            rendered_outcome_ = *outcome_;
+            rendered_outcome_ = outcome_;
             rendered_scene_ = sources_.scene();
         }
     }
@@ -116,7 +110,6 @@ private:
     // One context for all pictures: another start would take longer than most edits are worth.
     void refresh_context() {
         if (!context_) {
-            choose_vector_width();
             context_.emplace(render_create_info(options_, log_));
         } else if (!options_.shader_dir.empty()) {
             context_->require(pt_reload_shaders(context_->get()));
@@ -159,9 +152,9 @@ private:
     SourceWatch sources_;
     std::optional<Context> context_;
     std::optional<SourceFiles> rendered_scene_; // that the files show; nothing if they show none
-    Outcome rendered_outcome_ = Outcome::written;
-    std::optional<Outcome> outcome_; // of the last rendering; nothing if it failed
-    std::set<std::string> edited_;   // files, since the last picture
+    ExitCode rendered_outcome_ = ExitCode::done;
+    ExitCode outcome_ = ExitCode::done; // of the last rendering; also if it failed, which an edit may mend
+    std::set<std::string> edited_;      // files, since the last picture
     bool is_first_ = true;
     bool is_told_ = false;
 };
@@ -170,8 +163,7 @@ private:
 
 int render_watched(const RenderOptions &options, ValidationLog &log) {
     require_files(options);
-    catch_interrupts();
-    catch_picture_requests();
+    catch_signals();
     return WatchedRender(options, log).run();
 }
 

@@ -1,5 +1,5 @@
-// The files that a picture is made of (the scene, its data, and the kernels with what they include), and whether they
-// have changed since it was begun.
+// The files that a picture is made of (the scene, its data, and the kernels), and whether they have changed since it
+// was begun.
 #pragma once
 
 #include <chrono>
@@ -12,26 +12,11 @@
 
 namespace cli {
 
-// Contents by path; nothing for a file that does not exist. An included file is listed at both places where it is
-// looked for, since it may appear at either.
+// GLSL files in that folder and in those within it; none if its name is empty.
+std::set<std::filesystem::path> shader_files(const std::filesystem::path &shader_dir);
+
+// Contents by path; nothing for a file that does not exist.
 using SourceFiles = std::map<std::filesystem::path, std::optional<std::string>>;
-
-// The kernels in a folder; none if its name is empty.
-SourceFiles read_shader_files(const std::filesystem::path &shader_dir);
-
-// Contents of files, which are read again only when the time of their last change, their size or their inode is
-// another.
-class FileCache {
-public:
-    std::optional<std::string> contents_of(const std::filesystem::path &path);
-
-private:
-    struct Entry {
-        std::string state;
-        std::optional<std::string> contents;
-    };
-    std::map<std::filesystem::path, Entry> entries_;
-};
 
 // Looks at the files ten times a second: that sees what other machines write, too.
 class SourceWatch {
@@ -60,12 +45,18 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
+    struct Kept {
+        std::optional<std::string> state;
+        std::optional<std::string> contents;
+    };
+
     void look();
+    std::optional<std::string> contents_of(const std::filesystem::path &path);
 
     std::filesystem::path scene_;
     std::filesystem::path shader_dir_;
     std::set<std::filesystem::path> data_;
-    FileCache cache_;
+    std::map<std::filesystem::path, Kept> kept_; // read again only when their state is another
     SourceFiles begun_;
     SourceFiles seen_;             // at the last look
     Clock::time_point seen_since_; // with these contents

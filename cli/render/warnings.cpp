@@ -1,11 +1,9 @@
 #include "cli/render/warnings.h"
 
-#include "cli/base/json_path.h"
-#include "cli/base/message.h"
+#include "cli/base/json.h"
 #include "cli/base/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -14,8 +12,6 @@
 
 namespace cli {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 bool emits(const pt_material &material) {
     return std::any_of(std::begin(material.emission), std::end(material.emission), [](float x) { return x > 0.0F; });
@@ -41,89 +37,40 @@ bool is_lit(const SceneFile &scene) {
     return false;
 }
 
-Vector center_at(const pt_sphere &sphere, double time) {
-    Vector center{};
-    for (std::size_t i = 0; i < 3; ++i)
-        center[i] = sphere.center[i] + time * sphere.motion[i];
-    return center;
-}
-
-double distance(const Vector &a, const Vector &b) {
+double distance(const double (&a)[3], const double (&b)[3]) {
     return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-// Bounds of the distance of the centres while the shutter is open. Seen from b, a moves on a straight way: it is
-// farthest from b at an end of the way, and never farther from the nearest end than half of its length.
-std::pair<double, double> distances(const pt_sphere &a, const pt_sphere &b, double open, double close) {
-    const auto at = [&](double time) { return distance(center_at(a, time), center_at(b, time)); };
-    const auto [near, far] = std::minmax({at(open), at(close)});
-    Vector way{};
-    for (std::size_t i = 0; i < 3; ++i)
-        way[i] = (close - open) * (a.motion[i] - b.motion[i]);
-    return {near - 0.5 * std::hypot(way[0], way[1], way[2]), far};
+bool moves(const pt_sphere &sphere) {
+    return std::any_of(std::begin(sphere.motion), std::end(sphere.motion), [](double x) { return x != 0.0; });
 }
 
-// Looks for a ball that shuts the camera in. Surfaces let no light through, so that it is dark inside unless a part of
-// a lamp's surface is inside too; a lamp that is wholly around the ball or wholly outside has none there.
-class ShutInCamera {
-public:
-    explicit ShutInCamera(const SceneFile &scene) : scene_(scene) {
-        const pt_camera &camera = scene.camera;
-        position_ = {camera.position[0], camera.position[1], camera.position[2]};
-        open_ = shutter_of(camera)[0];
-        close_ = shutter_of(camera)[1];
-    }
-
-    // Index of a sphere that the camera is inside of as long as the shutter is open, and that holds no light.
-    std::optional<std::size_t> find() const {
-        for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
-            const pt_sphere &ball = scene_.spheres[i];
-            const bool is_dark = !emits(material_of(ball)) && !scene_.is_hidden(ball.material);
-            if (is_dark && surrounds_camera(ball) && !holds_light(ball))
-                return i;
-        }
-        return std::nullopt;
-    }
-
-private:
-    template <typename Surface>
-    const pt_material &material_of(const Surface &surface) const {
-        return scene_.materials[surface.material];
-    }
-
-    // What is true at both ends of a straight way is true in between: a ball is convex.
-    bool surrounds_camera(const pt_sphere &ball) const {
-        return std::max(distance(center_at(ball, open_), position_), distance(center_at(ball, close_), position_)) <
-               ball.radius;
-    }
-
-    bool holds_light(const pt_sphere &ball) const {
+// Index of a sphere that the camera is inside of, and that holds no light. Surfaces let no light through, so that it is
+// dark inside unless a part of a lamp's surface is inside too; a lamp that is wholly around the ball or wholly outside
+// has none there. Balls and lamps that move are taken to be lit, and lamps of columns to be everywhere.
+std::optional<std::size_t> dark_ball_around_camera(const SceneFile &scene) {
+    const auto shines = [&](const auto &surface) { return emits(scene.materials[surface.material]); };
+    const auto is_dark = [&](const pt_sphere &ball) {
         const auto sphere_reaches_in = [&](const pt_sphere &lamp) {
-            const auto [near, far] = distances(lamp, ball, open_, close_);
-            return emits(material_of(lamp)) && near <= lamp.radius + ball.radius && lamp.radius <= far + ball.radius;
+            const double way = distance(lamp.center, ball.center);
+            return shines(lamp) &&
+                   (moves(lamp) || (way <= lamp.radius + ball.radius && lamp.radius <= way + ball.radius));
         };
         const auto plane_reaches_in = [&](const pt_plane &lamp) {
-            const auto height = [&](double time) {
-                const Vector center = center_at(ball, time);
-                const auto &n = lamp.normal;
-                return (n[0] * center[0] + n[1] * center[1] + n[2] * center[2] + lamp.offset) /
-                       std::hypot(n[0], n[1], n[2]);
-            };
-            const auto [low, high] = std::minmax({height(open_), height(close_)});
-            return emits(material_of(lamp)) && low <= ball.radius && high >= -ball.radius;
+            const auto &n = lamp.normal;
+            const double height = n[0] * ball.center[0] + n[1] * ball.center[1] + n[2] * ball.center[2] + lamp.offset;
+            return shines(lamp) && std::abs(height) <= ball.radius * std::hypot(n[0], n[1], n[2]);
         };
-        // Where spheres of columns shine is not looked at: they may be millions.
-        const auto columns_shine = [this](const SphereColumns &each) { return emits(material_of(each)); };
-        return std::any_of(scene_.sphere_columns.begin(), scene_.sphere_columns.end(), columns_shine) ||
-               std::any_of(scene_.spheres.begin(), scene_.spheres.end(), sphere_reaches_in) ||
-               std::any_of(scene_.planes.begin(), scene_.planes.end(), plane_reaches_in);
-    }
-
-    const SceneFile &scene_;
-    Vector position_;
-    double open_;
-    double close_;
-};
+        return !shines(ball) && !moves(ball) && !scene.is_hidden(ball.material) &&
+               distance(scene.camera.position, ball.center) < ball.radius &&
+               std::ranges::none_of(scene.sphere_columns, shines) &&
+               std::ranges::none_of(scene.spheres, sphere_reaches_in) &&
+               std::ranges::none_of(scene.planes, plane_reaches_in);
+    };
+    const auto ball = std::ranges::find_if(scene.spheres, is_dark);
+    return ball == scene.spheres.end() ? std::nullopt
+                                       : std::optional(static_cast<std::size_t>(ball - scene.spheres.begin()));
+}
 
 // The largest of the channels' sums. Specular lobes reflect all of their weight where light falls in along the normal.
 float reflected_share(const pt_material &material) {
@@ -204,7 +151,7 @@ std::vector<std::string> input_warnings(const SceneFile &scene, double target_er
     std::vector<std::string> warnings;
     if (!is_lit(scene)) {
         warnings.push_back(scene.path + ": no surface emits light: the picture is black");
-    } else if (const auto ball = ShutInCamera(scene).find()) {
+    } else if (const auto ball = dark_ball_around_camera(scene)) {
         warnings.push_back(scene.path + ": the camera is inside of spheres[" + std::to_string(scene.item_of(*ball)) +
                            "], which no light gets into: the picture is black");
     }

@@ -1,8 +1,7 @@
 #include "cli/scene/scene_file.h"
 
-#include "cli/base/output_file.h"
-#include "cli/base/text_file.h"
-#include "cli/scene/scene_reader.h"
+#include "cli/base/file.h"
+#include "cli/scene/scene_keys.h"
 
 #include <algorithm>
 #include <iterator>
@@ -82,7 +81,7 @@ bool is_of_command(const SceneFile &scene, const BrokenRule &rule, const JsonPat
 }
 
 std::string place_text(const SceneFile &scene, const JsonPath &path) {
-    const auto line = path.empty() ? std::nullopt : scene.lines.find(path);
+    const auto line = path.empty() ? std::nullopt : line_of(scene.text, path);
     return scene.path + (line ? ":" + std::to_string(*line) : "");
 }
 
@@ -166,16 +165,15 @@ ExitCode SceneFile::blame(const LibraryError &error) const {
     return is_usage ? ExitCode::usage : ExitCode::scene;
 }
 
-SceneFile parse_scene(std::string_view text, const std::string &path, std::vector<SceneOverride> overrides) {
+SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides) {
     SceneFile scene;
     scene.path = path;
+    scene.text = std::move(text);
     scene.overrides = std::move(overrides);
-    SceneReader reader(scene);
     try {
-        parse_json_items(require_text(text, path), path, scene.lines, reader);
-        reader.finish();
+        read_sections(scene, require_text(scene.text, path));
     } catch (const JsonRefusal &refusal) {
-        const auto line = scene.lines.find(refusal.path);
+        const auto line = line_of(scene.text, refusal.path);
         const std::string name = path_text(refusal.path);
         throw Failure(ExitCode::scene, path + (line ? ":" + std::to_string(*line) : "") +
                                            (name.empty() ? "" : ": " + name) + ": " + refusal.what());
@@ -188,8 +186,8 @@ Display display_of(const std::vector<SceneOverride> &overrides) {
 }
 
 SceneFile read_scene_file(const std::string &path) {
-    const SceneText scene = read_scene_text(path);
-    SceneFile file = parse_scene(scene.text, scene.path);
+    SceneText scene = read_scene_text(path);
+    SceneFile file = parse_scene(std::move(scene.text), scene.path);
     load_columns(file);
     return file;
 }

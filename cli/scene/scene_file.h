@@ -2,10 +2,9 @@
 // here, the rules of a scene by the library; explain() leads its messages back to the file.
 #pragma once
 
+#include "cli/base/context.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/library_error.h"
-#include "cli/image/display.h"
-#include "cli/scene/animation.h"
+#include "cli/image/tone_map.h"
 #include "cli/scene/json_items.h"
 #include "cli/scene/scene_override.h"
 #include "cli/scene/sphere_columns.h"
@@ -45,7 +44,7 @@ constexpr pt_render default_render() {
 
 struct SceneFile {
     std::string path;
-    JsonLines lines;
+    std::string text;                        // of which refusals tell the lines
     std::vector<SceneOverride> overrides;    // that have taken the place of its values
     std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
     std::vector<std::string> material_names; // like all arrays from here on in the order of the file
@@ -85,7 +84,7 @@ struct SceneFile {
 
 // overrides: what takes the place of its values; a later one counts more. Throws Failure(ExitCode::scene) if the text
 // is not a scene file, and blames an override that does not fit.
-SceneFile parse_scene(std::string_view text, const std::string &path, std::vector<SceneOverride> overrides = {});
+SceneFile parse_scene(std::string text, const std::string &path, std::vector<SceneOverride> overrides = {});
 
 // What overrides of the section `film` say, where there is no scene file.
 Display display_of(const std::vector<SceneOverride> &overrides);

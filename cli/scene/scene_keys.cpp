@@ -1,6 +1,6 @@
 #include "cli/scene/scene_keys.h"
 
-#include "cli/base/method_names.h"
+#include "cli/base/names.h"
 
 #include <algorithm>
 #include <limits>

@@ -2,7 +2,7 @@
 // JSON Schema, the options of `pt render` that give the same, and the manual's rows follow from it.
 #pragma once
 
-#include "cli/base/value_rule.h"
+#include "cli/base/json.h"
 #include "cli/scene/scene_file.h"
 
 #include <pt/pt.h>
@@ -58,9 +58,8 @@ const SceneKey *find_key(const SceneSection &section, std::string_view name);
 
 std::vector<std::string_view> key_names(const SceneSection &section);
 
-// The JSON Schema of scene files, for editors and programs that write them: draft 7 (json-schema.org/draft-07). What it
-// refuses `pt` refuses too; what needs two values to be known (names of materials, a look_at that is not the position,
-// an up along the view), `pt` refuses alone.
-nlohmann::ordered_json scene_schema();
+// Of a text without byte order mark. Throws JsonRefusal, or Failure for an override of the scene that does not fit or
+// whose value is refused.
+void read_sections(SceneFile &scene, std::string_view text);
 
 } // namespace cli

@@ -1,9 +1,12 @@
 #include "cli/scene/scene_override.h"
 
-#include "cli/base/common_options.h"
 #include "cli/base/number.h"
+#include "cli/base/options.h"
+#include "cli/scene/scene_file.h"
 #include "cli/scene/scene_keys.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace cli {
@@ -54,6 +57,51 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->group("Picture");
 }
 
+using nlohmann::json;
+
+// A key of the camera, of a material, of a sphere or of a plane.
+bool can_move(const JsonPath &path) {
+    const auto is_key_in = [&](const char *section, std::size_t length) {
+        return path.size() == length && path[0].key == section && !path.back().in_array;
+    };
+    const bool is_of_camera = is_key_in("camera", 2) && path[1].key != "shutter";
+    const bool is_of_element = is_key_in("spheres", 3) || is_key_in("planes", 3);
+    return is_of_camera || (is_of_element && path[1].in_array) || (is_key_in("materials", 3) && !path[1].in_array);
+}
+
+KeyFrame read_key_frame(const json &value, const JsonPlace &place, AnimatedValue &animated) {
+    constexpr ValueRule number{};
+    if (!value.is_array() || value.size() != 2)
+        refuse(place, "must be [frame, value]");
+    check(natural_number, value[0], place.element(0));
+    KeyFrame key{value[0].get<std::uint32_t>(), {}};
+    const JsonPlace second = place.element(1);
+    animated.is_array = value[1].is_array();
+    const json numbers = animated.is_array ? value[1] : json::array({value[1]});
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        check(number, numbers[i], animated.is_array ? second.element(i) : second);
+        key.numbers.push_back(numbers[i].get<double>());
+    }
+    return key;
+}
+
+json json_of(const AnimatedValue &value, const std::vector<double> &numbers) {
+    return value.is_array ? json(numbers) : json(numbers.front());
+}
+
+bool is_center(const JsonPath &path) {
+    return path[0].key == "spheres" && path[2].key == "center";
+}
+
+// From the begin of a frame to its end.
+json way_of(const AnimatedValue &value, std::uint32_t frame) {
+    const std::vector<double> begin = value.at(frame);
+    std::vector<double> way = value.at(frame + 1.0);
+    std::transform(way.begin(), way.end(), begin.begin(), way.begin(),
+                   [](double to, double from) { return to - from; });
+    return way;
+}
+
 } // namespace
 
 SceneOverride parse_override(const std::string &text) {
@@ -96,6 +144,63 @@ void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides,
                 ->group(is_of_display ? "Display (.png and .jpg only)" : "Samples");
         }
     }
+}
+
+std::vector<double> AnimatedValue::at(double time) const {
+    const auto next = std::find_if(keys.begin(), keys.end(), [time](const KeyFrame &key) { return key.frame > time; });
+    if (next == keys.begin() || next == keys.end())
+        return next == keys.begin() ? keys.front().numbers : keys.back().numbers;
+    const KeyFrame &before = *(next - 1);
+    const double share = (time - before.frame) / (next->frame - before.frame);
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < before.numbers.size(); ++i)
+        numbers.push_back(std::lerp(before.numbers[i], next->numbers[i], share));
+    return numbers;
+}
+
+void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &value) {
+    const std::string name(place.key);
+    const auto parsed = parse_path(name);
+    if (!parsed || !parsed->rest.empty() || !can_move(parsed->path)) {
+        refuse(place, "the name must be that of a key of the camera, of a material, of a sphere or of a plane, like "
+                      "camera.position or spheres[0].center; the shutter has no frames");
+    }
+    if (!value.is_array() || value.empty())
+        refuse(place, "must be an array of key frames, [frame, value] each");
+    AnimatedValue animated{name, parsed->path, false, {}};
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const JsonPlace element = place.element(i);
+        const bool was_array = animated.is_array;
+        animated.keys.push_back(read_key_frame(value[i], element, animated));
+        if (i == 0)
+            continue;
+        const KeyFrame &before = animated.keys[i - 1];
+        if (animated.is_array != was_array || animated.keys[i].numbers.size() != before.numbers.size())
+            refuse(element.element(1), "must have as many numbers as the one before");
+        if (animated.keys[i].frame <= before.frame)
+            refuse(element.element(0), "must be a later frame than the one before");
+    }
+    scene.animation.push_back(std::move(animated));
+}
+
+std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame) {
+    const auto [open, close] = shutter_of(scene.camera);
+    std::vector<SceneOverride> overrides;
+    for (const AnimatedValue &value : scene.animation) {
+        const std::string source = scene.path + ": animation[\"" + value.name + "\"] in frame " + std::to_string(frame);
+        const auto put = [&](const JsonPath &path, const json &number) {
+            overrides.push_back({path, number, source, ExitCode::scene});
+        };
+        if (is_center(value.path)) {
+            JsonPath motion = value.path;
+            motion.back().key = "motion";
+            put(value.path, json_of(value, value.at(frame)));
+            put(motion, way_of(value, frame));
+        } else {
+            put(value.path, json_of(value, value.at(frame + 0.5 * (open + close))));
+        }
+    }
+    return overrides;
 }
 
 } // namespace cli

@@ -1,13 +1,14 @@
 // Values that take the place of a scene file's, or are added to it: of --set, of options that say the same as a key,
-// and of the frames of an animation.
+// and of the frames of an animation, whose section has values that change from frame to frame.
 #pragma once
 
 #include "cli/base/exit_code.h"
-#include "cli/base/json_path.h"
+#include "cli/base/json.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -41,5 +42,30 @@ SceneOverride parse_override(const std::string &text);
 // The options write into `overrides` when the command line is parsed. has_scene: whether there is a scene file, as of
 // `pt render`; otherwise there are only those that say how a picture is shown.
 void add_scene_options(CLI::App &command, std::vector<SceneOverride> &overrides, bool has_scene);
+
+struct SceneFile;
+
+struct KeyFrame {
+    std::uint32_t frame;
+    std::vector<double> numbers; // equally many in all key frames of a value
+};
+
+struct AnimatedValue {
+    std::string name; // as in the file: "spheres[0].center"
+    JsonPath path;
+    bool is_array;              // otherwise a single number
+    std::vector<KeyFrame> keys; // by frame; at least one
+
+    // At a time in frames: on straight lines between key frames, and constant before the first and after the last.
+    std::vector<double> at(double time) const;
+};
+
+// Of one value; throws JsonRefusal.
+void read_animation_item(SceneFile &scene, const JsonPlace &place, const nlohmann::json &value);
+
+// What takes the place of the scene's values in a frame. A frame lasts from its number to the next one, and the
+// shutter's times are shares of that: spheres move within the frame, on a straight way from where they are at its begin
+// to where they are at its end; all else stands still, as it is in the middle of the time that the shutter is open.
+std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame);
 
 } // namespace cli

@@ -1,10 +1,14 @@
-#include "cli/scene/scene_reader.h"
+// Reads the sections of a scene file by the table of its keys, with the values that take the place of its own.
+#include "cli/base/names.h"
+#include "cli/scene/scene_keys.h"
 
-#include "cli/base/suggestion.h"
-#include "cli/scene/animation.h"
-
+#include <cstdint>
+#include <set>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace cli {
 namespace {
@@ -34,188 +38,218 @@ void check_projection(const pt_camera &camera, const JsonPlace &place) {
         refuse(place, "\"vertical_extent\" is of an orthographic projection, a perspective one has a \"vertical_fov\"");
 }
 
+class SceneReader : public JsonItemHandler {
+public:
+    // With the overrides that the scene has.
+    explicit SceneReader(SceneFile &scene) : scene_(scene) {}
+
+    // All throw JsonRefusal, or Failure for an override that does not fit or whose value is refused.
+    void begin_section(const JsonPlace &place, json::value_t kind) override {
+        section_ = find_section(place.key);
+        if (section_ == nullptr && place.key != "animation")
+            refuse_unknown_section(place);
+        const bool is_array = section_ != nullptr && section_->form == SectionForm::array;
+        const json::value_t wanted = is_array ? json::value_t::array : json::value_t::object;
+        if (kind != wanted)
+            refuse(place, "must be " + json_kind(wanted) + ", is " + json_kind(kind));
+        begun_.insert(section_);
+    }
+
+    // A scene may have millions of items: most of them are looked up and read as they are.
+    void item(const JsonPlace &place, const json &value) override {
+        const std::vector<std::size_t> changes =
+            scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
+        if (changes.empty())
+            read(place, value);
+        else
+            read_changed(place, value, changes);
+    }
+
+    // At the end of the file: adds what overrides have and the file has not, checks what can be known only now, and
+    // resolves the names of materials, which may stand behind the spheres.
+    void finish() {
+        add_items_of_overrides();
+        require_members();
+        resolve_materials();
+    }
+
+private:
+    std::vector<std::size_t> overrides_of(const JsonPath &item) const {
+        std::vector<std::size_t> chosen;
+        for (std::size_t i = 0; i < scene_.overrides.size(); ++i)
+            if (is_within(scene_.overrides[i].path, item))
+                chosen.push_back(i);
+        return chosen;
+    }
+
+    void read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
+        for (const std::size_t index : changes) {
+            scene_.overrides[index].apply_to(value);
+            used_overrides_.insert(index);
+        }
+        try {
+            read(place, value);
+        } catch (const JsonRefusal &refusal) {
+            for (const std::size_t index : changes) {
+                const SceneOverride &cause = scene_.overrides[index];
+                if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path))
+                    throw Failure(cause.blame, cause.name_of(refusal.path) + ": " + refusal.what());
+            }
+            throw;
+        }
+    }
+
+    void read(const JsonPlace &place, const json &value) {
+        if (section_ == nullptr)
+            read_animation_item(scene_, place, value);
+        else if (section_->form == SectionForm::members)
+            read_member(place, value);
+        else
+            read_element(place, value);
+    }
+
+    void read_member(const JsonPlace &place, const json &value) {
+        const SceneKey *key = find_key(*section_, place.key);
+        if (key == nullptr)
+            refuse_unknown_key(*place.parent, place.key, key_names(*section_));
+        check(key->rule, value, place);
+        SceneItem item{scene_};
+        key->store(item, value);
+        scene_.given.push_back(place.path());
+    }
+
+    void read_element(const JsonPlace &place, const json &value) {
+        if (!value.is_object())
+            refuse(place, "must be an object, is " + shown(value));
+        for (const auto &member : value.items())
+            if (find_key(*section_, member.key()) == nullptr)
+                refuse_unknown_key(place, member.key(), key_names(*section_));
+        for (const SceneKey &key : section_->keys)
+            if (key.is_required && !value.contains(key.name))
+                refuse(place, "\"" + std::string(key.name) + "\" is missing");
+        SceneItem item{scene_};
+        const bool is_many = section_->name == "spheres" && value.at("center").is_string();
+        SphereColumns columns{place.index};
+        for (const SceneKey &key : section_->keys) {
+            const auto found = value.find(key.name);
+            if (found == value.end())
+                continue;
+            const JsonPlace member = place.member(key.name);
+            if (is_many && key.column != nullptr && found->is_string()) {
+                columns.add_file(key, found->get_ref<const std::string &>(), member);
+                continue;
+            }
+            check(key.rule, *found, member);
+            key.store(item, *found);
+            if (is_many && key.column != nullptr)
+                columns.add_value(key, *found);
+        }
+        if (is_many) {
+            columns.material = number_of_material(item.material_name, place.member("material"));
+            scene_.sphere_columns.push_back(std::move(columns));
+        } else {
+            add(item, place);
+        }
+    }
+
+    void add(SceneItem &item, const JsonPlace &place) {
+        if (section_->name == "materials") {
+            if (item.is_hidden)
+                scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
+            scene_.materials.push_back(item.material);
+            scene_.material_names.emplace_back(place.key);
+            return;
+        }
+        const std::uint32_t material = number_of_material(item.material_name, place.member("material"));
+        item.sphere.material = material;
+        item.plane.material = material;
+        if (section_->name == "spheres")
+            scene_.add_sphere(item.sphere, item.color);
+        else
+            scene_.planes.push_back(item.plane);
+    }
+
+    std::uint32_t number_of_material(const std::string &name, const JsonPlace &place) {
+        const auto [entry, fresh] =
+            material_numbers_.try_emplace(name, static_cast<std::uint32_t>(used_materials_.size()));
+        if (fresh)
+            used_materials_.push_back({name, place.path()});
+        return entry->second;
+    }
+
+    void resolve_materials() {
+        std::unordered_map<std::string_view, std::uint32_t> defined;
+        for (const std::string &name : scene_.material_names)
+            defined.emplace(name, static_cast<std::uint32_t>(defined.size()));
+        std::vector<std::uint32_t> indices;
+        for (const UsedName &used : used_materials_) {
+            const auto found = defined.find(used.name);
+            if (found == defined.end()) {
+                const std::vector<std::string_view> known(scene_.material_names.begin(), scene_.material_names.end());
+                throw JsonRefusal(used.first_place, unknown_name("material", used.name, known));
+            }
+            indices.push_back(found->second);
+        }
+        for (pt_sphere &sphere : scene_.spheres)
+            sphere.material = indices[sphere.material];
+        for (SphereColumns &each : scene_.sphere_columns)
+            each.material = indices[each.material];
+        for (pt_plane &plane : scene_.planes)
+            plane.material = indices[plane.material];
+    }
+
+    void add_items_of_overrides() {
+        for (std::size_t i = 0; i < scene_.overrides.size(); ++i) {
+            if (used_overrides_.contains(i))
+                continue;
+            const SceneOverride &first = scene_.overrides[i];
+            const JsonPath item(first.path.begin(), first.path.begin() + item_depth);
+            if (item[0].in_array || item[1].in_array)
+                throw Failure(first.blame, first.source + ": the scene has no " + path_text(item));
+            const JsonPlace root;
+            const JsonPlace section = root.member(item[0].key);
+            try {
+                begin_section(section, json::value_t::object);
+            } catch (const JsonRefusal &refusal) {
+                throw Failure(first.blame, first.source + ": " + refusal.what());
+            }
+            read_changed(section.member(item[1].key), nullptr, overrides_of(item));
+        }
+    }
+
+    void require_members() const {
+        const JsonPlace root;
+        for (const SceneSection *section : begun_) {
+            if (section == nullptr || section->form != SectionForm::members)
+                continue;
+            const JsonPlace place = root.member(section->name);
+            for (const SceneKey &key : section->keys)
+                if (key.is_required && !scene_.gives(place.member(key.name).path()))
+                    refuse(place, "\"" + std::string(key.name) + "\" is missing");
+        }
+        check_projection(scene_.camera, root.member("camera"));
+    }
+
+    SceneFile &scene_;
+    const SceneSection *section_ = nullptr; // nullptr: `animation`
+    std::set<const SceneSection *> begun_;
+    std::set<std::size_t> used_overrides_;
+
+    // Names of materials are numbered as spheres and planes have them.
+    struct UsedName {
+        std::string name;
+        JsonPath first_place;
+    };
+    std::vector<UsedName> used_materials_;
+    std::unordered_map<std::string, std::uint32_t> material_numbers_;
+};
+
 } // namespace
 
-void SceneReader::begin_section(const JsonPlace &place, json::value_t kind) {
-    section_ = find_section(place.key);
-    if (section_ == nullptr && place.key != "animation")
-        refuse_unknown_section(place);
-    const bool is_array = section_ != nullptr && section_->form == SectionForm::array;
-    const json::value_t wanted = is_array ? json::value_t::array : json::value_t::object;
-    if (kind != wanted)
-        refuse(place, "must be " + json_kind(wanted) + ", is " + json_kind(kind));
-    begun_.insert(section_);
-}
-
-std::vector<std::size_t> SceneReader::overrides_of(const JsonPath &item) const {
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < scene_.overrides.size(); ++i)
-        if (is_within(scene_.overrides[i].path, item))
-            chosen.push_back(i);
-    return chosen;
-}
-
-// A scene may have millions of items: most of them are looked up and read as they are.
-void SceneReader::item(const JsonPlace &place, const json &value) {
-    const std::vector<std::size_t> changes =
-        scene_.overrides.empty() ? std::vector<std::size_t>() : overrides_of(place.path());
-    if (changes.empty())
-        read(place, value);
-    else
-        read_changed(place, value, changes);
-}
-
-void SceneReader::read_changed(const JsonPlace &place, json value, const std::vector<std::size_t> &changes) {
-    for (const std::size_t index : changes) {
-        scene_.overrides[index].apply_to(value);
-        used_overrides_.insert(index);
-    }
-    try {
-        read(place, value);
-    } catch (const JsonRefusal &refusal) {
-        for (const std::size_t index : changes) {
-            const SceneOverride &cause = scene_.overrides[index];
-            if (is_within(refusal.path, cause.path) || is_within(cause.path, refusal.path))
-                throw Failure(cause.blame, cause.name_of(refusal.path) + ": " + refusal.what());
-        }
-        throw;
-    }
-}
-
-void SceneReader::read(const JsonPlace &place, const json &value) {
-    if (section_ == nullptr)
-        read_animation_item(scene_, place, value);
-    else if (section_->form == SectionForm::members)
-        read_member(place, value);
-    else
-        read_element(place, value);
-}
-
-void SceneReader::read_member(const JsonPlace &place, const json &value) {
-    const SceneKey *key = find_key(*section_, place.key);
-    if (key == nullptr)
-        refuse_unknown_key(*place.parent, place.key, key_names(*section_));
-    check(key->rule, value, place);
-    SceneItem item{scene_};
-    key->store(item, value);
-    scene_.given.push_back(place.path());
-}
-
-void SceneReader::read_element(const JsonPlace &place, const json &value) {
-    if (!value.is_object())
-        refuse(place, "must be an object, is " + shown(value));
-    for (const auto &member : value.items())
-        if (find_key(*section_, member.key()) == nullptr)
-            refuse_unknown_key(place, member.key(), key_names(*section_));
-    for (const SceneKey &key : section_->keys)
-        if (key.is_required && !value.contains(key.name))
-            refuse(place, "\"" + std::string(key.name) + "\" is missing");
-    SceneItem item{scene_};
-    const bool is_many = section_->name == "spheres" && value.at("center").is_string();
-    SphereColumns columns{place.index};
-    for (const SceneKey &key : section_->keys) {
-        const auto found = value.find(key.name);
-        if (found == value.end())
-            continue;
-        const JsonPlace member = place.member(key.name);
-        if (is_many && key.column != nullptr && found->is_string()) {
-            columns.add_file(key, found->get_ref<const std::string &>(), member);
-            continue;
-        }
-        check(key.rule, *found, member);
-        key.store(item, *found);
-        if (is_many && key.column != nullptr)
-            columns.add_value(key, *found);
-    }
-    if (is_many) {
-        columns.material = number_of_material(item.material_name, place.member("material"));
-        scene_.sphere_columns.push_back(std::move(columns));
-    } else {
-        add(item, place);
-    }
-}
-
-void SceneReader::add(SceneItem &item, const JsonPlace &place) {
-    if (section_->name == "materials") {
-        if (item.is_hidden)
-            scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
-        scene_.materials.push_back(item.material);
-        scene_.material_names.emplace_back(place.key);
-        return;
-    }
-    const std::uint32_t material = number_of_material(item.material_name, place.member("material"));
-    item.sphere.material = material;
-    item.plane.material = material;
-    if (section_->name == "spheres")
-        scene_.add_sphere(item.sphere, item.color);
-    else
-        scene_.planes.push_back(item.plane);
-}
-
-std::uint32_t SceneReader::number_of_material(const std::string &name, const JsonPlace &place) {
-    const auto [entry, fresh] = material_numbers_.try_emplace(name, static_cast<std::uint32_t>(used_materials_.size()));
-    if (fresh)
-        used_materials_.push_back({name, place.path()});
-    return entry->second;
-}
-
-void SceneReader::resolve_materials() {
-    std::unordered_map<std::string_view, std::uint32_t> defined;
-    for (const std::string &name : scene_.material_names)
-        defined.emplace(name, static_cast<std::uint32_t>(defined.size()));
-    std::vector<std::uint32_t> indices;
-    for (const UsedName &used : used_materials_) {
-        const auto found = defined.find(used.name);
-        if (found == defined.end()) {
-            const std::vector<std::string_view> known(scene_.material_names.begin(), scene_.material_names.end());
-            throw JsonRefusal(used.first_place, unknown_name("material", used.name, known));
-        }
-        indices.push_back(found->second);
-    }
-    for (pt_sphere &sphere : scene_.spheres)
-        sphere.material = indices[sphere.material];
-    for (SphereColumns &each : scene_.sphere_columns)
-        each.material = indices[each.material];
-    for (pt_plane &plane : scene_.planes)
-        plane.material = indices[plane.material];
-}
-
-void SceneReader::add_items_of_overrides() {
-    for (std::size_t i = 0; i < scene_.overrides.size(); ++i) {
-        if (used_overrides_.contains(i))
-            continue;
-        const SceneOverride &first = scene_.overrides[i];
-        const JsonPath item(first.path.begin(), first.path.begin() + item_depth);
-        if (item[0].in_array || item[1].in_array)
-            throw Failure(first.blame, first.source + ": the scene has no " + path_text(item));
-        const JsonPlace root;
-        const JsonPlace section = root.member(item[0].key);
-        try {
-            begin_section(section, json::value_t::object);
-        } catch (const JsonRefusal &refusal) {
-            throw Failure(first.blame, first.source + ": " + refusal.what());
-        }
-        read_changed(section.member(item[1].key), nullptr, overrides_of(item));
-    }
-}
-
-void SceneReader::require_members() const {
-    const JsonPlace root;
-    for (const SceneSection *section : begun_) {
-        if (section == nullptr || section->form != SectionForm::members)
-            continue;
-        const JsonPlace place = root.member(section->name);
-        for (const SceneKey &key : section->keys)
-            if (key.is_required && !scene_.gives(place.member(key.name).path()))
-                refuse(place, "\"" + std::string(key.name) + "\" is missing");
-    }
-    check_projection(scene_.camera, root.member("camera"));
-}
-
-void SceneReader::finish() {
-    add_items_of_overrides();
-    require_members();
-    resolve_materials();
+void read_sections(SceneFile &scene, std::string_view text) {
+    SceneReader reader(scene);
+    parse_json_items(text, scene.path, reader);
+    reader.finish();
 }
 
 } // namespace cli

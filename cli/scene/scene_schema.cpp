@@ -1,8 +1,11 @@
-// The JSON Schema of scene files, from the table of keys.
+// The command `pt schema`: the JSON Schema of scene files, from the table of keys.
+#include "cli/base/json.h"
+#include "cli/commands.h"
 #include "cli/scene/scene_keys.h"
 
 #include <cmath>
 #include <cstdint>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -110,9 +113,10 @@ Schema animation() {
             {"additionalProperties", {{"type", "array"}, {"items", key}, {"minItems", 1}}}};
 }
 
-} // namespace
-
-nlohmann::ordered_json scene_schema() {
+// The JSON Schema of scene files, for editors and programs that write them: draft 7 (json-schema.org/draft-07). What it
+// refuses `pt` refuses too; what needs two values to be known (names of materials, a look_at that is not the position,
+// an up along the view), `pt` refuses alone.
+Schema scene_schema() {
     Schema schema{{"$schema", "http://json-schema.org/draft-07/schema#"},
                   {"title", "Scene of pt"},
                   {"type", "object"},
@@ -121,6 +125,15 @@ nlohmann::ordered_json scene_schema() {
         schema["properties"][std::string(section.name)] = section_schema(section);
     schema["properties"]["animation"] = animation();
     return schema;
+}
+
+} // namespace
+
+void add_schema_command(CLI::App &program, Run &chosen) {
+    add_command(program, chosen, "schema", "Print the JSON Schema of scene files", "", [] {
+        std::cout << json_text(scene_schema());
+        return static_cast<int>(ExitCode::done);
+    });
 }
 
 } // namespace cli

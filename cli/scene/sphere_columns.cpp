@@ -1,14 +1,120 @@
 #include "cli/scene/sphere_columns.h"
 
+#include "cli/base/exit_code.h"
+#include "cli/base/file.h"
 #include "cli/base/text.h"
-#include "cli/base/text_file.h"
 #include "cli/scene/scene_keys.h"
 
+#include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 
 namespace cli {
 namespace {
+
+using nlohmann::json;
+
+static_assert(std::endian::native == std::endian::little, "NPY files are used as they are");
+
+constexpr std::string_view magic = "\x93NUMPY";
+
+std::uint32_t size_of(std::uint32_t type) {
+    return type == PT_TYPE_FLOAT64 ? 8 : type == PT_TYPE_FLOAT32 ? 4 : 1;
+}
+
+// The head is a dictionary of Python, {'descr': '<f4', 'fortran_order': False, 'shape': (10, 3), }, which is JSON but
+// for its quotes, parentheses, capitals and last commas. What is no dictionary is discarded.
+json dictionary_of(std::string_view head) {
+    constexpr std::string_view python = "'()FT";
+    constexpr std::string_view in_json = "\"[]ft";
+    std::string text;
+    for (std::size_t i = 0; i < head.size(); ++i) {
+        const std::size_t next = std::min(head.find_first_not_of(' ', i + 1), head.size());
+        const bool is_last_comma =
+            head[i] == ',' && next < head.size() && std::string_view(")]}").find(head[next]) != std::string_view::npos;
+        const std::size_t kind = python.find(head[i]);
+        if (!is_last_comma)
+            text += kind == std::string_view::npos ? head[i] : in_json[kind];
+    }
+    return json::parse(text, nullptr, false);
+}
+
+class NpyHeader {
+public:
+    NpyHeader(const std::string &file, const std::string &name) : name_(name) {
+        constexpr std::size_t version_place = magic.size();
+        if (!file.starts_with(magic) || file.size() < version_place + 2)
+            refuse("is no NPY file, which begins with \\x93NUMPY: write it by numpy.save");
+        const int version = static_cast<unsigned char>(file[version_place]);
+        if (version != 1 && version != 2)
+            refuse("has NPY version " + std::to_string(version) + ", must be 1 or 2, of arrays without named fields");
+        const std::size_t size_bytes = version == 1 ? 2 : 4;
+        const std::size_t begin = version_place + 2 + size_bytes;
+        std::size_t size = 0;
+        for (std::size_t i = 0; i < size_bytes && version_place + 2 + i < file.size(); ++i)
+            size |= std::size_t{static_cast<unsigned char>(file[version_place + 2 + i])} << (8 * i);
+        if (file.size() < begin || file.size() - begin < size)
+            refuse("ends within its head: it was cut short");
+        head_ = dictionary_of(std::string_view(file).substr(begin, size));
+        end_ = begin + size;
+    }
+
+    NpyArray read() const {
+        NpyArray array;
+        array.first = end_;
+        array.type = type();
+        if (value_of("fortran_order") != false)
+            refuse("is in column order: save numpy.ascontiguousarray(array)");
+        const std::vector<std::size_t> shape = read_shape();
+        if (shape.empty() || shape.size() > 2)
+            refuse("has " + std::to_string(shape.size()) + " dimensions, must have 1 or 2");
+        array.row_count = shape[0];
+        array.row_length = shape.size() == 2 ? shape[1] : 0;
+        if (shape.size() == 2 && (shape[1] == 0 || shape[1] > longest_row))
+            refuse("has rows of " + std::to_string(shape[1]) + " numbers, must have 1 to 3");
+        return array;
+    }
+
+    [[noreturn]] void refuse(const std::string &what) const { throw Failure(ExitCode::scene, name_ + ": " + what); }
+
+private:
+    static constexpr std::size_t longest_row = 3;
+
+    const json &value_of(const char *key) const {
+        const auto found = head_.is_object() ? head_.find(key) : head_.end();
+        if (found == head_.end())
+            refuse("its head has no " + std::string(key));
+        return *found;
+    }
+
+    std::uint32_t type() const {
+        const json &code = value_of("descr");
+        if (code == "<f4")
+            return PT_TYPE_FLOAT32;
+        if (code == "<f8")
+            return PT_TYPE_FLOAT64;
+        if (code == "|u1")
+            return PT_TYPE_SRGB8;
+        refuse("has numbers of the type " +
+               (code.is_string() && shown(code) != json_kind(code.type()) ? code.get<std::string>()
+                                                                          : json_kind(code.type())) +
+               ", must be <f4, <f8 or |u1: save array.astype(\"float32\")");
+    }
+
+    std::vector<std::size_t> read_shape() const {
+        const json &shape = value_of("shape");
+        if (!shape.is_array() ||
+            !std::ranges::all_of(shape, [](const json &each) { return each.is_number_unsigned(); }))
+            refuse("its head has a shape that is none");
+        return shape.get<std::vector<std::size_t>>();
+    }
+
+    const std::string &name_;
+    json head_;
+    std::size_t end_ = 0;
+};
 
 // Numbers of a sphere.
 std::size_t length_of(const SceneKey &key) {
@@ -49,6 +155,24 @@ void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &cente
 }
 
 } // namespace
+
+std::uint32_t NpyArray::row_bytes() const {
+    return size_of(type) * static_cast<std::uint32_t>(std::max<std::size_t>(row_length, 1));
+}
+
+NpyArray parse_npy(std::string file, const std::string &name) {
+    const NpyHeader header(file, name);
+    NpyArray array = header.read();
+    const std::size_t bytes = file.size() - array.first;
+    const std::size_t rows = bytes / array.row_bytes();
+    if (rows < array.row_count)
+        header.refuse("ends after " + std::to_string(rows) + " of " + std::to_string(array.row_count) +
+                      " rows: it was cut short");
+    if (bytes != array.row_count * array.row_bytes())
+        header.refuse("goes on after its " + std::to_string(array.row_count) + " rows");
+    array.file = std::move(file);
+    return array;
+}
 
 pt_column SphereColumn::column() const {
     return file.empty() ? pt_column{value.data(), 0, PT_TYPE_FLOAT64}

@@ -1,13 +1,13 @@
-#include "cli/selftest/selftest_command.h"
-
-#include "cli/base/common_options.h"
+// The command `pt selftest`: whether a device computes what it should.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/json_text.h"
-#include "cli/base/output_file.h"
+#include "cli/base/file.h"
+#include "cli/base/json.h"
+#include "cli/base/options.h"
 #include "cli/base/text.h"
-#include "cli/base/vector_width.h"
-#include "cli/selftest/selftest_scenes.h"
+#include "cli/commands.h"
+#include "cli/render/render_task.h"
+#include "cli/selftest/selftest.h"
 
 #include <nlohmann/json.hpp>
 #include <pt/accuracy.h>
@@ -22,6 +22,13 @@
 
 namespace cli {
 namespace {
+
+struct SelftestOptions {
+    std::string device;
+    std::string json;
+    std::string shader_dir; // empty: the library's own kernels
+    bool directions = false;
+};
 
 std::size_t failed_count(const SelftestReport &report) {
     return static_cast<std::size_t>(
@@ -61,25 +68,16 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     return checks;
 }
 
-void describe(const Context &context, const SelftestScene &scene) {
-    const pt_scene description = scene.scene();
-    context.require(pt_set_scene(context.get(), &description));
-    context.require(pt_set_camera(context.get(), &scene.camera));
-    context.require(pt_set_render(context.get(), &scene.render));
-}
-
-void accumulate(const Context &context, std::uint32_t sample_count) {
-    auto info = sized<pt_accumulate_info>();
-    info.sample_count = sample_count;
-    context.require(pt_accumulate(context.get(), &info));
-}
-
 // One call for each count.
-std::vector<float> render(const Context &context, const SelftestScene &scene,
+std::vector<float> render(const Context &context, const SceneFile &scene,
                           const std::vector<std::uint32_t> &sample_counts) {
-    describe(context, scene);
-    for (const std::uint32_t sample_count : sample_counts)
-        accumulate(context, sample_count);
+    describe_scene(context, scene, [](double) { return true; });
+    context.require(pt_set_render(context.get(), &scene.render));
+    for (const std::uint32_t sample_count : sample_counts) {
+        auto info = sized<pt_accumulate_info>();
+        info.sample_count = sample_count;
+        context.require(pt_accumulate(context.get(), &info));
+    }
     return context.read_image(scene.render);
 }
 
@@ -91,14 +89,13 @@ double differing_values(std::span<const float> a, std::span<const float> b) {
 
 // The sum of the samples is exact, so that its bits do not depend on the calls in which they were taken.
 SelftestCheck check_splits(const Context &context) {
-    const SelftestScene scene = lamp_in_a_ball();
-    const std::uint32_t third = scene.sample_count / 3;
-    const std::vector<float> one_call = render(context, scene, {scene.sample_count});
-    const std::vector<float> two_calls = render(context, scene, {third, scene.sample_count - third});
-    const std::vector<float> many_calls = render(context, scene, std::vector<std::uint32_t>(scene.sample_count, 1));
+    const SelftestScene ball = lamp_in_a_ball();
+    const std::uint32_t count = ball.scene.sample_count.value();
+    const std::vector<float> one_call = render(context, ball.scene, {count});
+    const std::vector<float> two_calls = render(context, ball.scene, {count / 3, count - count / 3});
+    const std::vector<float> many_calls = render(context, ball.scene, std::vector<std::uint32_t>(count, 1));
     const double differing = differing_values(one_call, two_calls) + differing_values(one_call, many_calls);
-    return {
-        "invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + scene.name + "\""};
+    return {"invariance", "samples split over calls", differing, 0.0, "values", "that differ in \"" + ball.name + "\""};
 }
 
 // The library leaves out samples that are not finite, negative or too bright; these scenes have none.
@@ -106,34 +103,33 @@ std::vector<SelftestCheck> check_scenes(const Context &context) {
     std::vector<SelftestCheck> checks;
     double left_out = 0.0;
     for (const SelftestScene &scene : selftest_scenes()) {
-        checks.push_back(scene.judge(render(context, scene, {scene.sample_count})));
+        checks.push_back(scene.judge(render(context, scene.scene, {scene.scene.sample_count.value()})));
         left_out += static_cast<double>(context.read_stats().rejected_samples);
     }
     checks.push_back({"scene", "samples left out", left_out, 0.0, "samples", "of all scenes"});
     return checks;
 }
 
-} // namespace
+std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
+    std::vector<SelftestCheck> checks = check_functions(context);
+    const std::vector<SelftestCheck> scenes = check_scenes(context);
+    checks.insert(checks.end(), scenes.begin(), scenes.end());
+    checks.push_back(check_splits(context));
+    return checks;
+}
 
-const char *const selftest_help =
-    "Compares the kernel's functions with double precision, small scenes with closed forms, and images whose samples\n"
-    "were split over calls bit by bit. A bound is what every right device keeps: for functions by the precision that\n"
-    "Vulkan promises; for scenes by that of float32 and their noise, which fails a right device once in a million,\n"
-    "as do directions.\n"
-    "Paste the output into a report of a fault.\n";
-
-void add_selftest_options(CLI::App &command, SelftestOptions &options) {
-    add_device(command, options.device);
-    add_text(command, "--json", options.json, "JSON",
-             "Write the same as JSON; - is standard output, the text then goes to stderr");
-    command.add_flag("--directions", options.directions,
-                     "Check the directions that kernels sample alone: means, second moments and sides");
-    add_shader_dir(command, options.shader_dir);
+std::vector<SelftestCheck> run_direction_checks(const Context &context) {
+    std::vector<SelftestCheck> checks;
+    for (const DirectionScene &each : direction_scenes()) {
+        const std::vector<SelftestCheck> judged =
+            each.judge(render(context, each.scene, {each.scene.sample_count.value()}));
+        checks.insert(checks.end(), judged.begin(), judged.end());
+    }
+    return checks;
 }
 
 int run_selftest(const SelftestOptions &options) {
     check_report_file(options.json);
-    choose_vector_width();
     auto info = sized<pt_create_info>();
     info.device = options.device.empty() ? nullptr : options.device.c_str();
     info.shader_dir = options.shader_dir.empty() ? nullptr : options.shader_dir.c_str();
@@ -145,6 +141,28 @@ int run_selftest(const SelftestOptions &options) {
     print_for_people(selftest_text(report), options.json == standard_stream);
     write_report_file(options.json, json_text(selftest_json(report)));
     return static_cast<int>(report.passed() ? ExitCode::done : ExitCode::internal);
+}
+
+constexpr const char *selftest_help =
+    "Compares the kernel's functions with double precision, small scenes with closed forms, and images\n"
+    "whose samples were split over calls bit by bit. A bound is what every right device keeps: for\n"
+    "functions by the precision that Vulkan promises; for scenes by that of float32 and their noise,\n"
+    "which fails a right device once in a million, as do directions. Paste the output into a report of a\n"
+    "fault.\n";
+
+} // namespace
+
+void add_selftest_command(CLI::App &program, Run &chosen) {
+    const auto options = std::make_shared<SelftestOptions>();
+    CLI::App &command =
+        add_command(program, chosen, "selftest", "Check a device against exact answers, in a second or so",
+                    selftest_help, [options] { return run_selftest(*options); });
+    add_device(command, options->device);
+    add_text(command, "--json", options->json, "JSON",
+             "Write the same as JSON; - is standard output, the text then goes to stderr");
+    command.add_flag("--directions", options->directions,
+                     "Check the directions that kernels sample alone: means, second moments and sides");
+    add_shader_dir(command, options->shader_dir);
 }
 
 bool SelftestReport::passed() const {
@@ -180,24 +198,6 @@ nlohmann::ordered_json selftest_json(const SelftestReport &report) {
               {"uuid", uuid_text(report.device.uuid)}}},
             {"passed", report.passed()},
             {"checks", std::move(checks)}};
-}
-
-std::vector<SelftestCheck> run_selftest_checks(const Context &context) {
-    std::vector<SelftestCheck> checks = check_functions(context);
-    const std::vector<SelftestCheck> scenes = check_scenes(context);
-    checks.insert(checks.end(), scenes.begin(), scenes.end());
-    checks.push_back(check_splits(context));
-    return checks;
-}
-
-std::vector<SelftestCheck> run_direction_checks(const Context &context) {
-    std::vector<SelftestCheck> checks;
-    for (const DirectionScene &directions : direction_scenes()) {
-        const SelftestScene &scene = directions.scene;
-        const std::vector<SelftestCheck> judged = directions.judge(render(context, scene, {scene.sample_count}));
-        checks.insert(checks.end(), judged.begin(), judged.end());
-    }
-    return checks;
 }
 
 } // namespace cli

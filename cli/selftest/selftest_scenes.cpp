@@ -1,6 +1,5 @@
-#include "cli/selftest/selftest_scenes.h"
+#include "cli/selftest/selftest.h"
 
-#include "cli/base/library_error.h"
 #include "cli/base/text.h"
 
 #include <algorithm>
@@ -12,8 +11,6 @@
 
 namespace cli {
 namespace {
-
-using Vector = std::array<double, 3>;
 
 // Probability that a right device fails one check: over all scenes, about one in a million.
 constexpr double false_alarm = 1e-7;
@@ -44,127 +41,77 @@ constexpr double unit_roundoff = 0x1p-24; // of float32: half a unit in the last
 // A sample is the product of some 50 operations. Vulkan's worst, the division, is off by 2.5 ulp, 5 roundoffs.
 constexpr double sample_rounding = 50 * 5 * unit_roundoff;
 
-// Full angle of a camera that looks at a point: what lies about it varies by the square of the angle, 1e-8.
-constexpr double narrow = 1e-4;
-
-double length(const Vector &v) {
-    return std::hypot(v[0], v[1], v[2]);
-}
-
-pt_material grey(float diffuse, float specular, float glossiness, float emission) {
-    pt_material material{};
-    std::ranges::fill(material.diffuse, diffuse);
-    std::ranges::fill(material.specular, specular);
-    std::ranges::fill(material.emission, emission);
-    material.glossiness = glossiness;
-    return material;
-}
-
-pt_material emitting(double radiance) {
-    return grey(0, 0, 0, static_cast<float>(radiance));
-}
-
-pt_material diffuse(float albedo) {
-    return grey(albedo, 0, 0, 0);
-}
-
-pt_sphere sphere(const Vector &center, double radius, std::uint32_t material, const Vector &motion = {0, 0, 0}) {
-    return {{center[0], center[1], center[2]}, radius, {motion[0], motion[1], motion[2]}, material, 0};
-}
-
-// From the origin.
-pt_camera camera(const Vector &target, double vertical_fov) {
-    auto camera = sized<pt_camera>();
-    std::ranges::copy(target, camera.target);
-    camera.vertical_fov = vertical_fov;
-    return camera;
-}
-
-pt_render square(std::uint32_t side, std::uint32_t max_path_length, std::uint32_t estimator = PT_ESTIMATOR_BEST) {
-    auto render = sized<pt_render>();
-    render.width = side;
-    render.height = side;
-    render.max_path_length = max_path_length;
-    render.estimator = estimator;
-    return render;
+// members: all but the sizes.
+SceneFile scene_of(std::uint32_t side, std::uint32_t sample_count, const std::string &members) {
+    return parse_scene(concat(R"({"film": {"width": )", side, R"(, "height": )", side, R"(}, "render": {"spp": )",
+                              sample_count, members, "}"),
+                       "");
 }
 
 // Emission is added as it is, to an exact sum: rounded once.
 SelftestScene inside_a_lamp() {
-    constexpr float radiance = 0.1F;
-    return {"inside a lamp",
-            {emitting(double{radiance})},
-            {sphere({0, 0, 1}, 50, 0)},
-            {},
-            camera({0, 0, -1}, 0.9),
-            square(16, 3),
-            16,
-            double{radiance},
-            0.0,
-            unit_roundoff};
+    const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3}, "materials": {"lamp": {"emission": 0.1}},
+        "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"}])");
+    return {"inside a lamp", scene, double{scene.materials[0].emission[0]}, 0.0, unit_roundoff};
 }
 
 // A white ball in a black lamp of radiance 1: every path ends on the lamp after at most one reflection of weight 1, the
 // quotient of albedo / pi * cos and cos / pi: two products, three divisions, and the product with the emission.
 SelftestScene white_furnace() {
-    return {"white furnace",
-            {emitting(1.0), diffuse(1.0F)},
-            {sphere({0, 0, 1}, 50, 0), sphere({0, 0, -4}, 1, 1)},
-            {},
-            camera({0, 0, -1}, 0.9),
-            square(16, 3, PT_ESTIMATOR_BSDF),
-            16,
-            1.0,
-            0.0,
-            (3 * 1 + 3 * 5) * unit_roundoff};
+    const SceneFile scene = scene_of(16, 16, R"(, "max_path_length": 3, "estimator": "bsdf"},
+        "materials": {"lamp": {"emission": 1}, "white": {"diffuse": 1}},
+        "spheres": [{"center": [0, 0, 2], "radius": 50, "material": "lamp"},
+                    {"center": [0, 0, -3], "radius": 1, "material": "white"}])");
+    return {"white furnace", scene, 1.0, 0.0, (3 * 1 + 3 * 5) * unit_roundoff};
 }
 
-// The point of a diffuse floor that the camera sees. The irradiance of a uniform sphere of radius r wholly above a
-// plane is that of the point at its centre with its power: pi L (r / d)^2 cos (Snyder 1996); reflected, albedo / pi
-// times that. The noise: a lamp sampled by its solid angle varies with the cosine over its angle a, sin a = r / d: by
-// less than sin a tan + 1 - cos a. What a direction by the cosine adds has probability p = sin^2 a cos, and a weight of
-// p^2 at most.
-constexpr float floor_albedo = 0.8F;
-constexpr Vector floor_point{0, -1, -2};
+// A point of a floor, which the camera looks at in an angle so narrow that what lies about it varies by 1e-8.
+SceneFile floor_scene(const std::string &members) {
+    return scene_of(32, 64,
+                    R"(, "max_path_length": 2},
+        "camera": {"position": [0, 0, 0], "look_at": [0, -1, -2], "vertical_fov": 0.0057}, )" +
+                        members);
+}
 
-SelftestScene floor_under_lamp(const std::string &name, const Vector &lamp, double radius, float emission) {
-    const Vector way{lamp[0] - floor_point[0], lamp[1] - floor_point[1], lamp[2] - floor_point[2]};
-    const double distance = length(way);
+// The irradiance of a uniform sphere of radius r wholly above a plane is that of the point at its centre with its
+// power: pi L (r / d)^2 cos (Snyder 1996); reflected, albedo / pi times that. The noise: a lamp sampled by its solid
+// angle varies with the cosine over its angle a, sin a = r / d: by less than sin a tan + 1 - cos a. What a direction by
+// the cosine adds has probability p = sin^2 a cos, and a weight of p^2 at most.
+SelftestScene floor_under_lamp(const std::string &name, const std::string &members) {
+    const SceneFile scene = floor_scene(members);
+    const pt_sphere &lamp = scene.spheres[0];
+    std::array<double, 3> way{};
+    for (std::size_t i = 0; i < 3; ++i)
+        way[i] = lamp.center[i] - scene.camera.target[i];
+    const double distance = std::hypot(way[0], way[1], way[2]);
     const double cosine = way[1] / distance;
-    const double sine_of_radius = radius / distance;
+    const double sine_of_radius = lamp.radius / distance;
     const double seen = sine_of_radius * sine_of_radius * cosine;
-    return {name,
-            {emitting(double{emission}), diffuse(floor_albedo)},
-            {sphere(lamp, radius, 0)},
-            {},
-            camera(floor_point, narrow),
-            square(32, 2),
-            64,
-            double{floor_albedo} * double{emission} * seen,
+    return {name, scene, double{scene.materials[1].diffuse[0]} * double{scene.materials[0].emission[0]} * seen,
             sine_of_radius * std::sqrt(1.0 / (cosine * cosine) - 1.0) + sine_of_radius * sine_of_radius + seen,
             sample_rounding};
 }
 
-constexpr pt_plane ground{{0, 1, 0}, 1, 1, 0}; // y = -1
-
 SelftestScene lamp_above_a_floor() {
-    SelftestScene scene = floor_under_lamp("lamp above a floor", {1, 3, -5}, 1, 10.0F);
-    scene.planes = {ground};
-    return scene;
+    return floor_under_lamp("lamp above a floor", R"(
+        "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
+        "spheres": [{"center": [1, 3, -5], "radius": 1, "material": "lamp"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
 SelftestScene tiny_far_lamp() {
-    SelftestScene scene = floor_under_lamp("lamp of 1e-7 radians", {0, 800, -600}, 1e-4, 1e14F);
-    scene.planes = {ground};
-    return scene;
+    return floor_under_lamp("lamp of 1e-7 radians", R"(
+        "materials": {"lamp": {"emission": 1e14}, "floor": {"diffuse": 0.8}},
+        "spheres": [{"center": [0, 800, -600], "radius": 1e-4, "material": "lamp"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
 }
 
 // It touches the plane's point: within the spot it departs from the plane by a part in 1e18.
 SelftestScene huge_ball_as_floor() {
-    constexpr double radius = 1e7;
-    SelftestScene scene = floor_under_lamp("floor is a ball of 1e7", {1, 3, -5}, 1, 10.0F);
-    scene.spheres.push_back(sphere({floor_point[0], floor_point[1] - radius, floor_point[2]}, radius, 1));
-    return scene;
+    return floor_under_lamp("floor is a ball of 1e7", R"(
+        "materials": {"lamp": {"emission": 10}, "floor": {"diffuse": 0.8}},
+        "spheres": [{"center": [1, 3, -5], "radius": 1, "material": "lamp"},
+                    {"center": [0, -10000001, -2], "radius": 1e7, "material": "floor"}])");
 }
 
 // A glossy floor in a dome of radiance 1. The integral of (n + 2) / (2 pi) cos^n g cos over the directions about the
@@ -172,41 +119,30 @@ SelftestScene huge_ball_as_floor() {
 // times r's own cosine. Of this lobe, 1e-3 wide, the horizon cuts nothing off. The noise: the cosine varies over the
 // lobe, whose component in the plane of incidence has variance 1 / n, by tan / sqrt(n).
 SelftestScene sharp_lobe() {
-    constexpr double glossiness = 1e6;
-    const double cosine = -floor_point[1] / length(floor_point);
-    const double tangent = std::sqrt(1.0 / (cosine * cosine) - 1.0);
-    return {"lobe of 1e-3 radians",
-            {emitting(1.0), grey(0, 1, static_cast<float>(glossiness), 0)},
-            {sphere({0, 0, 0}, 1e4, 0)},
-            {ground},
-            camera(floor_point, narrow),
-            square(32, 2),
-            64,
-            cosine,
-            tangent / std::sqrt(glossiness),
-            sample_rounding};
+    const SceneFile scene = floor_scene(R"(
+        "materials": {"dome": {"emission": 1}, "floor": {"specular": 1, "glossiness": 1e6}},
+        "spheres": [{"center": [0, 0, 0], "radius": 1e4, "material": "dome"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 1, "material": "floor"}])");
+    constexpr double tangent = 2.0; // of the way to the point looked at
+    return {"lobe of 1e-3 radians", scene, 1.0 / std::sqrt(1.0 + tangent * tangent),
+            tangent / std::sqrt(double{scene.materials[1].glossiness}), sample_rounding};
 }
 
 // A lamp of radius 1 recedes along the axis, from distance a to b. It fills pi / (z^2 - 1) of the image plane at
 // distance 1: on average pi / (b - a) times the integral of 1 / (z^2 - 1), which is log((z - 1) / (z + 1)) / 2, always
-// within the image, a square of side 2 tan(fov / 2). The noise: a share p of the samples is 1.
+// within the image, a square of side 2 tan(fov / 2), which is more than 2 / sqrt(a^2 - 1). The noise: a share p of the
+// samples is 1.
 SelftestScene receding_lamp() {
-    constexpr double from = 4.0;
-    constexpr double to = 7.0;
-    constexpr double half_side = 0.26; // more than 1 / sqrt(from^2 - 1)
+    const SceneFile scene = scene_of(64, 64, R"(, "max_path_length": 1}, "materials": {"lamp": {"emission": 1}},
+        "camera": {"position": [0, 0, 0], "look_at": [0, 0, -1], "vertical_fov": 29.2},
+        "spheres": [{"center": [0, 0, -4], "radius": 1, "motion": [0, 0, -3], "material": "lamp"}])");
+    const double from = -scene.spheres[0].center[2];
+    const double to = from - scene.spheres[0].motion[2];
+    const double half_side = std::tan(0.5 * scene.camera.vertical_fov);
     const auto integral = [](double z) { return 0.5 * std::log((z - 1.0) / (z + 1.0)); };
-    const double area = std::acos(-1.0) / (to - from) * (integral(to) - integral(from));
+    const double area = std::numbers::pi / (to - from) * (integral(to) - integral(from));
     const double share = area / (4.0 * half_side * half_side);
-    return {"receding lamp",
-            {emitting(1.0)},
-            {sphere({0, 0, -from}, 1, 0, {0, 0, from - to})},
-            {},
-            camera({0, 0, -1}, 2.0 * std::atan(half_side)),
-            square(64, 1),
-            64,
-            share,
-            std::sqrt((1.0 - share) / share),
-            sample_rounding};
+    return {"receding lamp", scene, share, std::sqrt((1.0 - share) / share), sample_rounding};
 }
 
 // A right device fails one of the 18 checks once in a million: each with probability 5.6e-8, on both sides of a normal
@@ -227,39 +163,23 @@ SelftestCheck check(const std::string &name, double measured, double exact, doub
             most_sigmas,  "sigma", formatted("%.9g, exact is %.9g", measured, exact)};
 }
 
-SelftestScene floor_scene(const char *name, std::uint32_t estimator, const pt_material &floor) {
-    SelftestScene scene{};
-    scene.name = name;
-    scene.materials = {floor, emitting(1.0), diffuse(0.0F)};
-    scene.spheres = {sphere({0, 0, 0}, 1000, 1)};
-    scene.planes = {{{0, 1, 0}, 0, 0, 0}};
-    scene.camera = camera({0, 0, 0}, 0.0);
-    scene.camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
-    scene.camera.position[1] = 1;
-    scene.camera.up[2] = 1;
-    scene.camera.vertical_extent = 1e-4;
-    scene.render = square(direction_image_side, 2, estimator);
-    scene.render.sampler = PT_SAMPLER_RANDOM; // the pixels' numbers are independent
-    scene.sample_count = 1;
-    return scene;
+// By the sampler random, so that the pixels' numbers are independent. floor: members of its material.
+SceneFile direction_scene(const std::string &estimator, const std::string &floor, const std::string &more_planes) {
+    return scene_of(direction_image_side, 1,
+                    R"(, "max_path_length": 2, "sampler": "random", "estimator": ")" + estimator + R"("},
+        "camera": {"projection": "orthographic", "position": [0, 1, 0], "look_at": [0, 0, 0], "up": [0, 0, 1],
+                   "vertical_extent": 1e-4},
+        "materials": {"floor": {)" +
+                        floor + R"(}, "sky": {"emission": 1}, "black": {}},
+        "spheres": [{"center": [0, 0, 0], "radius": 1000, "material": "sky"}],
+        "planes": [{"normal": [0, 1, 0], "offset": 0, "material": "floor"})" +
+                        more_planes + "]");
 }
 
 } // namespace
 
-pt_scene SelftestScene::scene() const {
-    const auto size = [](const auto &items) { return static_cast<std::uint32_t>(items.size()); };
-    auto scene = sized<pt_scene>();
-    scene.material_count = size(materials);
-    scene.sphere_count = size(spheres);
-    scene.plane_count = size(planes);
-    scene.materials = materials.data();
-    scene.spheres = spheres.data();
-    scene.planes = planes.data();
-    return scene;
-}
-
 double SelftestScene::bound() const {
-    const double samples = static_cast<double>(sample_count) * render.width * render.height;
+    const double samples = static_cast<double>(scene.sample_count.value()) * scene.render.width * scene.render.height;
     return rounding + (relative_std > 0.0 ? noise_bound(relative_std, samples) : 0.0);
 }
 
@@ -290,16 +210,12 @@ SelftestScene lamp_in_a_ball() {
     constexpr double rho = 0.5;
     constexpr double emission = 100.0;
     constexpr double q = 0.01;
-    return {"lamp in a ball",
-            {emitting(emission), diffuse(static_cast<float>(rho))},
-            {sphere({0, 0, -3}, 1, 0), sphere({0, 0, -3}, 10, 1)},
-            {},
-            camera({0, 0, 1}, 0.9),
-            square(16, 3),
-            64,
-            rho * emission * q * (1.0 + rho * (1.0 - q)),
-            std::sqrt(q),
-            sample_rounding};
+    const SceneFile scene = scene_of(16, 64, R"(, "max_path_length": 3},
+        "camera": {"position": [0, 0, 0], "look_at": [0, 0, 1]},
+        "materials": {"lamp": {"emission": 100}, "wall": {"diffuse": 0.5}},
+        "spheres": [{"center": [0, 0, -3], "radius": 1, "material": "lamp"},
+                    {"center": [0, 0, -3], "radius": 10, "material": "wall"}])");
+    return {"lamp in a ball", scene, rho * emission * q * (1.0 + rho * (1.0 - q)), std::sqrt(q), sample_rounding};
 }
 
 std::vector<SelftestScene> selftest_scenes() {
@@ -318,12 +234,11 @@ std::vector<SelftestCheck> DirectionScene::judge(std::span<const float> radiance
         seen += cosine > 0.0 ? 1.0 : 0.0;
     }
     if (has_wall)
-        return {check(scene.name, seen / pixel_count, 0.5, 0.25)};
+        return {check(name, seen / pixel_count, 0.5, 0.25)};
     const double mean = mean_of_power(power, 1.0);
     const double square = mean_of_power(power, 2.0);
-    return {
-        check(scene.name + ": cosine", sum / pixel_count, mean, square - mean * mean),
-        check(scene.name + ": square", square_sum / pixel_count, square, mean_of_power(power, 4.0) - square * square)};
+    return {check(name + ": cosine", sum / pixel_count, mean, square - mean * mean),
+            check(name + ": square", square_sum / pixel_count, square, mean_of_power(power, 4.0) - square * square)};
 }
 
 // With f the reflection, a sample is f * c over the density: 2 c of a white diffuse floor whose directions are uniform;
@@ -331,21 +246,25 @@ std::vector<SelftestCheck> DirectionScene::judge(std::span<const float> radiance
 // follow.
 std::vector<DirectionScene> direction_scenes() {
     constexpr double n = 20.0;
-    const std::array open = {
-        DirectionScene{floor_scene("hemisphere, uniform", PT_ESTIMATOR_UNIFORM, grey(1, 0, 0, 0)), 0.0, 2.0, false},
-        DirectionScene{floor_scene("hemisphere, by cosine", PT_ESTIMATOR_COSINE, grey(0, 1, 1, 0)), 1.0, 1.5, false},
-        DirectionScene{floor_scene("Phong lobe, n = 20", PT_ESTIMATOR_BSDF, grey(0, 1, static_cast<float>(n), 0)), n,
-                       (n + 2.0) / (n + 1.0), false}};
+    struct Kind {
+        const char *name;
+        const char *estimator;
+        const char *floor;
+        double power;
+        double scale;
+    };
     std::vector<DirectionScene> scenes;
-    for (const DirectionScene &kind : open) {
-        scenes.push_back(kind);
+    for (const auto &[name, estimator, floor, power, scale] :
+         {Kind{"hemisphere, uniform", "uniform", R"("diffuse": 1)", 0.0, 2.0},
+          Kind{"hemisphere, by cosine", "cosine", R"("specular": 1, "glossiness": 1)", 1.0, 1.5},
+          Kind{"Phong lobe, n = 20", "bsdf", R"("specular": 1, "glossiness": 20)", n, (n + 2.0) / (n + 1.0)}}) {
+        scenes.push_back({name, direction_scene(estimator, floor, ""), power, scale, false});
         for (int wall = 0; wall < wall_count; ++wall) {
             const double angle = std::numbers::pi * wall / wall_count;
-            DirectionScene walled = kind;
-            walled.has_wall = true;
-            walled.scene.name += ": side " + std::to_string(180 * wall / wall_count);
-            walled.scene.planes.push_back({{std::cos(angle), 0, std::sin(angle)}, 1, 2, 0});
-            scenes.push_back(walled);
+            const std::string plane = concat(R"(, {"normal": [)", std::cos(angle), ", 0, ", std::sin(angle),
+                                             R"(], "offset": 1, "material": "black"})");
+            scenes.push_back({concat(name, ": side ", 180 * wall / wall_count),
+                              direction_scene(estimator, floor, plane), power, scale, true});
         }
     }
     return scenes;

@@ -1,11 +1,11 @@
-#include "cli/tonemap/tonemap_command.h"
-
-#include "cli/base/common_options.h"
+// The command `pt tonemap`: the display side of a file of radiance once more, without rendering.
 #include "cli/base/devices.h"
 #include "cli/base/exit_code.h"
-#include "cli/base/output_file.h"
-#include "cli/image/display.h"
+#include "cli/base/file.h"
+#include "cli/base/options.h"
+#include "cli/commands.h"
 #include "cli/image/image_file.h"
+#include "cli/image/tone_map.h"
 #include "cli/render/render_options.h"
 #include "cli/scene/scene_file.h"
 
@@ -14,6 +14,15 @@
 
 namespace cli {
 namespace {
+
+struct TonemapOptions {
+    std::string input;
+    std::string output;
+    std::optional<ImageFormat> format;  // of an output that is standard output
+    std::vector<SceneOverride> display; // how the image is shown
+    std::uint32_t png_bits = 8;
+    bool quiet = false;
+};
 
 void check(const TonemapOptions &options) {
     check_image_names({&options.output, 1}, options.format);
@@ -84,8 +93,6 @@ std::vector<ImageAttribute> attributes_of(const DecodedImage &image, const ToneM
     return attributes;
 }
 
-} // namespace
-
 int run_tonemap(const TonemapOptions &options) {
     check(options);
     const DecodedImage image = read_image(options.input);
@@ -108,19 +115,25 @@ int run_tonemap(const TonemapOptions &options) {
     return static_cast<int>(ExitCode::done);
 }
 
-const char *const tonemap_help = "IN is an OpenEXR file, of `pt render` or another program, with the channels R, G and "
-                                 "B; of one that was rendered,\n"
-                                 "OUT has the pixels that `pt render` would have written with the same options. "
-                                 "Negative numbers count as 0; one that\n"
-                                 "is not finite is an error. --exposure auto is explained in `pt render --help`.\n";
+constexpr const char *tonemap_help =
+    "IN is an OpenEXR file, of `pt render` or another program, with the channels R, G and B; of one that\n"
+    "was rendered, OUT has the pixels that `pt render` would have written with the same options. Negative\n"
+    "numbers count as 0; one that is not finite is an error. --exposure auto is explained in `pt render\n"
+    "--help`.\n";
 
-void add_tonemap_options(CLI::App &command, TonemapOptions &options) {
-    add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
-    add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
-    add_format(command, options.format, picture_format_names);
-    add_scene_options(command, options.display, false);
-    add_png_bits(command, options.png_bits);
-    add_quiet(command, options.quiet);
+} // namespace
+
+void add_tonemap_command(CLI::App &program, Run &chosen) {
+    const auto options = std::make_shared<TonemapOptions>();
+    CLI::App &command =
+        add_command(program, chosen, "tonemap", "Make a picture of a file of radiance, without rendering", tonemap_help,
+                    [options] { return run_tonemap(*options); });
+    add_text(command, "IN", options->input, "IN", "Linear radiance (.exr)")->required();
+    add_text(command, "OUT", options->output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
+    add_format(command, options->format, picture_format_names);
+    add_scene_options(command, options->display, false);
+    add_png_bits(command, options->png_bits);
+    add_quiet(command, options->quiet);
 }
 
 } // namespace cli

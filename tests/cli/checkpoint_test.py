@@ -22,10 +22,6 @@ class KeptRender(CommandLineTest):
     def options(self, spp, size="64x32"):
         return ["render", COURSEWORK, "--spp", str(spp), "--size", size, "-o", "a.png", "--film", "a.ptfilm", "-q"]
 
-    def contents(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def whole(self, *options):
         """Image and film of a rendering that nothing has ended, which are removed."""
         self.expect(0, *options)
@@ -103,15 +99,18 @@ class KilledRender(KeptRender):
             self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
             os.remove(self.path("c.ptfilm"))
 
-    def test_a_time_limit_leaves_it_too(self):
-        options = self.options(300)
-        expected = self.whole(*options)
+    def run_until_done(self, *options):
         code, runs = 75, 0
         while code == 75:
             code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.05", "--resume")
             runs += 1
         self.assertEqual(code, 0, self.errors)
         self.assertGreater(runs, 1)
+
+    def test_a_time_limit_leaves_it_too(self):
+        options = self.options(300)
+        expected = self.whole(*options)
+        self.run_until_done(*options)
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
     def test_a_target_error_is_reached_at_the_same_sample(self):
@@ -124,12 +123,7 @@ class KilledRender(KeptRender):
     def test_pixels_with_different_numbers_of_samples_go_on_too(self):
         options = [*self.options(100000), "--error", "4%", "--stats", "a.json"]
         expected = self.whole(*options)
-        code, runs = 75, 0
-        while code == 75:
-            code = self.run_pt(*options, "--checkpoint", "c.ptfilm", "--time", "0.05", "--resume")
-            runs += 1
-        self.assertEqual(code, 0, self.errors)
-        self.assertGreater(runs, 1)
+        self.run_until_done(*options)
         self.assertIn('"ended_by": "error"', self.read("a.json"))
         self.assertEqual([self.contents(file) for file in ("a.png", "a.ptfilm")], expected)
 
@@ -150,8 +144,7 @@ class Surroundings(KeptRender):
         self.assertEqual(done.stderr.count("pt: no checkpoint: "), 1 if told else 0, done.stderr)
         if told:
             self.assertIn(told, done.stderr)
-        for name, expected in zip(("a.png", "a.ptfilm"), self.expected):
-            self.assertEqual(self.contents(name), expected)
+        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
         self.assertEqual([name for name in self.files() if name.endswith(".tmp")], [])
 
     def test_a_folder_that_cannot_be_written(self):
@@ -172,15 +165,13 @@ class Surroundings(KeptRender):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr, "pt: no checkpoint: cannot write disk/c.ptfilm: No space left on device; "
                                       "the rendering goes on\n")
-        for name, expected in zip(("a.png", "a.ptfilm"), self.expected):
-            self.assertEqual(self.contents(name), expected)
+        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
 
     def test_a_closed_standard_output(self):
         done = subprocess.run(["sh", "-c", '"$@" >&-', "sh", PT, *self.small[:-1], "--checkpoint", "c.ptfilm"],
                               cwd=self.folder, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (6, "pt: cannot write to standard output\n"))
-        for name, expected in zip(("a.png", "a.ptfilm"), self.expected):
-            self.assertEqual(self.contents(name), expected)
+        self.assertEqual([self.contents(name) for name in ("a.png", "a.ptfilm")], self.expected)
         self.assertGreater(self.samples_kept("c.ptfilm"), 0)
 
     def test_no_terminal_at_all(self):

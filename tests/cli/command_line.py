@@ -161,6 +161,10 @@ class CommandLineTest(unittest.TestCase):
         with open(self.path(name), encoding="utf-8") as file:
             return file.read()
 
+    def contents(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
     def start(self, *arguments, before=default_signals, **environment):
         names = {name: str(value) for name, value in environment.items()}
         process = subprocess.Popen([self.program, *arguments], cwd=self.folder, env={**os.environ, **names}, text=True,

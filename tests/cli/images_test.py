@@ -40,10 +40,6 @@ class ImagesTest(CommandLineTest):
         samples = () if "--spp" in options else ("--spp", "2")
         self.expect(code, "render", COURSEWORK, *SIZE, *samples, *options, error=error, **environment)
 
-    def contents(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
 
 class Crop(ImagesTest):
     def test_it_is_a_part_of_the_picture(self):

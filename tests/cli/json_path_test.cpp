@@ -1,11 +1,9 @@
-// Tests of cli/json_path, and of the lines that cli/json_items keeps.
+// Tests of cli/json_path, and of the lines that cli/scene/json_items finds.
 #include "cli/scene/json_items.h"
 
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace {
@@ -20,22 +18,6 @@ JsonStep key(const char *name) {
 
 JsonStep element(std::size_t index) {
     return {"", index, true};
-}
-
-struct IgnoringHandler : cli::JsonItemHandler {
-    void begin_section(const cli::JsonPlace &, nlohmann::json::value_t) override {}
-    void item(const cli::JsonPlace &, const nlohmann::json &) override {}
-};
-
-// As far as the text can be read.
-std::optional<std::size_t> find_line(std::string_view text, const JsonPath &path) {
-    cli::JsonLines lines;
-    IgnoringHandler handler;
-    try {
-        cli::parse_json_items(text, "", lines, handler);
-    } catch (const std::runtime_error &) {
-    }
-    return lines.find(path);
 }
 
 TEST(JsonPath, Text) {
@@ -56,30 +38,30 @@ TEST(JsonPath, LineOfAKeyOrAnElement) {
                                       "{\"x\":\n"
                                       "\"y\"}]],\n"
                                       "\"odd \\u006eame\": {\"a\": 2}}";
-    EXPECT_EQ(find_line(text, {}), 1U);
-    EXPECT_EQ(find_line(text, {key("a")}), 2U);
-    EXPECT_EQ(find_line(text, {key("list")}), 3U);
-    EXPECT_EQ(find_line(text, {key("list"), element(0)}), 3U);
-    EXPECT_EQ(find_line(text, {key("list"), element(1)}), 4U); // though the parser has read the line's end by then
-    EXPECT_EQ(find_line(text, {key("list"), element(2)}), 5U);
-    EXPECT_EQ(find_line(text, {key("list"), element(2), element(1), key("x")}), 6U);
-    EXPECT_EQ(find_line(text, {{"odd name", 0, false}, {"a", 0, false}}), 8U); // and not the first "a"
+    EXPECT_EQ(cli::line_of(text, {}), 1U);
+    EXPECT_EQ(cli::line_of(text, {key("a")}), 2U);
+    EXPECT_EQ(cli::line_of(text, {key("list")}), 3U);
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(0)}), 3U);
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(1)}), 4U); // though the parser has read the line's end by then
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(2)}), 5U);
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(2), element(1), key("x")}), 6U);
+    EXPECT_EQ(cli::line_of(text, {{"odd name", 0, false}, {"a", 0, false}}), 8U); // and not the first "a"
 }
 
 TEST(JsonPath, WhatIsNotThereHasTheLineOfWhatIsAroundIt) {
     constexpr std::string_view text = "{\n\"list\": [1,\n{\"x\": 1}\n]}";
-    EXPECT_EQ(find_line(text, {key("list"), element(1), key("y")}), 3U);
-    EXPECT_EQ(find_line(text, {key("list"), element(7), key("y")}), 2U);
-    EXPECT_EQ(find_line(text, {key("other"), key("y")}), std::nullopt);
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(1), key("y")}), 3U);
+    EXPECT_EQ(cli::line_of(text, {key("list"), element(7), key("y")}), 2U);
+    EXPECT_EQ(cli::line_of(text, {key("other"), key("y")}), std::nullopt);
 }
 
 TEST(JsonPath, TheSecondOfTwo) {
     constexpr std::string_view text = "{\n\"a\": 1,\n\"a\": 2}";
-    EXPECT_EQ(find_line(text, {key("a")}), 3U);
+    EXPECT_EQ(cli::line_of(text, {key("a")}), 3U);
 }
 
 TEST(JsonPath, BrokenTextIsReadAsFarAsItGoes) {
-    EXPECT_EQ(find_line("{\n\"a\": [\n1e999", {key("a"), element(0)}), 3U);
+    EXPECT_EQ(cli::line_of("{\n\"a\": [\n1e999", {key("a"), element(0)}), 3U);
 }
 
 } // namespace

@@ -39,10 +39,6 @@ class LayersTest(CommandLineTest):
         size = () if "--size" in options else SIZE
         self.expect(code, "render", COURSEWORK, *size, *options, error=error, **environment)
 
-    def contents(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
 
 class Layers(LayersTest):
     def test_each_is_where_it_belongs(self):

@@ -21,10 +21,6 @@ class Merge(CommandLineTest):
         for i, part in enumerate(self.parts):
             self.expect(0, *self.small, "--film", part, "--first-sample", str(9 * i), "--spp", "9")
 
-    def contents(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
     def merge(self, code, *arguments, error=None):
         self.expect(code, "merge", *arguments, error=error)
 

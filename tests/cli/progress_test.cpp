@@ -25,7 +25,7 @@ std::string output_of(ProgressStyle style, std::size_t columns = 80) {
     {
         Progress progress(output, style, 1'000'000, 100, start, [columns] { return columns; });
         for (int i = 1; i <= 200; ++i) {
-            progress.update(i / 200.0, start + milliseconds(10 * i));
+            progress.update_samples(i / 2.0, start + milliseconds(10 * i));
         }
     }
     return output.str();
@@ -74,9 +74,9 @@ TEST(Progress, TheWidthIsAskedForEachTime) {
     std::ostringstream output;
     std::size_t columns = 80;
     Progress progress(output, ProgressStyle::line, 1'000'000, 100, start, [&columns] { return columns; });
-    progress.update(0.25, start + milliseconds(1000));
+    progress.update_samples(25.0, start + milliseconds(1000));
     columns = 10;
-    progress.update(0.5, start + milliseconds(2000));
+    progress.update_samples(50.0, start + milliseconds(2000));
     EXPECT_TRUE(output.str().ends_with("Msamples/s\r\x1b[K 50.0 %")) << output.str();
 }
 

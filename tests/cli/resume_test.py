@@ -20,14 +20,6 @@ class Resume(CommandLineTest):
         self.expect(0, *self.small, "-o", "half.png", "--spp", "12", "--checkpoint", "c.ptfilm")
         self.checkpoint = self.contents("c.ptfilm")
 
-    def contents(self, name):
-        with open(self.path(name), "rb") as file:
-            return file.read()
-
-    def put(self, contents, name="c.ptfilm"):
-        with open(self.path(name), "wb") as file:
-            file.write(contents)
-
     def resume(self, code, *options, error=None):
         count = () if "--spp" in options else ("--spp", "24")
         self.expect(code, *self.small, "-o", "a.png", "--checkpoint", "c.ptfilm", "--resume", *count, *options,
@@ -81,7 +73,7 @@ class Resume(CommandLineTest):
 
     def check(self, damaged, is_cut):
         """By pt merge, which needs no device; what passes has to be the same film."""
-        self.put(damaged, "d.ptfilm")
+        self.write("d.ptfilm", damaged)
         code = self.run_pt("merge", "d.ptfilm", "--film", "same.ptfilm", "-q")
         self.assertIn(code, (2,) if is_cut else (0, 2), self.errors)
         if code == 2:
@@ -96,7 +88,7 @@ class Resume(CommandLineTest):
         places = random.Random(1)
         for _ in range(DAMAGES):
             self.check(self.checkpoint[:places.randrange(len(self.checkpoint))], True)
-        self.put(self.checkpoint[:100])
+        self.write("c.ptfilm", self.checkpoint[:100])
         self.refuse("c.ptfilm: ")
 
     def test_flipped_bits(self):
@@ -111,7 +103,7 @@ class Resume(CommandLineTest):
         self.assertGreater(refused, DAMAGES * 0.9)
         damaged = bytearray(self.checkpoint)
         damaged[len(damaged) // 2] ^= 4
-        self.put(damaged)
+        self.write("c.ptfilm", damaged)
         self.refuse("c.ptfilm: ")
 
     def test_it_is_a_film(self):

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,38 +18,19 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds long_enough = std::chrono::minutes{10}; // for what comes at once, or never
 
-TEST(SourceFiles, AreTheSceneAndWhatKernelsInclude) {
+TEST(SourceFiles, AreTheSceneAndTheShaders) {
     const TemporaryFolder folder;
     folder.write("scene", "{}");
-    EXPECT_EQ(read_shader_files(""), SourceFiles());
+    EXPECT_EQ(shader_files(""), std::set<std::filesystem::path>());
+    EXPECT_EQ(shader_files(folder.file("none")), std::set<std::filesystem::path>());
     EXPECT_EQ(SourceWatch(folder.file("scene"), "").scene(), (SourceFiles{{folder.file("scene"), "{}"}}));
 
-    folder.write("pathtrace.comp",
-                 "#include \"a\"\n  #  include \"sub/b\" // remark\n#include <none>\n#included \"no\"\n"
-                 "// #include \"no\"\n#include \"open\n");
     std::filesystem::create_directory(folder.file("sub"));
-    folder.write("sub/b", "#include \"a\"\n#include \"../c\"");
-    folder.write("c", "#include \"pathtrace.comp\"\n");
-    const SourceFiles files = read_shader_files(folder.file("."));
-    std::vector<std::pair<std::string, bool>> found;
-    for (const auto &[path, contents] : files) {
-        found.emplace_back(path.lexically_relative(folder.file("")).string(), contents.has_value());
-    }
-    const std::vector<std::pair<std::string, bool>> expected{{"../c", false},
-                                                             {"a", false},
-                                                             {"accuracy.comp", false},
-                                                             {"add.comp", false},
-                                                             {"c", true},
-                                                             {"coverage.comp", false},
-                                                             {"estimate.comp", false},
-                                                             {"first_hit.comp", false},
-                                                             {"fold.comp", false},
-                                                             {"pathtrace.comp", true},
-                                                             {"resolve.comp", false},
-                                                             {"sub/a", false},
-                                                             {"sub/b", true}};
-    EXPECT_EQ(found, expected);
-    EXPECT_EQ(files.at(folder.file("c")), "#include \"pathtrace.comp\"\n");
+    for (const char *name : {"a.comp", "b.glsl", "c.h", "sub/d.glsl", "b.glsl~", ".b.glsl.swp", "README.md"})
+        folder.write(name, "text");
+    EXPECT_EQ(shader_files(folder.file(".")),
+              (std::set<std::filesystem::path>{folder.file("a.comp"), folder.file("b.glsl"), folder.file("c.h"),
+                                               folder.file("sub/d.glsl")}));
 }
 
 class SourceWatchTest : public testing::Test {
@@ -56,7 +38,7 @@ protected:
     void SetUp() override {
         std::filesystem::create_directory(folder.file("shaders"));
         folder.write("scene", "1");
-        folder.write("shaders/pathtrace.comp", "#include \"part\"\n");
+        folder.write("shaders/pathtrace.comp", "#include \"part.glsl\"\n");
     }
 
     SourceWatch watch() const { return {folder.file("scene"), folder.file("shaders")}; }
@@ -95,8 +77,8 @@ TEST_F(SourceWatchTest, SeesEachWayToSave) {
     expect_change(sources, {folder.file("scene")});
     EXPECT_EQ(sources.scene(), (SourceFiles{{folder.file("scene"), std::nullopt}}));
     folder.write("scene", "3");
-    folder.write("shaders/part", "text");
-    expect_change(sources, {folder.file("scene"), folder.file("shaders/part")});
+    folder.write("shaders/part.glsl", "text");
+    expect_change(sources, {folder.file("scene"), folder.file("shaders/part.glsl")});
 }
 
 TEST_F(SourceWatchTest, SeesAFolderThatIsReplaced) {
@@ -105,8 +87,8 @@ TEST_F(SourceWatchTest, SeesAFolderThatIsReplaced) {
     expect_change(sources, {folder.file("shaders/pathtrace.comp")});
     std::filesystem::rename(folder.file("aside"), folder.file("shaders"));
     expect_change(sources, {folder.file("shaders/pathtrace.comp")});
-    folder.write("shaders/part", "text");
-    expect_change(sources, {folder.file("shaders/part")});
+    folder.write("shaders/part.glsl", "text");
+    expect_change(sources, {folder.file("shaders/part.glsl")});
 }
 
 TEST_F(SourceWatchTest, SeesBehindALink) {

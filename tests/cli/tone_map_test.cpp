@@ -1,11 +1,14 @@
-// Tests of cli/tone_map: anchors worked out from the published formulas with another program, and properties.
+// Tests of cli/image/tone_map: exposure, curves, encoding and rounding.
 #include "cli/image/tone_map.h"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
+#include <vector>
 
 namespace {
 
@@ -142,6 +145,98 @@ TEST(ToneMap, ExposureIsInStops) {
     EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{128, 255, 0}));
     map.exposure = -1.0;
     EXPECT_EQ(cli::map_to_8_bits(color, map), (std::vector<std::uint8_t>{16, 32, 0})); // 15.94 and 31.88
+}
+
+using Encode = std::function<double(double)>;
+
+std::uint8_t exact_byte(const Encode &encode, double light) {
+    return static_cast<std::uint8_t>(std::lround(encode(light) * 255.0));
+}
+
+// Where bytes begin, beside that, and anywhere; small numbers as often as large ones.
+void expect_exact(const Encode &encode, const std::string &name) {
+    const cli::ByteEncoder byte_of(encode);
+    const auto expect = [&](double light) {
+        ASSERT_EQ(byte_of(light), exact_byte(encode, light)) << name << " of " << light;
+    };
+    std::mt19937_64 generator(2026);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int i = 0; i < 20'000; ++i) {
+        expect(uniform(generator));
+        expect(std::exp2(-100.0 * uniform(generator)));
+    }
+    for (const double light : {0.0, 1e-300, 0.5, 1.0, std::nextafter(1.0, 0.0)}) {
+        expect(light);
+    }
+    for (int cell = 0; cell < 4096; ++cell) {
+        expect(cell / 4096.0);
+        expect(std::nextafter(cell / 4096.0, 1.0));
+        expect(std::nextafter(cell / 4096.0, 0.0));
+    }
+    for (int byte = 1; byte < 256; ++byte) {
+        double below = 0.0;
+        double least = 1.0;
+        while (std::nextafter(below, 1.0) < least) {
+            const double middle = below + (least - below) / 2.0;
+            (exact_byte(encode, middle) >= byte ? least : below) = middle;
+        }
+        expect(below);
+        expect(least);
+    }
+}
+
+TEST(ByteEncoder, IsExact) {
+    expect_exact(&cli::encode_srgb, "sRGB");
+    for (const double gamma : {0.1, 1.0, 2.2, 10.0}) {
+        expect_exact([gamma](double light) { return std::pow(light, 1.0 / gamma); }, std::to_string(gamma));
+    }
+}
+
+using cli::automatic_exposure;
+
+std::vector<float> grey(std::initializer_list<float> pixels) {
+    std::vector<float> radiance;
+    for (const float pixel : pixels) {
+        radiance.insert(radiance.end(), 3, pixel);
+    }
+    return radiance;
+}
+
+TEST(Exposure, TheAverageOfLogarithmsBecomesMiddleGrey) {
+    EXPECT_EQ(automatic_exposure(grey({0.18F})), 0.0);
+    EXPECT_EQ(automatic_exposure(grey({0.72F})), -2.0);
+    EXPECT_EQ(automatic_exposure(grey({0.09F, 0.36F})), 0.0); // half and twice, with nearly equal weights
+    EXPECT_EQ(automatic_exposure(grey({0x1p-20F * 0.09F, 0x1p-20F * 0.36F})), 20.0) << "moves with the picture";
+}
+
+// A hundredth of the pixels is a lamp 2^20 times as bright as the rest: the level, by the lamp alone, is 2^20 / 100^4,
+// about 0.01 of the rest.
+TEST(Exposure, HardlyDependsOnLamps) {
+    std::vector<float> radiance = grey({0x1p20F * 0.18F});
+    radiance.resize(3 * 100, 0.18F);
+    EXPECT_NEAR(automatic_exposure(radiance), -20.0 / 100.0, 0.01);
+}
+
+// Half of the picture is a tail of 2^-40: it counts 128 * 2^-40 / level, next to nothing.
+TEST(Exposure, WhatLooksBlackDoesNotCount) {
+    EXPECT_EQ(automatic_exposure(grey({0.18F, 0x1p-40F, 0.18F, 0x1p-60F})), 0.0);
+}
+
+TEST(Exposure, APixelIsTheMeanOfItsChannels) {
+    EXPECT_EQ(automatic_exposure(std::array{0.0F, 0.0F, 0.54F}), 0.0); // its luminance is 0.039
+    EXPECT_EQ(automatic_exposure(std::array{0.54F, 0.0F, 0.0F}), 0.0);
+}
+
+TEST(Exposure, BlackPixelsDoNotCount) {
+    EXPECT_EQ(automatic_exposure(grey({0.0F, 0.72F, 0.0F, 0.0F})), -2.0);
+    EXPECT_EQ(automatic_exposure(grey({0.0F, 0.0F})), 0.0);
+    EXPECT_EQ(automatic_exposure({}), 0.0);
+}
+
+TEST(Exposure, IsRoundedAndStaysAmongWhatCanBeGiven) {
+    EXPECT_EQ(automatic_exposure(grey({0.5F})), -1.47); // log2(0.18 / 0.5) = -1.474
+    EXPECT_EQ(automatic_exposure(grey({std::numeric_limits<float>::max()})), -64.0);
+    EXPECT_EQ(automatic_exposure(grey({std::numeric_limits<float>::denorm_min()})), 64.0);
 }
 
 } // namespace

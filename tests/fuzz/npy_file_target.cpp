@@ -4,7 +4,7 @@
 #include "tests/fuzz/require.h"
 
 #include "cli/base/exit_code.h"
-#include "cli/scene/npy_file.h"
+#include "cli/scene/sphere_columns.h"
 
 #include <pt/pt.h>
 

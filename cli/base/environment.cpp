@@ -1,0 +1,82 @@
+#include "cli/base/environment.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/base/number.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <ctime>
+#include <system_error>
+
+namespace cli {
+namespace {
+
+bool has_avx512() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+    return false;
+#endif
+}
+
+} // namespace
+
+// By the XDG Base Directory Specification, which ignores relative paths.
+std::filesystem::path user_cache() {
+    const auto folder = [](const char *name) {
+        const char *variable = std::getenv(name);
+        const std::filesystem::path path = variable == nullptr ? "" : variable;
+        return path.is_absolute() ? path : std::filesystem::path();
+    };
+    if (const std::filesystem::path path = folder("XDG_CACHE_HOME"); !path.empty())
+        return path / "pt";
+    const std::filesystem::path home = folder("HOME");
+    return home.empty() ? home : home / ".cache" / "pt";
+}
+
+// A folder of compiled shaders for this width alone: Mesa's key of a shader does not tell its width (seen with 22.3.6
+// and 25.0.7), so that machine code for 256 bits, left by any program, would be taken for that of 512. The width itself
+// does not depend on that folder: it is part of the device's name, by which films know each other.
+void widen_vectors() {
+    constexpr const char *width_name = "LP_NATIVE_VECTOR_WIDTH"; // in bits
+    constexpr const char *cache_name = "MESA_SHADER_CACHE_DIR";
+    if (std::getenv(width_name) != nullptr)
+        return;
+    setenv(width_name, "512", 1);
+    const char *chosen = std::getenv(cache_name);
+    const std::filesystem::path cache = chosen == nullptr || *chosen == '\0' ? user_cache() : chosen;
+    std::error_code error;
+    if (!cache.empty())
+        std::filesystem::create_directories(cache / "shaders-512", error); // Mesa makes the last folder of a path only
+    if (cache.empty() || error)
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); // every start compiles anew
+    else
+        setenv(cache_name, (cache / "shaders-512").c_str(), 1);
+}
+
+void choose_vector_width() {
+    if (has_avx512())
+        widen_vectors();
+}
+
+std::string source_date() {
+    constexpr std::uint64_t last_second = 253'402'300'799; // of the year 9999: later years have no such form
+    const char *variable = std::getenv("SOURCE_DATE_EPOCH");
+    if (variable == nullptr)
+        return "";
+    const auto seconds = parse_number<std::uint64_t>(variable);
+    if (!seconds || *seconds > last_second) {
+        throw Failure(ExitCode::usage, "SOURCE_DATE_EPOCH: must be a whole number of seconds from 0 to " +
+                                           std::to_string(last_second) + ", is \"" + variable + "\"");
+    }
+    const auto time = static_cast<std::time_t>(*seconds);
+    std::tm utc{};
+    gmtime_r(&time, &utc);
+    std::array<char, 32> text{};
+    std::strftime(text.data(), text.size(), "%Y:%m:%d %H:%M:%S", &utc);
+    return text.data();
+}
+
+} // namespace cli

@@ -1,0 +1,69 @@
+#include "cli/base/names.h"
+
+#include <cctype>
+#include <vector>
+
+namespace cli {
+namespace {
+
+char lower(char letter) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+}
+
+// Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours (Damerau 1964, which
+// found that four misspellings in five are one of these), ignoring case. Three rows of the table are kept.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+    std::vector<std::size_t> before_last(to.size() + 1);
+    std::vector<std::size_t> last(to.size() + 1);
+    std::vector<std::size_t> row(to.size() + 1);
+    for (std::size_t column = 0; column <= to.size(); ++column)
+        row[column] = column;
+    for (std::size_t i = 1; i <= from.size(); ++i) {
+        std::swap(before_last, last);
+        std::swap(last, row);
+        row[0] = i;
+        for (std::size_t j = 1; j <= to.size(); ++j) {
+            const bool same = lower(from[i - 1]) == lower(to[j - 1]);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+            if (i > 1 && j > 1 && lower(from[i - 1]) == lower(to[j - 2]) && lower(from[i - 2]) == lower(to[j - 1]))
+                row[j] = std::min(row[j], before_last[j - 2] + 1);
+        }
+    }
+    return row[to.size()];
+}
+
+} // namespace
+
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
+    // One edit in three letters still reads as the same word.
+    std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
+    std::string_view best;
+    for (const std::string_view candidate : known) {
+        const std::size_t shorter = std::min(candidate.size(), name.size());
+        const std::size_t longer = std::max(candidate.size(), name.size());
+        if (longer - shorter >= best_distance)
+            continue; // at least as many insertions; this keeps long lists cheap
+        const std::size_t distance = edit_distance(name, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
+    constexpr std::size_t longest_list = 12;
+    std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
+    const std::string_view nearest = nearest_name(name, known);
+    if (!nearest.empty())
+        return message + ", did you mean \"" + std::string(nearest) + "\"?";
+    if (known.empty() || known.size() > longest_list)
+        return message;
+    message += ", known: ";
+    for (std::size_t i = 0; i < known.size(); ++i)
+        message += (i == 0 ? "" : ", ") + std::string(known[i]);
+    return message;
+}
+
+} // namespace cli

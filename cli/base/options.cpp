@@ -1,0 +1,219 @@
+#include "cli/base/options.h"
+
+#include "cli/base/exit_code.h"
+#include "cli/base/names.h"
+#include "cli/base/number.h"
+#include "cli/base/text.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+namespace cli {
+namespace {
+
+std::string type_name(const ValueRule &rule) {
+    switch (rule.form) {
+    case ValueRule::Form::name:
+        return listed(rule.names, "|");
+    case ValueRule::Form::whole_number:
+        return "N";
+    case ValueRule::Form::number_or_auto:
+        return "X|auto";
+    default:
+        return "X";
+    }
+}
+
+// Words behind a head, the lines after the first one indented.
+std::string wrapped(std::string head, const std::string &text, std::size_t indentation) {
+    constexpr std::size_t width = 100;
+    std::size_t column = head.size();
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        const std::string gap = column < indentation ? std::string(indentation - column, ' ') : " ";
+        const bool is_first = column <= indentation;
+        if (!is_first && column + 1 + word.size() > width) {
+            head += "\n" + std::string(indentation, ' ') + word;
+            column = indentation + word.size();
+        } else {
+            head += (column == indentation ? "" : gap) + word;
+            column = std::max(column + (column == indentation ? 0 : gap.size()), indentation) + word.size();
+        }
+    }
+    return head + "\n";
+}
+
+std::string entry(const std::string &name, const std::string &text, std::size_t column) {
+    const std::string head = "  " + name;
+    return head.size() + 1 < column ? wrapped(head, text, column)
+                                    : head + "\n" + wrapped(std::string(column, ' '), text, column);
+}
+
+std::string related(const std::string &relation, const std::set<CLI::Option *> &options) {
+    std::string names;
+    for (const CLI::Option *option : options)
+        names += (names.empty() ? " (" + relation + " " : ", ") + option->get_name();
+    return names.empty() ? "" : names + ")";
+}
+
+// "--exposure", as users write them.
+std::vector<std::string> option_names(const CLI::App &command) {
+    std::vector<std::string> names;
+    for (const CLI::Option *option : command.get_options())
+        for (const std::string &name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
+}
+
+std::string unknown(std::string_view kind, std::string_view name, const std::vector<std::string> &known) {
+    return unknown_name(kind, name, std::vector<std::string_view>(known.begin(), known.end()));
+}
+
+// CLI11 says "--spp: At Most 1 required but received 2" and "--spp: 1 required N missing".
+std::string reason_of_count(const std::string &text) {
+    constexpr std::string_view received = " but received ";
+    constexpr std::string_view required = " required ";
+    constexpr std::string_view missing = " missing";
+    const std::string name = text.substr(0, text.find(':'));
+    if (const std::size_t at = text.rfind(received); at != std::string::npos)
+        return name + ": is given " + text.substr(at + received.size()) + " times, and takes one value";
+    const std::size_t at = text.find(required);
+    if (at != std::string::npos && text.ends_with(missing)) {
+        const std::size_t begin = at + required.size();
+        return name + ": its value is missing: " + text.substr(begin, text.size() - missing.size() - begin);
+    }
+    return text;
+}
+
+// `unknown option "--expsure", did you mean "--exposure"?` of the first argument that was left over when the command
+// line was parsed; nothing if none was.
+std::optional<std::string> unknown_argument(const CLI::App &command) {
+    const std::vector<std::string> left_over = command.remaining();
+    if (left_over.empty())
+        return std::nullopt;
+    const std::string &first = left_over.front();
+    if (first.starts_with('-'))
+        return unknown("option", first.substr(0, first.find('=')), option_names(command));
+    const std::vector<std::string> subcommands = command_names(command);
+    return subcommands.empty() ? "unexpected argument \"" + first + "\"" : unknown("command", first, subcommands);
+}
+
+std::string reason_of(const CLI::App &command, const CLI::ParseError &error) {
+    const bool is_count = dynamic_cast<const CLI::ArgumentMismatch *>(&error) != nullptr;
+    return unknown_argument(command).value_or(is_count ? reason_of_count(error.what()) : error.what());
+}
+
+class HelpFormatter : public CLI::Formatter {
+public:
+    HelpFormatter() {
+        column_width(30);
+        label("Positionals", "Arguments");
+        label("SUBCOMMAND", "COMMAND");
+    }
+
+    // CLI11 has two empty lines between groups.
+    std::string make_help(const CLI::App *command, std::string name, CLI::AppFormatMode mode) const override {
+        return CLI::detail::find_and_replace(CLI::Formatter::make_help(command, std::move(name), mode), "\n\n\n",
+                                             "\n\n");
+    }
+
+    std::string make_option(const CLI::Option *option, bool is_positional) const override {
+        const std::string value = is_positional ? "" : make_option_opts(option);
+        const std::string others = related("needs", option->get_needs()) + related("not with", option->get_excludes());
+        return entry(make_option_name(option, is_positional) + value, option->get_description() + others,
+                     column_width_);
+    }
+
+    std::string make_option_opts(const CLI::Option *option) const override {
+        return option->get_items_expected_max() == 0 ? "" : " " + option->get_type_name();
+    }
+
+    std::string make_subcommand(const CLI::App *command) const override {
+        return entry(command->get_name(), command->get_description(), column_width_);
+    }
+};
+
+} // namespace
+
+CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
+                      const std::string &notes, Run run) {
+    CLI::App &command = *program.add_subcommand(name, description);
+    command.group("Commands");
+    command.footer(notes + (notes.empty() ? "" : "\n") + exit_code_help);
+    command.set_help_flag("-h,--help", "Print this help and exit");
+    command.final_callback([&chosen, run = std::move(run)] { chosen = run; });
+    return command;
+}
+
+void refuse_option(const std::string &option, const std::string &rule, const std::string &text) {
+    throw CLI::ValidationError(option, rule + ", is \"" + text + "\"");
+}
+
+nlohmann::json read_value(const std::string &option, const std::string &text, const ValueRule &rule) {
+    nlohmann::json value = text;
+    if (const auto whole = parse_number<std::uint64_t>(text); whole && rule.form != ValueRule::Form::name)
+        value = *whole;
+    else if (const auto real = parse_number<double>(text); real && rule.form != ValueRule::Form::name)
+        value = *real;
+    try {
+        check(rule, value, {});
+    } catch (const JsonRefusal &refusal) {
+        throw CLI::ValidationError(option, refusal.what());
+    }
+    return value;
+}
+
+CLI::Option *add_value(CLI::App &command, const std::string &name, const ValueRule &rule,
+                       std::function<void(const nlohmann::json &)> store, const std::string &help) {
+    const auto read = [name, rule, store = std::move(store)](const std::string &text) {
+        store(read_value(name, text, rule));
+    };
+    return command.add_option_function<std::string>(name, read, help)->type_name(type_name(rule));
+}
+
+CLI::Option *add_text(CLI::App &command, const std::string &name, std::string &target, const std::string &value,
+                      const std::string &help) {
+    return command.add_option(name, target, help)->type_name(value);
+}
+
+CLI::Option *add_device(CLI::App &command, std::string &device) {
+    return add_text(command, "--device", device, "INDEX|UUID|NAME|gpu|cpu|all",
+                    "Index or UUID from `pt devices`, or several (0,1), or part of a name (default: the best one)");
+}
+
+CLI::Option *add_shader_dir(CLI::App &command, std::string &shader_dir) {
+    return add_text(command, "--shader-dir", shader_dir, "DIR",
+                    "Compile the kernels from the GLSL files in DIR, edited copies of the project's shaders/");
+}
+
+CLI::Option *add_quiet(CLI::App &command, bool &quiet) {
+    return command.add_flag("-q,--quiet", quiet, "Print errors only");
+}
+
+std::shared_ptr<CLI::Formatter> help_formatter() {
+    return std::make_shared<HelpFormatter>();
+}
+
+std::vector<std::string> command_names(const CLI::App &program) {
+    std::vector<std::string> names;
+    for (const CLI::App *command : program.get_subcommands([](const CLI::App *) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::string usage_reason(const CLI::App &program, const CLI::ParseError &error) {
+    const std::vector<CLI::App *> parsed = program.get_subcommands();
+    if (parsed.empty())
+        return reason_of(program, error) + " (see pt --help)";
+    const CLI::App &command = *parsed.front();
+    const std::string see = " (see pt " + command.get_name() + " --help)";
+    const std::vector<std::string> before = program.remaining();
+    if (!before.empty())
+        return before.front() + ": stands before the command; its options stand after it" + see;
+    return reason_of(command, error) + see;
+}
+
+} // namespace cli

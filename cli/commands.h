@@ -1,0 +1,16 @@
+// The commands of the program, one in each of these rooms. Each adds itself with its options.
+#pragma once
+
+#include "cli/base/options.h"
+
+namespace cli {
+
+void add_render_command(CLI::App &program, Run &chosen);
+void add_tonemap_command(CLI::App &program, Run &chosen);
+void add_compare_command(CLI::App &program, Run &chosen);
+void add_merge_command(CLI::App &program, Run &chosen);
+void add_selftest_command(CLI::App &program, Run &chosen);
+void add_schema_command(CLI::App &program, Run &chosen);
+void add_devices_command(CLI::App &program, Run &chosen);
+
+} // namespace cli

@@ -1,0 +1,264 @@
+#include "cli/render/image_render.h"
+
+#include "cli/base/interrupt.h"
+
+#include <bit>
+#include <chrono>
+#include <iostream>
+#include <limits>
+#include <unistd.h>
+
+namespace cli {
+namespace {
+
+double seconds_between(std::chrono::steady_clock::time_point start, std::chrono::steady_clock::time_point end) {
+    return std::chrono::duration<double>(end - start).count();
+}
+
+std::chrono::steady_clock::duration clock_duration(double seconds) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+// first_row: of the window.
+pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_t rows) {
+    const Rectangle &part = task.window.part;
+    pt_render piece = task.render;
+    piece.first_row = part.y + first_row;
+    piece.row_count = std::min(rows, part.height - first_row);
+    return piece;
+}
+
+// Adds what is known of a piece of so many rows to what is known of those before. The bounds of several pieces are
+// joined as if all erred to the same side.
+void join(pt_stats &whole, const pt_stats &piece, std::uint32_t rows_before, std::uint32_t rows) {
+    if (rows_before == 0) {
+        whole = piece;
+        return;
+    }
+    const auto mean = [&](double before, double of_piece) {
+        return (before * rows_before + of_piece * rows) / (static_cast<double>(rows_before) + rows);
+    };
+    whole.sample_count = std::min(whole.sample_count, piece.sample_count);
+    whole.max_sample_count = std::max(whole.max_sample_count, piece.max_sample_count);
+    whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
+    whole.rejected_samples += piece.rejected_samples;
+    whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
+    whole.submit_count = piece.submit_count; // of the context
+    whole.device_seconds = piece.device_seconds;
+    whole.uncertain |= piece.uncertain;
+    for (double pt_stats::*const error :
+         {&pt_stats::rmse, &pt_stats::rmse_low, &pt_stats::rmse_high, &pt_stats::relative_rmse,
+          &pt_stats::relative_rmse_low, &pt_stats::relative_rmse_high}) {
+        whole.*error = std::sqrt(mean(whole.*error * whole.*error, piece.*error * piece.*error));
+    }
+}
+
+// Adds the samples that the context has of a piece; false if there are none.
+bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
+    const pt_stats stats = context.read_stats();
+    if (stats.sample_count == 0)
+        return false;
+    join(image.stats, stats, image.rows_done, rows);
+    const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
+        const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
+        context.read_columns(image.part.x, image.part.width, rows, quantity, &values[first]);
+    };
+    read(PT_QUANTITY_RADIANCE, image.radiance);
+    if (!image.standard_error.empty())
+        read(PT_QUANTITY_STANDARD_ERROR, image.standard_error);
+    for (PictureLayer &layer : image.layers)
+        layer.read(context, image.part, image.rows_done, rows);
+    image.rows_done += rows;
+    return true;
+}
+
+} // namespace
+
+std::uint32_t fit_pieces(const Context &context, const RenderTask &task) {
+    const std::uint32_t height = task.window.part.height;
+    std::uint32_t rows = task.options.piece_rows == 0 ? height : std::min(task.options.piece_rows, height);
+    for (;; rows = (rows + 1) / 2) {
+        const pt_render piece = piece_of(task, 0, rows);
+        const pt_result result = pt_set_render(context.get(), &piece);
+        const bool too_large = result == PT_ERROR_UNSUPPORTED || result == PT_ERROR_OUT_OF_DEVICE_MEMORY;
+        if (too_large && rows > 1)
+            continue;
+        require(context, task, result);
+        return rows;
+    }
+}
+
+ProgressStyle progress_style(const RenderOptions &options) {
+    return progress_style(options.progress, options.output.quiet, isatty(STDERR_FILENO) == 1);
+}
+
+ImageRender::ImageRender(const Context &context, const RenderTask &task, std::uint32_t rows, Stop stop,
+                         WritePreview write_preview) :
+    context_(context),
+    task_(task),
+    rows_(rows),
+    stop_(std::move(stop)),
+    write_preview_(task.options.frames ? nullptr : std::move(write_preview)),
+    progress_(std::cerr, progress_style(task.options), std::uint64_t{task.render.width} * task.window.part.height,
+              task.sample_count, start_) {
+    constexpr double usual_checkpoint_seconds = 30.0;
+    const RenderOptions &options = task.options;
+    image_.part = task.window.part;
+    image_.radiance.resize(3 * image_.part.pixel_count());
+    image_.standard_error.resize(options.output.standard_error.empty() ? 0 : image_.radiance.size());
+    for (const std::uint32_t layer : options.wanted_layers())
+        image_.layers.emplace_back(layer, image_.part.pixel_count());
+    progress_.begin_at(context.sample_count());
+    if (options.time_limit)
+        progress_.limit_time(*options.time_limit);
+    if (!options.checkpoint.empty())
+        checkpoint_.emplace(context, options.checkpoint, options.checkpoint_seconds.value_or(usual_checkpoint_seconds),
+                            [this](const std::string &message) { progress_.say(message); });
+}
+
+ImageRender::Result ImageRender::run() {
+    while (image_.rows_done < image_.part.height && !stop_()) {
+        enter_piece();
+        render_piece();
+        if (!add_piece(context_, piece_rows_, image_))
+            break;
+    }
+    if (image_.rows_done == 0)
+        image_.stats = context_.read_stats();
+    preview_task_.finish();
+    if (checkpoint_)
+        checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
+    return {std::move(image_), has_timed_out_, checkpoint_ && checkpoint_->is_valid()};
+}
+
+void ImageRender::enter_piece() {
+    const pt_render piece = piece_of(task_, image_.rows_done, rows_);
+    if (image_.rows_done > 0)
+        context_.require(pt_set_render(context_.get(), &piece));
+    piece_rows_ = piece.row_count;
+    const double height = image_.part.height;
+    const double end = (image_.rows_done + piece_rows_) / height;
+    progress_.enter_part(image_.rows_done / height, end);
+    if (has_target()) // the next check
+        progress_.expect(forecast_sample_count(context_.sample_count(), 1.0, 1.0, task_.sample_count));
+    // Each piece has its share of the time, with what those before have left.
+    if (task_.options.time_limit)
+        time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
+    is_time_over_ = false;
+}
+
+// From the samples that the context has on, until there are enough, the target error is reached or it is to stop. The
+// target error is looked at by the library, at counts that do not depend on the steps.
+void ImageRender::render_piece() {
+    constexpr std::uint32_t first_end = 16; // where an error is known, and tiles take as many again from there on
+    Done done = done_of(has_target() ? std::optional(context_.read_stats()) : std::nullopt);
+    std::uint32_t wanted = first_step_length;
+    bool ended = done.least >= task_.sample_count;
+    while (!ended && !stops()) {
+        const std::uint32_t before = done.most;
+        std::uint32_t length = std::min(wanted, task_.sample_count - before); // 0: those that pixels lack of the most
+        if (has_target())
+            length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
+        const Clock::time_point start = Clock::now();
+        const pt_result result = take(length, done.mean);
+        const double seconds = seconds_between(start, Clock::now());
+        done = look(result);
+        if (done.most > before) // else it was ended within a sample, and says nothing
+            wanted = next_step_length(done.most - before, seconds);
+        ended = has_ended(result, done);
+    }
+}
+
+// done: samples of a pixel before, on the average.
+pt_result ImageRender::take(std::uint32_t length, double done) {
+    std::function<bool(double)> goes_on = [&](double fraction) {
+        const double taken = fraction * std::max(length, 1U);
+        progress_.update_samples(done + taken, Clock::now());
+        const bool has_sample = taken >= 1.0; // else there is nothing new to be seen
+        return !stops() && !(has_sample && pauses());
+    };
+    auto info = sized<pt_accumulate_info>();
+    info.sample_count = length;
+    info.target_error = task_.options.target_error;
+    info.sampling = task_.options.sampling;
+    info.progress = &call_listener;
+    info.progress_user = &goes_on;
+    const pt_result result = pt_accumulate(context_.get(), &info);
+    require(context_, task_, result);
+    return result;
+}
+
+ImageRender::Done ImageRender::done_of(const std::optional<pt_stats> &stats) const {
+    if (stats)
+        return {stats->mean_sample_count, stats->sample_count, stats->max_sample_count};
+    const std::uint32_t count = context_.sample_count();
+    return {static_cast<double>(count), count, count};
+}
+
+// Whether all is done after a step.
+bool ImageRender::has_ended(pt_result result, const Done &done) const {
+    return result == PT_TARGET_REACHED || (result == PT_OK && done.most >= task_.sample_count);
+}
+
+// After a step. The error takes a read-out of the image: where it is only shown, for a hundredth of the time.
+ImageRender::Done ImageRender::look(pt_result result) {
+    constexpr double share = 0.01;
+    const Clock::time_point start = Clock::now();
+    std::optional<pt_stats> stats;
+    if (has_target() || (progress_.shows_error() && start >= next_error_))
+        stats = context_.read_stats();
+    const Clock::time_point now = Clock::now();
+    if (stats)
+        next_error_ = now + clock_duration(seconds_between(start, now) / share);
+    const Done done = done_of(stats);
+    const bool ended = has_ended(result, done);
+    show(done, ended, stats, now);
+    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean));
+    if (sample_count > 0)
+        preview(now);
+    if (checkpoint_)
+        checkpoint_->step(sample_count);
+    is_time_over_ = !ended && sample_count > 0 && now >= time_end_;
+    has_timed_out_ = has_timed_out_ || is_time_over_;
+    return done;
+}
+
+// With a target error, the number of samples is a guess, which is mended at each check of the error.
+void ImageRender::show(const Done &done, bool ended, const std::optional<pt_stats> &stats, Clock::time_point now) {
+    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean));
+    if (stats)
+        progress_.show_error(stats->relative_rmse);
+    if (sample_count >= task_.sample_count)
+        return;
+    if (ended) {
+        progress_.expect(sample_count);
+        progress_.update_samples(sample_count, now);
+    } else if (has_target()) {
+        progress_.expect(forecast_sample_count(sample_count, stats->relative_rmse_high, task_.options.target_error,
+                                               task_.sample_count));
+    }
+}
+
+bool ImageRender::wants_preview() const {
+    const double seconds = task_.options.preview_seconds.value_or(std::numeric_limits<double>::infinity());
+    const bool is_due = !has_preview_failed_ && seconds_between(last_preview_, Clock::now()) >= seconds;
+    return write_preview_ && (has_picture_request() || is_due) && !preview_task_.is_under_way();
+}
+
+void ImageRender::preview(Clock::time_point now) {
+    if (!wants_preview())
+        return;
+    forget_picture_request();
+    last_preview_ = now;
+    preview_task_.finish();
+    preview_ = image_;
+    add_piece(context_, piece_rows_, preview_);
+    preview_task_.start([this] { has_preview_failed_ = !write_preview_(preview_); });
+}
+
+// Whether a step is to end as soon as it has a whole sample, so that look() sees it.
+bool ImageRender::pauses() const {
+    return wants_preview() || (checkpoint_ && checkpoint_->is_due()) || Clock::now() >= time_end_;
+}
+
+} // namespace cli
