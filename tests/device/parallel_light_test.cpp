@@ -105,21 +105,22 @@ TEST_F(ParallelLight, RowsAndPiecesHaveTheBitsOfTheWhole) {
     ASSERT_TRUE(hurried);
     constexpr std::uint32_t first_row = 37;
     constexpr std::uint32_t row_count = 21;
-    for (const auto &[name, given, samples] : cases())
-        for (const std::uint32_t sampler : {PT_SAMPLER_HALTON_CP, PT_SAMPLER_SOBOL}) {
-            SCOPED_TRACE(name + ", sampler " + std::to_string(sampler));
-            pt_render render = picture_of(sampler);
-            render.width *= 4;
-            render.height *= 4;
-            const std::vector<float> whole = render_image(context(), given.scene(), given.camera, render, 2);
-            EXPECT_EQ(render_image(hurried.get(), given.scene(), given.camera, render, 2), whole);
-            render.first_row = first_row;
-            render.row_count = row_count;
-            std::vector<float> rows = render_image(context(), given.scene(), given.camera, render, 2);
-            rows.resize(std::size_t{3} * render.width * row_count);
-            const auto from = whole.begin() + std::ptrdiff_t{3} * render.width * first_row;
-            EXPECT_EQ(rows, std::vector<float>(from, from + static_cast<std::ptrdiff_t>(rows.size())));
-        }
+    std::uint32_t sampler = PT_SAMPLER_SOBOL;
+    for (const auto &[name, given, samples] : cases()) {
+        SCOPED_TRACE(name);
+        pt_render render = picture_of(sampler);
+        sampler = sampler == PT_SAMPLER_SOBOL ? PT_SAMPLER_HALTON_CP : PT_SAMPLER_SOBOL;
+        render.width *= 4;
+        render.height *= 4;
+        const std::vector<float> whole = render_image(context(), given.scene(), given.camera, render, 2);
+        EXPECT_EQ(render_image(hurried.get(), given.scene(), given.camera, render, 2), whole);
+        render.first_row = first_row;
+        render.row_count = row_count;
+        std::vector<float> rows = render_image(context(), given.scene(), given.camera, render, 2);
+        rows.resize(std::size_t{3} * render.width * row_count);
+        const auto from = whole.begin() + std::ptrdiff_t{3} * render.width * first_row;
+        EXPECT_EQ(rows, std::vector<float>(from, from + static_cast<std::ptrdiff_t>(rows.size())));
+    }
 }
 
 } // namespace
