@@ -71,7 +71,7 @@ constexpr std::array camera_keys{
     SceneKey{"up", direction, "What is up in the picture, as far as it is perpendicular to the view", "[0, 1, 0]",
              optional, [](Item item, Value value) { put(value, item.scene.camera.up); }},
     SceneKey{"projection", one_of("projection", projection_names),
-             "What rays have in common: the point position, or the direction to look_at", "perspective", optional,
+             "Rays share the point position, or the direction to look_at", "perspective", optional,
              [](Item item, Value value) {
                  item.scene.camera.projection =
                      value == "orthographic" ? PT_PROJECTION_ORTHOGRAPHIC : PT_PROJECTION_PERSPECTIVE;
@@ -79,18 +79,18 @@ constexpr std::array camera_keys{
     // The library's rule, [1e-8, pi), in the file's unit; 0 would be pt.h's default, here and for the extent.
     SceneKey{"vertical_fov",
              {.least = 6e-7, .largest = 180.0, .excludes_largest = true, .unit = "degrees"},
-             "Of a perspective: the angle that the picture's height is seen at",
+             "Of a perspective: the angle of the picture's height",
              "45",
              optional,
              [](Item item, Value value) {
                  item.scene.camera.vertical_fov = value.get<double>() * (std::numbers::pi / 180.0);
              }},
     SceneKey{"vertical_extent", number(least_length, largest_length),
-             "Of an orthographic projection: the height of what is seen. Its rays start on the plane through position "
-             "across the view, and what is behind is not seen",
+             "Of an orthographic projection: the height of what is seen. Nothing behind the plane through position "
+             "across the view is seen",
              "", optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
     SceneKey{
-        "shutter", times, "When it opens and closes; light is gathered evenly in between", "[0, 1]", optional,
+        "shutter", times, "When it opens and closes", "[0, 1]", optional,
         [](Item item, Value value) { put_shutter(item.scene.camera, value[0].get<double>(), value[1].get<double>()); }},
 };
 
@@ -120,7 +120,7 @@ constexpr std::array film_keys{
 
 constexpr std::array render_keys{
     SceneKey{"max_path_length", whole_number(1, 1024),
-             "Surfaces that light meets on its way to the camera; 1 shows lamps alone, 2 direct light", "6", optional,
+             "Surfaces that light meets on its way to the camera: 1 shows lamps alone, 2 direct light", "6", optional,
              [](Item item, Value value) { item.scene.render.max_path_length = value.get<std::uint32_t>(); },
              "--max-path-length"},
     SceneKey{"spp", whole_number(1, largest_uint32), "Samples per pixel", "64", optional,
@@ -143,8 +143,8 @@ constexpr std::array material_keys{
     SceneKey{"diffuse", radiance, "Share of the light that is scattered evenly", "0", optional,
              [](Item item, Value value) { put(value, item.material.diffuse); }},
     SceneKey{"specular", radiance,
-             "Weight of the lobe about the mirror direction; with diffuse, above 1 gives off more than it receives",
-             "0", optional, [](Item item, Value value) { put(value, item.material.specular); }},
+             "Weight of the lobe about the mirror direction; with diffuse above 1, more light leaves than arrives", "0",
+             optional, [](Item item, Value value) { put(value, item.material.specular); }},
     SceneKey{"glossiness",
              {.least = 0.0, .largest = 1e9, .is_of_library = true, .is_float = true},
              "The lobe's exponent: the larger, the sharper",
@@ -153,11 +153,10 @@ constexpr std::array material_keys{
              [](Item item, Value value) { item.material.glossiness = value.get<float>(); }},
     SceneKey{"emission", radiance, "Light of its own, the same in all directions", "0", optional,
              [](Item item, Value value) { put(value, item.material.emission); }},
-    SceneKey{
-        "hidden_from_camera", boolean,
-        "The camera looks through the surface, while for all else it is there: a lamp that lights and is mirrored, "
-        "but is not in the picture; a wall, to look into a room",
-        "false", optional, [](Item item, Value value) { item.is_hidden = value.get<bool>(); }},
+    SceneKey{"hidden_from_camera", boolean,
+             "The camera looks through the surface, all other rays meet it: for a lamp that is not in the picture, or "
+             "a wall, to look into a room",
+             "false", optional, [](Item item, Value value) { item.is_hidden = value.get<bool>(); }},
 };
 
 constexpr std::array sphere_keys{
@@ -169,9 +168,7 @@ constexpr std::array sphere_keys{
              [](Item item, Value value) { item.material_name = value.get_ref<const std::string &>(); }},
     SceneKey{"motion", lengths, "Way from time 0 to time 1; the camera's shutter says which part is seen", "[0, 0, 0]",
              optional, [](Item item, Value value) { put(value, item.sphere.motion); }, "", &pt_sphere_array::motion},
-    SceneKey{"color", share,
-             "Multiplies the material's diffuse, so that spheres of one material can each have their own", "1",
-             optional,
+    SceneKey{"color", share, "Multiplies the material's diffuse", "1", optional,
              [](Item item, Value value) {
                  float color[3];
                  put(value, color);

@@ -155,7 +155,7 @@ class CommandLineTest(unittest.TestCase):
 
     def write(self, name, text):
         with open(self.path(name), "wb") as file:
-            file.write(text if isinstance(text, bytes) else text.encode())
+            file.write(text.encode() if isinstance(text, str) else text)
 
     def read(self, name):
         with open(self.path(name), encoding="utf-8") as file:
