@@ -2,7 +2,6 @@
 // with different seeds tell the noise. Run alone with --gtest_filter=Symmetry*.
 #include "tests/invariance/invariance_scene.h"
 #include "tests/support/batch_fixture.h"
-#include "tests/support/shared_context.h"
 
 #include <gtest/gtest.h>
 
@@ -62,11 +61,6 @@ const double largest_t_bound = student_bound(1e-6 / (6.0 * blocks), 2 * batch_co
 class Symmetry : public BatchFixture, public testing::WithParamInterface<InvarianceOf> {
 protected:
     static InvarianceScene scene() { return InvarianceScene::of(GetParam()); }
-
-    Context create_fixtures_context() override {
-        const bool has_tree = GetParam() == InvarianceOf::Tree;
-        return create_context([](pt_create_info &) {}, has_tree ? &create_with_tree : &pt_create);
-    }
 
     Batches batches_of(const InvarianceScene &scene, uint64_t first_seed) {
         set_up(scene.scene(), scene.camera);
@@ -131,8 +125,7 @@ TEST_P(Symmetry, Rotation) {
     expect_same_image(turned, unchanged);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Symmetry,
-                         testing::Values(InvarianceOf::Coursework, InvarianceOf::ManyLamps, InvarianceOf::Tree),
+INSTANTIATE_TEST_SUITE_P(Scenes, Symmetry, testing::Values(InvarianceOf::Coursework, InvarianceOf::ManyLamps),
                          [](const auto &param) { return name_of(param.param); });
 
 } // namespace
