@@ -1,14 +1,11 @@
 #include "lib/film/error_estimate.h"
 
-#include "lib/film/pixel_sums.h"
-
 #include <pt/stats.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace pt {
 
@@ -128,43 +125,6 @@ bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_lengt
            (estimator == PT_ESTIMATOR_UNIFORM || estimator == PT_ESTIMATOR_COSINE || estimator == PT_ESTIMATOR_BSDF);
 }
 
-void ErrorEstimator::add(const PixelEstimates &pixels) {
-    all_.rejected += pixels.rejected;
-    for (std::size_t first = 0; first < pixels.radiance.size() / 3;) {
-        const std::size_t count = std::min(most_band_pixels() - band_pixels_, pixels.radiance.size() / 3 - first);
-        const auto take = [&](std::vector<float> &to, const std::vector<float> &from) {
-            to.resize(3 * most_band_pixels());
-            for (std::size_t channel = 0; channel < 3; ++channel)
-                for (std::size_t i = 0; i < count; ++i)
-                    to[channel * most_band_pixels() + band_pixels_ + i] = from[3 * (first + i) + channel];
-        };
-        take(radiance_, pixels.radiance);
-        take(standard_error_, pixels.standard_error);
-        take(lesser_, pixels.lesser);
-        first += count;
-        band_pixels_ += count;
-        if (band_pixels_ == most_band_pixels())
-            finish_band();
-    }
-}
-
-void ErrorEstimator::finish_band() {
-    const std::size_t height = band_pixels_ / conditions_.width;
-    for (std::size_t left = 0; left < conditions_.width; left += region_size)
-        add(region_errors(region_of_band(left, std::min<std::size_t>(region_size, conditions_.width - left), height)));
-    band_pixels_ = 0;
-}
-
-RegionPixels ErrorEstimator::region_of_band(std::size_t left, std::size_t width, std::size_t height) const {
-    constexpr std::uint64_t rejected = 0; // which add() has counted
-    RegionPixels region{{width, height, conditions_.width, most_band_pixels(), &radiance_[left], &standard_error_[left],
-                         &lesser_[left]},
-                        rejected,
-                        {}};
-    region.sample_counts.fill(static_cast<double>(conditions_.sample_count));
-    return region;
-}
-
 void ErrorEstimator::add(const RegionErrors &region) {
     all_.value_count += region.value_count;
     all_.squares_of_tile_sizes += region.squares_of_tile_sizes;
@@ -198,9 +158,7 @@ Interval ErrorEstimator::root_mean(const ErrorSquares &squares, double other_squ
             estimate * spread};
 }
 
-ErrorEstimate ErrorEstimator::result() {
-    if (band_pixels_ > 0)
-        finish_band();
+ErrorEstimate ErrorEstimator::result() const {
     const ErrorSquares relative = relative_squares(all_, conditions_.finds_lamps_by_chance);
     std::uint32_t uncertain = 0;
     if (pixel_count(all_.square) < few_pixels)

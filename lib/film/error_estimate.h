@@ -2,14 +2,11 @@
 // film.
 #pragma once
 
-#include "lib/film/pixel_sums.h"
 #include "lib/film/region_errors.h"
 
 #include <pt/stats.h>
 
-#include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace pt {
 
@@ -56,8 +53,6 @@ bool finds_lamps_by_chance(std::uint32_t estimator, std::uint32_t max_path_lengt
 
 // What an image's samples were.
 struct SampleConditions {
-    std::uint32_t width; // pixels
-    std::uint64_t sample_count;
     std::uint32_t sampler;
     bool may_miss_lamps; // found by chance, and so small that few samples have met them, if any
     bool finds_lamps_by_chance = false;
@@ -67,14 +62,11 @@ class ErrorEstimator {
 public:
     explicit ErrorEstimator(const SampleConditions &conditions) : conditions_(conditions) {}
 
-    // Takes consecutive pixels with their standard errors, the first being the first of the image.
-    void add(const PixelEstimates &pixels);
-
     // Takes a region. The last bits of the result depend on the order of the regions.
     void add(const RegionErrors &region);
 
-    // Of all pixels taken, at least one row.
-    ErrorEstimate result();
+    // Of all regions taken, at least one.
+    ErrorEstimate result() const;
 
     // Samples left out of them.
     std::uint64_t rejected() const { return all_.rejected; }
@@ -83,15 +75,7 @@ private:
     // The root of the mean of some squares, if others are added to their sum.
     Interval root_mean(const ErrorSquares &squares, double other_squares, bool uncertain) const;
 
-    void finish_band();
-    RegionPixels region_of_band(std::size_t left, std::size_t width, std::size_t height) const;
-    std::size_t most_band_pixels() const { return region_size * conditions_.width; }
-
     SampleConditions conditions_;
-    std::size_t band_pixels_ = 0; // of a band of regions that is not complete, in planes:
-    std::vector<float> radiance_;
-    std::vector<float> standard_error_;
-    std::vector<float> lesser_;
     RegionErrors all_;
 };
 

@@ -261,30 +261,29 @@ void Film::read_rows_from(std::uint32_t first_row, PixelSums &sums) const {
 }
 
 // As a context states it for a film with these samples; of one whose tiles no context has, as if all pixels had the
-// fewest.
+// fewest, which do not tell what has changed.
 ErrorEstimate Film::error(bool may_miss_lamps) const {
-    const std::uint64_t samples = sample_count();
-    if (samples < min_estimate_samples)
+    if (sample_count() < min_estimate_samples)
         return unknown_error();
-    const std::optional<TileSamples> tiles = tile_samples(header_.tiles, bounds_);
-    if (tiles && !tiles->even())
-        return uneven_error(*tiles, may_miss_lamps);
-    ErrorEstimator estimator({bounds_.width, samples, facts_.sampler, may_miss_lamps,
-                              finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
-    read(bounds_, true, [&](const RowPart &row) { estimator.add(row.estimates); });
+    if (const std::optional<TileSamples> samples = tile_samples(header_.tiles, bounds_))
+        return error(*samples, errors_, may_miss_lamps);
+    FilmErrors errors;
+    const TileSamples fewest({bounds_.width, bounds_.height}, SampleSet({0, sample_count()}));
+    return error(fewest, errors, may_miss_lamps);
+}
+
+ErrorEstimate Film::error(const TileSamples &samples, FilmErrors &errors, bool may_miss_lamps) const {
+    if (samples.least() < min_estimate_samples)
+        return unknown_error();
+    ErrorEstimator estimator(
+        {facts_.sampler, may_miss_lamps, finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
+    for (const RegionErrors &region : errors.regions(samples, std::ldexp(1.0, facts_.unit_exponent), reader()))
+        estimator.add(region);
     return hides_error(estimator.rejected(), total_samples()) ? unknown_error() : estimator.result();
 }
 
-// Region by region.
-ErrorEstimate Film::uneven_error(const TileSamples &samples, bool may_miss_lamps) const {
-    if (samples.least() < min_estimate_samples)
-        return unknown_error();
-    ErrorEstimator estimator({bounds_.width, samples.least(), facts_.sampler, may_miss_lamps,
-                              finds_lamps_by_chance(facts_.estimator, facts_.max_path_length)});
-    const auto read_rows = [&](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
-    for (const RegionErrors &region : errors_.regions(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows))
-        estimator.add(region);
-    return hides_error(estimator.rejected(), samples.total()) ? unknown_error() : estimator.result();
+FilmErrors::ReadRows Film::reader() const {
+    return [this](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
 }
 
 TileSamples Film::samples_by_tile() const {
@@ -294,15 +293,13 @@ TileSamples Film::samples_by_tile() const {
     return std::move(*samples);
 }
 
-// Region by region, also where all tiles have the same samples, as a context looks that may tell them apart.
 std::optional<TileStep> Film::plan(const TileSamples &samples, double target_error, std::uint64_t most,
                                    bool may_miss_lamps) {
-    const auto read_rows = [&](std::uint32_t first_row, PixelSums &sums) { read_rows_from(first_row, sums); };
     const auto look_at_tiles = [&] {
-        return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), read_rows);
+        return errors_.tile_squares(samples, std::ldexp(1.0, facts_.unit_exponent), reader());
     };
     const auto look = [&]() -> AdaptivePlan::Error {
-        const ErrorEstimate error = uneven_error(samples, may_miss_lamps);
+        const ErrorEstimate error = this->error(samples, errors_, may_miss_lamps);
         return {error.relative_rmse.high, (error.uncertain & PT_UNCERTAIN_UNSEEN) != 0};
     };
     return AdaptivePlan(target_error, most, look, look_at_tiles).next(samples, header_.round);

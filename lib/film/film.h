@@ -5,10 +5,10 @@
 #include "lib/film/adaptive_plan.h"
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_bytes.h"
+#include "lib/film/film_errors.h"
 #include "lib/film/film_facts.h"
 #include "lib/film/pixel_sums.h"
 #include "lib/film/tile_map.h"
-#include "lib/film/uneven_errors.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -81,7 +81,8 @@ private:
         PixelSums sums;
     };
 
-    ErrorEstimate uneven_error(const TileSamples &samples, bool may_miss_lamps) const;
+    ErrorEstimate error(const TileSamples &samples, FilmErrors &errors, bool may_miss_lamps) const;
+    FilmErrors::ReadRows reader() const;
     void read_rows_from(std::uint32_t first_row, PixelSums &sums) const; // as many as these are, of the bounds
     std::vector<FilmTile> list() const;
     void require_disjoint(const std::vector<FilmTile> &others, const TileMap &map) const;
@@ -95,7 +96,7 @@ private:
     std::vector<Tile> tiles_;
     FilmHeader header_; // of them
     Rectangle bounds_;
-    mutable UnevenErrors errors_; // of looks before, so that the next is at what has changed
+    mutable FilmErrors errors_; // of looks before, so that the next is at what has changed
 };
 
 } // namespace pt

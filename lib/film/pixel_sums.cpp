@@ -199,11 +199,10 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
                             most};
     PixelEstimates estimates;
     estimates.radiance.resize(3 * pixel_count_);
-    for (auto *const values : {&estimates.standard_error, &estimates.lesser})
-        values->resize(with_standard_error ? 3 * pixel_count_ : 0);
+    estimates.standard_error.resize(with_standard_error ? 3 * pixel_count_ : 0);
     for (std::size_t first = 0; first < pixel_count_; first += most) {
         const std::size_t count = std::min(most, pixel_count_ - first);
-        estimates.rejected += estimate({first, count, 1, count}, unit, to);
+        estimate({first, count, 1, count}, unit, to);
         const auto interleave = [&](const float *from, std::vector<float> &values) {
             for (std::size_t i = 0; i < count && !values.empty(); ++i)
                 for (std::size_t channel = 0; channel < 3; ++channel)
@@ -211,7 +210,6 @@ PixelEstimates PixelSums::estimates(double unit, bool with_standard_error) const
         };
         interleave(to.radiance, estimates.radiance);
         interleave(to.standard_error, estimates.standard_error);
-        interleave(to.lesser, estimates.lesser);
     }
     return estimates;
 }

@@ -17,8 +17,6 @@ struct PixelEstimates {
     std::vector<float> radiance;       // mean of all samples; black where all were rejected
     std::vector<float> standard_error; // of that mean, from the difference of its parts; infinity where one is empty
                                        // and with up to 8 samples; nothing if it was not asked for
-    std::vector<float> lesser;         // the smaller of the means of its parts, with the standard error
-    std::uint64_t rejected = 0;        // samples left out of these pixels
 };
 
 // Rows of some of a number of consecutive pixels.
@@ -33,7 +31,7 @@ struct PixelRows {
 struct EstimatePlanes {
     float *radiance;       // of the first pixel
     float *standard_error; // likewise; nullptr: neither this nor the lesser
-    float *lesser;         // likewise
+    float *lesser;         // likewise: the smaller of the means of a pixel's parts, with the standard error
     std::size_t stride;    // from a plane to the next
     std::size_t row_stride;
 };

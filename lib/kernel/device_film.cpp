@@ -215,11 +215,6 @@ void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, 
     read_films(films, samples, first_pixel, sums, others);
 }
 
-void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
-                const std::function<void(const PixelSums &)> &receive) {
-    read_films(films, samples, {0, films.front()->pixel_count()}, most_pixels, receive);
-}
-
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive) {
     PixelSums sums;

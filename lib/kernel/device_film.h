@@ -88,10 +88,8 @@ private:
     std::vector<Strip> strips_;
 };
 
-// Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels, the
-// first beginning with pixel 0, or with the first of a range. Throws PT_ERROR_INTERNAL if a driver lost work.
-void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, std::uint32_t most_pixels,
-                const std::function<void(const PixelSums &)> &receive);
+// Reads the sum of films of one size, which together hold these samples, in pieces of so many consecutive pixels of a
+// range. Throws PT_ERROR_INTERNAL if a driver lost work.
 void read_films(std::span<DeviceFilm *const> films, const TileSamples &samples, const PixelRange &pixels,
                 std::uint32_t most_pixels, const std::function<void(const PixelSums &)> &receive);
 

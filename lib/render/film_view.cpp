@@ -118,11 +118,7 @@ bool FilmView::reads_on_device() const {
 void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool is_recorded) {
     const auto add = [&](const RegionErrors &region) { estimator.add(region); };
     if (!reads_on_device()) {
-        if (query.samples.even())
-            read_films(films(devices_), query.samples, piece_pixels,
-                       [&](const PixelSums &sums) { estimator.add(sums.estimates(query.unit, true)); });
-        else
-            std::ranges::for_each(uneven_errors_.regions(query.samples, query.unit, reader_of(query.samples)), add);
+        std::ranges::for_each(errors_.regions(query.samples, query.unit, reader_of(query.samples)), add);
         return;
     }
     if (!is_one_film())
@@ -134,10 +130,10 @@ void FilmView::estimate(ErrorEstimator &estimator, const ErrorQuery &query, bool
 }
 
 std::span<const double> FilmView::tile_squares(double unit, const TileSamples &samples) {
-    return uneven_errors_.tile_squares(samples, unit, reader_of(samples));
+    return errors_.tile_squares(samples, unit, reader_of(samples));
 }
 
-UnevenErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
+FilmErrors::ReadRows FilmView::reader_of(const TileSamples &samples) const {
     return [this, &samples](std::uint32_t first_row, PixelSums &rows) {
         read_films(films(devices_), samples, first_row * samples.grid().width, rows);
     };

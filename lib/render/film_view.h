@@ -3,8 +3,8 @@
 #pragma once
 
 #include "lib/film/error_estimate.h"
+#include "lib/film/film_errors.h"
 #include "lib/film/tile_samples.h"
-#include "lib/film/uneven_errors.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/film_sum.h"
 #include "lib/kernel/image_reader.h"
@@ -47,7 +47,7 @@ public:
     std::span<const double> tile_squares(double unit, const TileSamples &samples);
 
     // What was known of the films' samples is void.
-    void forget_samples() noexcept { uneven_errors_.forget(); }
+    void forget_samples() noexcept { errors_.forget(); }
 
     // Builds what it needs of kernels beside those of each device.
     void prepare();
@@ -80,12 +80,12 @@ private:
     std::vector<Band> bands() const;
     Sum &sum(std::uint32_t row_count);
     void estimate_bands(const ErrorQuery &query, const ErrorReader::Receive &receive);
-    UnevenErrors::ReadRows reader_of(const TileSamples &samples) const;
+    FilmErrors::ReadRows reader_of(const TileSamples &samples) const;
     void read_on_host(const Image &image, const ImageQuery &query, const TileSamples &samples) const;
 
     const Devices &devices_;
-    UnevenErrors uneven_errors_; // as far as the host finds them
-    std::list<Sum> sums_;        // of the sizes that bands have: two at the most
+    FilmErrors errors_;   // as far as the host finds them
+    std::list<Sum> sums_; // of the sizes that bands have: two at the most
 };
 
 } // namespace pt

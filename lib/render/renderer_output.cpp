@@ -38,8 +38,7 @@ const ErrorEstimate &Renderer::error() {
 void Renderer::look(std::span<double> by_tile, bool is_recorded) {
     const KernelsKept kept(devices_);
     const std::uint64_t samples = samples_.total();
-    ErrorEstimator estimator({settings_->width, samples_.of(0).count(), settings_->sampler,
-                              may_miss_lamps(*scene_, ray_start(), *settings_, samples),
+    ErrorEstimator estimator({settings_->sampler, may_miss_lamps(*scene_, ray_start(), *settings_, samples),
                               finds_lamps_by_chance(settings_->estimator, settings_->max_path_length)});
     view_.estimate(estimator, {scene_->film_unit, samples_, by_tile}, is_recorded);
     rejected_samples_ = estimator.rejected();

@@ -80,7 +80,8 @@ void save(std::span<DeviceFilm *const> films, const TileSamples &samples, const 
     const std::uint32_t width = samples.grid().width;
     std::uint32_t row = 0;
     PixelSums part;
-    read_films(films, samples, rows_of_piece(width) * width, [&](const PixelSums &sums) {
+    const PixelRange all{0, films.front()->pixel_count()};
+    read_films(films, samples, all, rows_of_piece(width) * width, [&](const PixelSums &sums) {
         const auto row_count = static_cast<std::uint32_t>(sums.pixel_count() / width);
         for (std::size_t i = 0; i < header.tiles.size(); ++i) {
             const Rectangle &pixels = header.tiles[i].pixels;

@@ -1,8 +1,8 @@
 // The estimate of an image's error from the device, against that of the host in double.
 #include "lib/base/error.h"
 #include "lib/film/error_estimate.h"
+#include "lib/film/film_errors.h"
 #include "lib/film/quotient.h"
-#include "lib/film/uneven_errors.h"
 #include "lib/kernel/device_film.h"
 #include "lib/kernel/error_reader.h"
 #include "lib/kernel/shader_source.h"
@@ -71,13 +71,23 @@ protected:
         device_with(pt::vulkan::gpu_like_policy());
     }
 
-    static pt::SampleConditions conditions(std::uint32_t width) {
-        return {width, 2 * part_samples, PT_SAMPLER_SOBOL, false};
+    static constexpr pt::SampleConditions conditions{PT_SAMPLER_SOBOL, false};
+
+    static pt::TileSamples samples_of(const Size &size) {
+        return pt::TileSamples({size.width, size.height}, pt::SampleSet({0, 2 * part_samples}));
     }
 
-    static pt::ErrorEstimate on_host(const pt::PixelSums &sums, std::uint32_t width, double unit) {
-        pt::ErrorEstimator estimator(conditions(width));
-        estimator.add(sums.estimates(unit, true));
+    static pt::FilmErrors::ReadRows reader_of(const pt::PixelSums &sums, const Size &size) {
+        return [&sums, size](std::uint32_t first_row, pt::PixelSums &rows) {
+            rows.copy(sums, std::size_t{first_row} * size.width, rows.pixel_count(), 0);
+        };
+    }
+
+    static pt::ErrorEstimate on_host(const pt::PixelSums &sums, const Size &size, double unit) {
+        pt::ErrorEstimator estimator(conditions);
+        pt::FilmErrors errors;
+        for (const pt::RegionErrors &region : errors.regions(samples_of(size), unit, reader_of(sums, size)))
+            estimator.add(region);
         return estimator.result();
     }
 
@@ -91,8 +101,8 @@ protected:
         pt::DeviceFilm film(device(), size.width, size.height, max_strip_pixels);
         EXPECT_TRUE(film.has_whole_regions());
         film.write(sums);
-        pt::ErrorEstimator estimator(conditions(size.width));
-        const pt::TileSamples samples(film.grid(), pt::SampleSet({0, 2 * part_samples}));
+        pt::ErrorEstimator estimator(conditions);
+        const pt::TileSamples samples = samples_of(size);
         pt::ErrorReader(device(), pipeline, film).read({unit, samples}, [&](const auto &region) {
             estimator.add(region);
         });
@@ -116,7 +126,7 @@ TEST_F(Estimate, IsThatOfTheHost) {
     for (const Size &size : {Size{1, 1}, Size{7, 3}, Size{33, 32}, Size{200, 111}, Size{64, 300}})
         for (const double unit : {1.0, 0x1p-6, 0x1p9}) {
             const pt::PixelSums sums = films_.film(size.width, size.height);
-            const pt::ErrorEstimate expected = on_host(sums, size.width, unit);
+            const pt::ErrorEstimate expected = on_host(sums, size, unit);
             const pt::ErrorEstimate found = on_device(sums, size, unit, size.width * 70).estimate;
             const std::string which =
                 std::to_string(size.width) + " x " + std::to_string(size.height) + " in " + std::to_string(unit);
@@ -131,7 +141,7 @@ TEST_F(Estimate, HoldsInUnitsBeyondTheSquaresOfFloats) {
     const Size size{70, 40};
     const pt::PixelSums sums = films_.film(size.width, size.height);
     for (const double unit : {0x1p-120, 0x1p-60, 0x1p30, 0x1p52}) {
-        const pt::ErrorEstimate expected = on_host(sums, size.width, unit);
+        const pt::ErrorEstimate expected = on_host(sums, size, unit);
         const pt::ErrorEstimate found = on_device(sums, size, unit, 1U << 20).estimate;
         expect_close(found.rmse, expected.rmse, std::to_string(unit));
         expect_close(found.relative_rmse, expected.relative_rmse, std::to_string(unit) + ", relative");
@@ -161,24 +171,21 @@ TEST_F(Estimate, OfTilesIsThatOfTheHost) {
     double largest = 0.0;
     for (const Size &size : {Size{75, 70}, Size{32, 64}, Size{5, 3}}) {
         const pt::PixelSums sums = films.film(size.width, size.height);
-        const pt::TileSamples samples({size.width, size.height}, pt::SampleSet({0, 2 * part_samples}));
+        const pt::TileSamples samples = samples_of(size);
         for (const double unit : {1.0, 0x1p-40, 0x1p52}) {
             const pt::vulkan::ComputePipeline pipeline = pt::estimate_pipeline(device(), pt::embedded_code().estimate);
             pt::DeviceFilm film(device(), size.width, size.height, size.width * pt::gpu::REGION_SIZE);
             film.write(sums);
             std::vector<double> squares(samples.grid().count());
-            pt::ErrorEstimator estimator(conditions(size.width));
+            pt::ErrorEstimator estimator(conditions);
             pt::ErrorReader(device(), pipeline, film).read({unit, samples, squares}, [&](const auto &region) {
                 estimator.add(region);
             });
-            const double expected_error = on_host(sums, size.width, unit).relative_rmse.estimate;
+            const double expected_error = on_host(sums, size, unit).relative_rmse.estimate;
             EXPECT_NEAR(estimator.result().relative_rmse.estimate, expected_error, 1e-5 * expected_error);
 
-            pt::UnevenErrors host;
-            const auto read = [&](std::uint32_t first_row, pt::PixelSums &rows) {
-                rows.copy(sums, std::size_t{first_row} * size.width, rows.pixel_count(), 0);
-            };
-            const std::span<const double> expected = host.tile_squares(samples, unit, read);
+            pt::FilmErrors host;
+            const std::span<const double> expected = host.tile_squares(samples, unit, reader_of(sums, size));
             for (std::size_t tile = 0; tile < squares.size(); ++tile) {
                 EXPECT_NEAR(squares[tile], expected[tile], 1e-5 * expected[tile]) << tile;
                 largest = std::max(largest, squares[tile]);

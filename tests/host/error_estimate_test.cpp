@@ -1,6 +1,7 @@
 // Arithmetic of the error estimate on small images whose result is known.
 #include "lib/film/error_estimate.h"
-#include "lib/film/pixel_sums.h"
+
+#include "tests/support/image_regions.h"
 
 #include <gtest/gtest.h>
 #include <pt/stats.h>
@@ -15,8 +16,8 @@ namespace {
 // So many samples that light unseen by them counts for nothing.
 constexpr std::uint64_t sample_count = std::uint64_t{1} << 40;
 
-pt::PixelEstimates pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
-    pt::PixelEstimates pixels{radiance, standard_error, {}, 0};
+pt::ImageValues pixels_of(const std::vector<float> &radiance, const std::vector<float> &standard_error) {
+    pt::ImageValues pixels{radiance, standard_error, {}};
     for (std::size_t i = 0; i < radiance.size(); ++i)
         pixels.lesser.push_back(std::isfinite(standard_error[i]) ? radiance[i] - standard_error[i] : 0.0F);
     return pixels;
@@ -25,8 +26,8 @@ pt::PixelEstimates pixels_of(const std::vector<float> &radiance, const std::vect
 pt::ErrorEstimate estimate(std::uint32_t width, const std::vector<float> &radiance,
                            const std::vector<float> &standard_error, std::uint32_t sampler = PT_SAMPLER_RANDOM,
                            bool may_miss_lamps = false) {
-    pt::ErrorEstimator estimator({width, sample_count, sampler, may_miss_lamps});
-    estimator.add(pixels_of(radiance, standard_error));
+    pt::ErrorEstimator estimator({sampler, may_miss_lamps});
+    add_regions(estimator, width, pixels_of(radiance, standard_error), sample_count);
     return estimator.result();
 }
 
@@ -106,8 +107,8 @@ TEST(ErrorEstimate, OfLampsFoundByChanceAsksNotWhatWasMetAgain) {
         errors[3 * i] = i == 4 + 4 * 32 ? 100.0F : 0.0F;
     }
     for (const bool by_chance : {false, true}) {
-        pt::ErrorEstimator estimator({32, sample_count, PT_SAMPLER_RANDOM, false, by_chance});
-        estimator.add(pixels_of(radiance, errors));
+        pt::ErrorEstimator estimator({PT_SAMPLER_RANDOM, false, by_chance});
+        add_regions(estimator, 32, pixels_of(radiance, errors), sample_count);
         const double error =
             estimator.result().relative_rmse.estimate * std::sqrt(3.0 * 32.0 * 32.0) / raised(1.0, 1.0);
         EXPECT_NEAR(error, by_chance ? 100.0 / 0.1 : 1.0, 1e-3);
@@ -123,8 +124,8 @@ TEST(ErrorEstimate, CountsLightThatMayBeUnseen) {
             radiance[3 * (32 * row + 16) + channel] = 160.0F;
             errors[3 * (32 * row + 16) + channel] = 1.0F;
         }
-    pt::ErrorEstimator estimator({32, 16, PT_SAMPLER_RANDOM, false});
-    estimator.add(pixels_of(radiance, errors));
+    pt::ErrorEstimator estimator({PT_SAMPLER_RANDOM, false});
+    add_regions(estimator, 32, pixels_of(radiance, errors), 16);
     const pt::ErrorEstimate found = estimator.result();
     const double seen = 1.0 / (159.0 * 159.0 + 0.01);
     const double unseen = std::log1p(10.0 * 10.0 / 0.01) / 32.0; // in each of two columns
@@ -188,33 +189,6 @@ TEST(ErrorEstimate, BoundsComeFromTheSpreadOverTiles) {
     const std::vector<float> alike(errors.size(), 1.0F);
     const pt::Interval without_spread = estimate(16, radiance, alike, PT_SAMPLER_SOBOL).rmse;
     EXPECT_EQ(without_spread.estimate, without_spread.high) << "within the bounds";
-}
-
-// However the pixels are cut into pieces; with regions and tiles cut off at the right and at the bottom.
-TEST(ErrorEstimate, DoesNotDependOnThePieces) {
-    constexpr std::uint32_t width = 43;
-    constexpr std::uint32_t height = 69;
-    std::vector<float> radiance;
-    std::vector<float> errors;
-    for (std::uint32_t i = 0; i < 3 * width * height; ++i) {
-        radiance.push_back(static_cast<float>(i * 7919 % 101) * 0.1F);
-        errors.push_back(static_cast<float>(i * 104729 % 97) * 0.01F);
-    }
-    const pt::ErrorEstimate whole = estimate(width, radiance, errors);
-    pt::ErrorEstimator estimator({width, sample_count, PT_SAMPLER_RANDOM, false});
-    for (std::size_t first = 0; first < radiance.size(); first += 3 * 50) {
-        const std::size_t end = std::min(radiance.size(), first + 3 * 50);
-        const auto part = [&](const std::vector<float> &values) {
-            return std::vector(values.begin() + static_cast<std::ptrdiff_t>(first),
-                               values.begin() + static_cast<std::ptrdiff_t>(end));
-        };
-        estimator.add(pixels_of(part(radiance), part(errors)));
-    }
-    const pt::ErrorEstimate pieces = estimator.result();
-    EXPECT_EQ(pieces.rmse.estimate, whole.rmse.estimate);
-    EXPECT_EQ(pieces.relative_rmse.estimate, whole.relative_rmse.estimate);
-    EXPECT_EQ(pieces.relative_rmse.high, whole.relative_rmse.high);
-    EXPECT_GT(whole.relative_rmse.high, whole.relative_rmse.estimate);
 }
 
 TEST(Exaggeration, IsThatOfNetsForSequencesOnly) {

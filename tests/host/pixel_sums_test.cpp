@@ -83,6 +83,10 @@ TEST(PixelSums, SayOfManyPixelsWhatTheySayOfEach) {
     const pt::PixelSums sums = sums_of(pixels);
     const pt::PixelEstimates found = sums.estimates(0.25, true);
     EXPECT_EQ(sums.estimates(0.25, false).radiance, found.radiance);
+    const std::size_t count = pixels.size();
+    std::vector<float> planes(9 * count);
+    const std::uint64_t found_rejected = sums.estimate(
+        {0, count, 1, count}, 0.25, {planes.data(), &planes[3 * count], &planes[6 * count], count, count});
     std::uint64_t rejected = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         for (const auto &part : pixels[i])
@@ -91,10 +95,11 @@ TEST(PixelSums, SayOfManyPixelsWhatTheySayOfEach) {
             const auto [mean, standard_error, lesser] = expected(pixels[i], channel);
             EXPECT_EQ(found.radiance[3 * i + channel], mean) << i;
             EXPECT_EQ(found.standard_error[3 * i + channel], standard_error) << i;
-            EXPECT_EQ(found.lesser[3 * i + channel], lesser) << i;
+            EXPECT_EQ(planes[channel * count + i], mean) << i;
+            EXPECT_EQ(planes[(6 + channel) * count + i], lesser) << i;
         }
     }
-    EXPECT_EQ(found.rejected, rejected);
+    EXPECT_EQ(found_rejected, rejected);
 }
 
 } // namespace

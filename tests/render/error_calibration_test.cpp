@@ -1,10 +1,10 @@
 // The error that a render states without a reference, against its error by converged references.
 #include "lib/film/error_estimate.h"
 #include "lib/film/film_parts.h"
-#include "lib/film/pixel_sums.h"
 #include "tests/render/reference_image.h"
 #include "tests/support/context_fixture.h"
 #include "tests/support/coursework_scene.h"
+#include "tests/support/image_regions.h"
 #include "tests/support/scene_of.h"
 
 #include <pt/film.h>
@@ -244,17 +244,17 @@ INSTANTIATE_TEST_SUITE_P(
 template <typename PartOf>
 double error_from_parts(const std::vector<Image> &samples, const PartOf &part_of) {
     const auto count = static_cast<double>(samples.size());
-    pt::PixelEstimates pixels;
+    pt::ImageValues pixels;
     for (std::size_t i = 0; i < samples[0].size(); ++i) {
         double sums[2] = {};
         for (std::size_t s = 0; s < samples.size(); ++s)
             sums[part_of(static_cast<uint32_t>(s))] += static_cast<double>(samples[s][i]);
-        pixels.radiance.push_back(static_cast<float>((sums[0] + sums[1]) / count));
+        pixels.mean.push_back(static_cast<float>((sums[0] + sums[1]) / count));
         pixels.standard_error.push_back(static_cast<float>(std::abs(sums[0] - sums[1]) / count));
         pixels.lesser.push_back(static_cast<float>(2.0 * std::min(sums[0], sums[1]) / count));
     }
-    pt::ErrorEstimator estimator({calibration_width, samples.size(), PT_SAMPLER_SOBOL, false});
-    estimator.add(pixels);
+    pt::ErrorEstimator estimator({PT_SAMPLER_SOBOL, false});
+    add_regions(estimator, calibration_width, pixels, samples.size());
     return estimator.result().relative_rmse.estimate;
 }
 

@@ -1,6 +1,5 @@
-// What tiles and regions of a film whose tiles have different samples say about its error, on the host. Kept from look
-// to look, with the estimates of its pixels, 36 bytes each: a tile is looked at again when it has other samples than
-// before, and a region when one of its tiles has.
+// What the tiles and the regions of a film say about its error, on the host. Kept from look to look: a tile is looked
+// at again when it has other samples than before, and a region when one of its tiles has.
 #pragma once
 
 #include "lib/film/pixel_sums.h"
@@ -14,7 +13,7 @@
 
 namespace pt {
 
-class UnevenErrors {
+class FilmErrors {
 public:
     // Sets the sums of as many pixels, which are whole rows of the film from this one on.
     using ReadRows = std::function<void(std::uint32_t first_row, PixelSums &rows)>;
@@ -36,17 +35,10 @@ private:
         std::vector<Fact> facts;
     };
 
-    template <typename Fact, typename LookAt>
-    static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, const LookAt &look_at);
+    template <typename Fact>
+    static void update(Known<Fact> &known, std::uint32_t side, const TileSamples &samples, double unit,
+                       const ReadRows &read, Fact (*fact_of)(const RegionPixels &));
 
-    void estimate(const TileSamples &samples, double unit, const ReadRows &read);
-    std::uint64_t estimate_tile(const Rectangle &tile, const TileGrid &grid, double unit, const PixelSums &rows);
-    RegionPixels pixels_of(const TileSamples &samples, const Rectangle &pixels) const;
-
-    std::vector<float> radiance_; // of all of the film's pixels, in planes
-    std::vector<float> standard_error_;
-    std::vector<float> lesser_;
-    Known<std::uint64_t> rejected_; // by tile
     Known<double> squares_;
     Known<RegionErrors> regions_;
 };

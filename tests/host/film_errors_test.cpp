@@ -1,5 +1,5 @@
-// Tests of what is kept from look to look at an uneven film: what a new look at all of it says.
-#include "lib/film/uneven_errors.h"
+// Tests of what is kept from look to look at a film: what a new look at all of it says.
+#include "lib/film/film_errors.h"
 
 #include "lib/film/film_parts.h"
 
@@ -14,14 +14,14 @@
 
 namespace {
 
-constexpr pt::TileGrid grid{45, 37}; // tiles and regions that are cut at the right and at the bottom
+constexpr pt::TileGrid film_grid{45, 37}; // tiles and regions that are cut at the right and at the bottom
 constexpr std::uint32_t samples_of_part = 16;
 
 // A film of random sums.
 pt::PixelSums random_film(std::uint32_t seed) {
     std::mt19937 random(seed);
     pt::PixelSums sums;
-    sums.resize(std::size_t{grid.width} * grid.height);
+    sums.resize(std::size_t{film_grid.width} * film_grid.height);
     for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
         for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane) {
             const bool is_top = plane % pt::gpu::FILM_SUM_WORDS == pt::gpu::FILM_SUM_WORDS - 1;
@@ -34,19 +34,19 @@ pt::PixelSums random_film(std::uint32_t seed) {
     return sums;
 }
 
-pt::UnevenErrors::ReadRows reader_of(const pt::PixelSums &film) {
+pt::FilmErrors::ReadRows reader_of(const pt::PixelSums &film) {
     return [&film](std::uint32_t first_row, pt::PixelSums &rows) {
-        rows.copy(film, std::size_t{first_row} * grid.width, rows.pixel_count(), 0);
+        rows.copy(film, std::size_t{first_row} * film_grid.width, rows.pixel_count(), 0);
     };
 }
 
 pt::TileSamples all_samples() {
-    return pt::TileSamples(grid, pt::SampleSet(pt::SampleRange{0, 2 * samples_of_part}));
+    return pt::TileSamples(film_grid, pt::SampleSet(pt::SampleRange{0, 2 * samples_of_part}));
 }
 
 // What errors say of a film, and that it is what a first look says.
-void expect_first_look(pt::UnevenErrors &errors, const pt::TileSamples &samples, const pt::PixelSums &film) {
-    pt::UnevenErrors first;
+void expect_first_look(pt::FilmErrors &errors, const pt::TileSamples &samples, const pt::PixelSums &film) {
+    pt::FilmErrors first;
     const std::span<const double> found = errors.tile_squares(samples, 1.0, reader_of(film));
     const std::span<const double> expected = first.tile_squares(samples, 1.0, reader_of(film));
     EXPECT_TRUE(std::ranges::equal(found, expected));
@@ -61,8 +61,8 @@ void expect_first_look(pt::UnevenErrors &errors, const pt::TileSamples &samples,
     }
 }
 
-TEST(UnevenErrors, AreThoseOfAFirstLookWhereTilesHaveChanged) {
-    pt::UnevenErrors errors;
+TEST(FilmErrors, AreThoseOfAFirstLookWhereTilesHaveChanged) {
+    pt::FilmErrors errors;
     pt::PixelSums film = random_film(2);
     pt::TileSamples samples = all_samples();
     expect_first_look(errors, samples, film);
@@ -70,20 +70,20 @@ TEST(UnevenErrors, AreThoseOfAFirstLookWhereTilesHaveChanged) {
     // Tiles 7 and 25 take the sums of another film, of which one sample of each pixel was left out.
     const pt::PixelSums other = random_film(3);
     for (const std::size_t tile : {7, 25}) {
-        const pt::Rectangle pixels = grid.pixels(tile);
+        const pt::Rectangle pixels = film_grid.pixels(tile);
         for (std::size_t y = pixels.y; y < pixels.y + pixels.height; ++y)
             for (std::uint32_t part = 0; part < pt::gpu::FILM_PARTS; ++part)
                 for (std::uint32_t plane = 0; plane < pt::gpu::FILM_WORDS; ++plane)
-                    std::ranges::copy(other.plane(part, plane).subspan(y * grid.width + pixels.x, pixels.width),
-                                      film.plane(part, plane).subspan(y * grid.width + pixels.x).begin());
+                    std::ranges::copy(other.plane(part, plane).subspan(y * film_grid.width + pixels.x, pixels.width),
+                                      film.plane(part, plane).subspan(y * film_grid.width + pixels.x).begin());
         samples.set(tile, pt::SampleSet(pt::SampleRange{0, 2 * samples_of_part + 1}));
     }
     expect_first_look(errors, samples, film);
 }
 
 // Not told of the change, they go by what they have kept.
-TEST(UnevenErrors, KeepWhatTheyKnowOfTilesWithTheSameSamples) {
-    pt::UnevenErrors errors;
+TEST(FilmErrors, KeepWhatTheyKnowOfTilesWithTheSameSamples) {
+    pt::FilmErrors errors;
     const pt::PixelSums film = random_film(2);
     const std::span<const double> found = errors.tile_squares(all_samples(), 1.0, reader_of(film));
     const std::vector<double> before(found.begin(), found.end());
@@ -93,11 +93,11 @@ TEST(UnevenErrors, KeepWhatTheyKnowOfTilesWithTheSameSamples) {
     expect_first_look(errors, all_samples(), other);
 }
 
-TEST(UnevenErrors, AreThoseOfAFirstLookAfterOneThatFailed) {
+TEST(FilmErrors, AreThoseOfAFirstLookAfterOneThatFailed) {
     const pt::PixelSums film = random_film(2);
     const pt::PixelSums other = random_film(4);
     for (const std::uint32_t failing_row : {0, 16}) {
-        pt::UnevenErrors errors;
+        pt::FilmErrors errors;
         expect_first_look(errors, all_samples(), film);
         errors.forget();
         const auto read = [&](std::uint32_t first_row, pt::PixelSums &rows) {
