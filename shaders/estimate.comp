@@ -9,8 +9,11 @@
 layout(local_size_x = ESTIMATE_WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { EstimateConstants estimate; };
 
-#include "film_mean.glsl"
-#include "pixel_error.glsl"
+#include "error_squares.glsl"
+#include "film_parts.glsl"
+#include "neighbourhood.h"
+#include "pixel_error.h"
+#include "quotient.h"
 
 layout(set = 0, binding = BINDING_RESOLVED) writeonly buffer Regions { RegionError regions[]; } estimated;
 
@@ -27,12 +30,6 @@ struct Findings {
     uvec2 rejected; // samples, low and high word
     uint unknown;   // pixels without a sample in either part
     uint lost;      // pixels that do not have the samples expected
-};
-
-// A sum of squares, and the sum of the squares of the pixels' shares in it.
-struct Squares {
-    float sum;
-    float shares;
 };
 
 // The squares of gpu_layout.h's RegionError.
@@ -67,16 +64,17 @@ shared float rare_squares[RARE_KINDS][TILE_SIZE][ESTIMATE_WORKGROUP_SIZE];
 // pixels an error took 89 us with 1, 84 with 2 and 83 with 4, of twice as many 151, 147 and 134.
 const uint PIXELS_ASKED_FOR = 4u;
 
-// A number of up to 160 bits that counts 2^-60ths.
-float as_float(uint words[NUMBER_WORDS])
+// A number that counts 2^-60ths.
+float as_float(WholeNumber number)
 {
-    return float(words[0]) * exp2(-60.0) + float(words[1]) * exp2(-28.0) + float(words[2]) * exp2(4.0)
-         + float(words[3]) * exp2(36.0) + float(words[4]) * exp2(68.0);
+    return float(number.words[0]) * exp2(-60.0) + float(number.words[1]) * exp2(-28.0)
+         + float(number.words[2]) * exp2(4.0) + float(number.words[3]) * exp2(36.0)
+         + float(number.words[4]) * exp2(68.0);
 }
 
 float as_float(uvec4 sum)
 {
-    return as_float(uint[NUMBER_WORDS](sum.x, sum.y, sum.z, sum.w, 0u));
+    return as_float(whole_number(sum));
 }
 
 // What the samples of a pixel show in one channel.
@@ -86,15 +84,15 @@ struct Shown {
     float lesser; // of the means of the parts
 };
 
-// The standard error is the difference of the sums, each times the other's count, times a scale (film_mean.glsl).
+// The standard error is the difference of the sums, each times the other's count, times a scale (quotient.h).
 Shown shown_by(uvec4 sum_a, uvec4 sum_b, uvec2 counts)
 {
     bool first_is_less;
-    uint words[NUMBER_WORDS] = weighted_difference(sum_a, counts.x, sum_b, counts.y, first_is_less);
+    WholeNumber difference = weighted_difference(sum_a, counts.x, sum_b, counts.y, first_is_less);
     float a = float(counts.x);
     float b = float(counts.y);
     float scale = inversesqrt(a) * inversesqrt(b) / (a + b);
-    return Shown(as_float(add_with_carry(sum_a, sum_b)) / float(counts.x + counts.y), as_float(words) * scale,
+    return Shown(as_float(add_with_carry(sum_a, sum_b)) / float(counts.x + counts.y), as_float(difference) * scale,
                  first_is_less ? as_float(sum_a) / a : as_float(sum_b) / b);
 }
 
@@ -125,56 +123,23 @@ Findings findings_of(PartCount older, PartCount newer, uvec2 expected)
                     uvec2(older.done, newer.done) != expected ? 1u : 0u);
 }
 
-// Where a region ends, a value that is missing beside a pixel lies below or above all.
-const float BELOW_ALL = -1.0;
-const float ABOVE_ALL = 3e38;
-
-// The values left of a pixel, in it and right of it, in ascending order; those missing come first.
-vec3 row_about(ivec2 place, ivec2 size)
+// The values left of a pixel, in it and right of it.
+Sorted row_about(ivec2 place, ivec2 size)
 {
     float left = place.x > 0 ? means[place.y][max(place.x, 1) - 1] : BELOW_ALL;
     float right = place.x + 1 < size.x ? means[place.y][min(place.x, int(REGION_SIZE) - 2) + 1] : BELOW_ALL;
     return sorted(left, means[place.y][place.x], right);
 }
 
-// The same values where the one that is missing comes last.
-vec3 with_missing_above(vec3 row)
-{
-    return vec3(row.yz, ABOVE_ALL);
-}
-
-// The values that touch a pixel, and its own: k of nine, where the region ends beside it. The lower of two in the
-// middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine if 4 - (k - 1) / 2
-// of those that are missing lie below all, and the others above: of the three missing beside an edge two lie below, and
-// of the five about a corner three.
-Neighbourhood neighbourhood(vec3 above, vec3 row, vec3 below, ivec2 place, ivec2 size)
-{
-    bool is_first = place.y == 0;
-    bool is_last = place.y == size.y - 1;
-    bool is_beside_edge = place.x == 0 || place.x == size.x - 1;
-    float largest = max(row.z, max(is_first ? 0.0 : above.z, is_last ? 0.0 : below.z));
-    vec3 missing = vec3(BELOW_ALL, BELOW_ALL, is_beside_edge ? BELOW_ALL : ABOVE_ALL);
-    above = is_first ? missing : is_beside_edge && is_last ? with_missing_above(above) : above;
-    row = is_beside_edge && (is_first || is_last) ? with_missing_above(row) : row;
-    below = is_last ? missing : is_beside_edge ? with_missing_above(below) : below;
-    return Neighbourhood(median_of_rows(above, row, below), largest);
-}
-
-// Likewise in a region of a single row or column, where one or two values touch a pixel, or none. A pixel alone has no
-// neighbours.
+// Of a pixel in a region of a single row or column.
 Neighbourhood neighbourhood_in_line(ivec2 place, ivec2 size)
 {
     ivec2 along = size.x > 1 ? ivec2(1, 0) : ivec2(0, 1);
     ivec2 before = place - along;
     ivec2 behind = place + along;
-    float own = means[place.y][place.x];
-    bool has_before = all(greaterThanEqual(before, ivec2(0)));
-    bool has_behind = all(lessThan(behind, size));
-    float first = has_before ? means[before.y][before.x] : BELOW_ALL;
-    float second = has_behind ? means[behind.y][behind.x] : BELOW_ALL;
-    vec3 values = sorted(first, own, second);
-    bool is_alone = !has_before && !has_behind;
-    return Neighbourhood(is_alone ? 0.0 : values.y, values.z);
+    return neighbourhood_in_line(all(greaterThanEqual(before, ivec2(0))) ? means[before.y][before.x] : BELOW_ALL,
+                                 means[place.y][place.x],
+                                 all(lessThan(behind, size)) ? means[behind.y][behind.x] : BELOW_ALL);
 }
 
 // Of the pixels of its tile that touch a pixel, and itself.
@@ -190,23 +155,6 @@ float largest_in_tile(uvec2 place, uvec2 size)
     return largest;
 }
 
-// Of a sum that is not 0. What is all of it has a share of 1, though a division may be off by some units in the last
-// place: one tile alone has no spread, which the host finds as a difference of shares.
-float share_of(float part, float sum)
-{
-    return part == sum ? 1.0 : part / sum;
-}
-
-Squares squares_of(float values[TILE_SIZE])
-{
-    Squares all = Squares(0.0, 0.0);
-    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
-        all.sum += values[i];
-    [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
-        all.shares += all.sum > 0.0 ? squared(share_of(values[i], all.sum)) : 0.0;
-    return all;
-}
-
 // Of the pixels of an invocation that have some.
 Squares rare_squares_of(uint kind, uint invocation, uint with_rare)
 {
@@ -216,14 +164,6 @@ Squares rare_squares_of(uint kind, uint invocation, uint with_rare)
     [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
         values[i] = (with_rare & 1u << i) != 0u ? rare_squares[kind - FIRST_RARE_KIND][i][invocation] : 0.0;
     return squares_of(values);
-}
-
-// Of both the pixels.
-Squares united(Squares a, Squares b)
-{
-    float sum = a.sum + b.sum;
-    return Squares(sum, sum > 0.0 ? squared(share_of(a.sum, sum)) * a.shares + squared(share_of(b.sum, sum)) * b.shares
-                                  : 0.0);
 }
 
 // Of all tiles of a region, which are in errors, with the part of the pixels of a whole tile that each has.
@@ -313,7 +253,7 @@ void main()
             findings = united(findings, findings_of(parts[0][i], parts[1][i], expected));
     }
 
-    const RelativeError relative = RelativeError(estimate.relative_offset, estimate.relative_scale);
+    const float offset_square = squared(estimate.relative_offset);
     float squares[FIRST_RARE_KIND][TILE_SIZE]; // of all channels
     [[unroll]] for (uint kind = 0u; kind < FIRST_RARE_KIND; ++kind)
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
@@ -367,24 +307,29 @@ void main()
         // What is expected of each pixel's error. The rows about it are taken along from pixel to pixel.
         const bool is_line = size.x == 1u || size.y == 1u;
         const ivec2 bounds = ivec2(size);
-        vec3 above = pixels > 0u && place.y > 0u ? row_about(ivec2(place) - ivec2(0, 1), bounds) : vec3(0.0);
-        vec3 row = pixels > 0u ? row_about(ivec2(place), bounds) : vec3(0.0);
+        const Sorted none = Sorted(0.0, 0.0, 0.0);
+        Sorted above = pixels > 0u && place.y > 0u ? row_about(ivec2(place) - ivec2(0, 1), bounds) : none;
+        Sorted row = pixels > 0u ? row_about(ivec2(place), bounds) : none;
         [[unroll]] for (uint i = 0u; i < TILE_SIZE; ++i)
             if (i < pixels) {
                 const ivec2 at = ivec2(place) + ivec2(0, i);
                 const float mean = means[at.y][at.x];
-                const vec3 below = at.y + 1 < bounds.y ? row_about(at + ivec2(0, 1), bounds) : vec3(0.0);
+                const float standard_error = standard_errors[i];
+                const float scaled_error = standard_error * estimate.relative_scale;
+                const bool is_last_row = at.y + 1 == bounds.y;
+                const Sorted below = is_last_row ? none : row_about(at + ivec2(0, 1), bounds);
                 const Neighbourhood near =
-                    is_line ? neighbourhood_in_line(at, bounds) : neighbourhood(above, row, below, at, bounds);
+                    is_line ? neighbourhood_in_line(at, bounds)
+                            : neighbourhood(above, row, below, at.y == 0, is_last_row, at.x == 0 || at.x == bounds.x - 1);
                 above = row;
                 row = below;
                 const float around = max(near.median, level_about(mean, tile_set, region_set));
-                squares[SQUARE][i] += squared(standard_errors[i]);
-                const float square = relative_square(standard_errors[i], mean, lessers[i], around, relative);
-                const bool alone = stands_out(mean, around, relative);
-                const bool once = is_met_once(standard_errors[i], mean, lessers[i]);
-                if (alone && once) {
-                    const vec2 rare = vec2(square, square_as_lamp(standard_errors[i], mean, relative));
+                squares[SQUARE][i] += squared(standard_error);
+                const Limit limit = limit_of(standard_error, mean, lessers[i], around, offset_square);
+                const float square = relative_square(scaled_error, limit);
+                const bool once = is_met_once(standard_error, mean, lessers[i]);
+                if (limit.alone > 0.0 && once) {
+                    const vec2 rare = vec2(square, square_as_lamp(scaled_error, mean, offset_square));
                     const bool is_first = (with_rare & 1u << i) == 0u;
                     [[unroll]] for (uint kind = 0u; kind < RARE_KINDS; ++kind)
                         rare_squares[kind][i][invocation] =
@@ -392,14 +337,14 @@ void main()
                     with_rare |= 1u << i;
                 } else
                     squares[RELATIVE_SQUARE][i] += square;
-                met_again += alone && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
-                unseen += unseen_square(mean, near.largest, sample_count, relative.offset);
+                met_again += limit.alone > 0.0 && !once && is_met_again(mean, lessers[i]) ? 1u : 0u;
+                unseen += unseen_square(mean, near.largest, sample_count, offset_square);
                 if (estimate.by_tile == 1u) {
                     const float level = mean_besides_and_without_largest(tile_set, mean);
-                    own += vec2(once && stands_out(mean, level, relative)
-                                    ? square_as_lamp(standard_errors[i], mean, relative)
-                                    : relative_square(standard_errors[i], mean, lessers[i], level, relative),
-                                unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, relative.offset));
+                    const Limit of_tile = limit_of(standard_error, mean, lessers[i], level, offset_square);
+                    own += vec2(once && of_tile.alone > 0.0 ? square_as_lamp(scaled_error, mean, offset_square)
+                                                            : relative_square(scaled_error, of_tile),
+                                unseen_square(mean, largest_in_tile(uvec2(at), size), sample_count, offset_square));
                 }
             }
         barrier(); // before the next channel's means
@@ -444,5 +389,5 @@ void main()
     // What tiles say of themselves. Where both parts of some pixel do not have a sample, nothing is known.
     if (estimate.by_tile == 1u && sums_up_tile && all(lessThan(tile_place, size)))
         tile_errors.squares[film_tile(region_place + tile_place)] =
-            of_tile.findings.unknown > 0u ? vec2(uintBitsToFloat(INFINITY_BITS)) : of_tile.own;
+            of_tile.findings.unknown > 0u ? vec2(infinity) : of_tile.own;
 }

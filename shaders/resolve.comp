@@ -7,8 +7,9 @@
 layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { ResolveConstants resolve; };
 
-#include "film_mean.glsl"
+#include "film_parts.glsl"
 #include "half.glsl"
+#include "quotient.h"
 
 layout(constant_id = 0) const uint FORMAT = FORMAT_RGB32F;
 
@@ -32,8 +33,11 @@ uint value_of(uint channel, uint pixel_in_strip, PartCount older, PartCount newe
     if (resolve.quantity == QUANTITY_RADIANCE)
         return mean_bits(add_with_carry(sum_older, sum_newer), older.accepted + newer.accepted, resolve.exponent);
     if (!knows_error(older, newer))
-        return INFINITY_BITS;
-    return standard_error_bits(sum_older, older.accepted, sum_newer, newer.accepted, resolve.exponent);
+        return floatBitsToUint(infinity);
+    bool unused;
+    return standard_error_bits(
+        weighted_difference(sum_older, older.accepted, sum_newer, newer.accepted, unused),
+        error_divisor(older.accepted, newer.accepted), resolve.exponent);
 }
 
 void main()

@@ -1,9 +1,10 @@
-// What the pixels of a region say about the error of an image, on the host; pixel_error.glsl and estimate.comp say the
-// same on devices. It depends on nothing outside the region, so regions can
-// be looked at in any order and anywhere.
+// What the pixels of a region say about the error of an image, on the host, by shaders/pixel_error.h; estimate.comp
+// says the same on devices. It depends on nothing outside the region, so regions can be looked at in any order and
+// anywhere.
 #pragma once
 
 #include "lib/film/neighbourhoods.h"
+#include "shaders/pixel_error.h"
 
 #include <array>
 #include <cstddef>
@@ -14,9 +15,7 @@ namespace pt {
 // Keeps black pixels from counting without bound.
 inline constexpr double relative_offset = 0.01;
 
-inline double squared(double value) {
-    return value * value;
-}
+using gpu::squared;
 
 // The pixels of a region, row by row, at the right and bottom edges of an image smaller ones, in planes: R of all
 // pixels, then G, then B.

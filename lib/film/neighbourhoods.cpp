@@ -1,104 +1,48 @@
 #include "lib/film/neighbourhoods.h"
 
-#include "lib/film/min_max.h"
+#include "shaders/neighbourhood.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace pt {
 
 namespace {
 
-// Where a region ends, a value that is missing beside a pixel lies below or above all.
-constexpr float below_all = -1.0F;
-constexpr float above_all = std::numeric_limits<float>::infinity();
-
-// Three values in ascending order.
-struct Sorted {
-    float low;
-    float middle;
-    float high;
-};
-
-Sorted sorted(float a, float b, float c) {
-    const float low = less_of(a, b);
-    const float high = more_of(a, b);
-    return {less_of(low, c), more_of(low, less_of(high, c)), more_of(high, c)};
-}
-
-// Of nine values in three rows, each sorted: the median is the middle one of the largest of the low values, the middle
-// one of the middle values and the smallest of the high values (Paeth 1990, Median finding on a 3 x 3 grid).
-float median_of_rows(const Sorted &a, const Sorted &b, const Sorted &c) {
-    return sorted(more_of(more_of(a.low, b.low), c.low), sorted(a.middle, b.middle, c.middle).middle,
-                  less_of(less_of(a.high, b.high), c.high))
-        .middle;
-}
+using gpu::more_of;
 
 // About each pixel of a row: the values left of it, in it and right of it; those missing come first.
 struct SortedRow {
     std::array<float, region_size> low;
     std::array<float, region_size> middle;
     std::array<float, region_size> high;
-    std::array<float, region_size> largest; // of those not missing
 
-    Sorted at(std::size_t x) const { return {low[x], middle[x], high[x]}; }
+    gpu::Sorted at(std::size_t x) const { return {low[x], middle[x], high[x]}; }
 };
 
 void sort_row(const PixelPlane &region, std::size_t y, SortedRow &to) {
     std::array<float, region_size + 2> row{};
-    row[0] = below_all;
+    row[0] = gpu::BELOW_ALL;
     std::copy_n(region.values + y * region.stride, region.width, row.begin() + 1);
-    row[region.width + 1] = below_all;
+    row[region.width + 1] = gpu::BELOW_ALL;
     for (std::size_t x = 0; x < region_size; ++x) {
-        const auto [low, middle, high] = sorted(row[x], row[x + 1], row[x + 2]);
+        const auto [low, middle, high] = gpu::sorted(row[x], row[x + 1], row[x + 2]);
         to.low[x] = low;
         to.middle[x] = middle;
         to.high[x] = high;
-        to.largest[x] = high;
     }
 }
 
-// The lower of two in the middle is wanted, that is of k values the one with (k - 1) / 2 below it, which is the fifth
-// of nine if 4 - (k - 1) / 2 of those missing lie below all, and the others above: of the three missing beside an edge
-// two lie below, and of the five about a corner three. The row beyond the first and the last, for pixels that are not
-// in a corner:
-SortedRow missing_row() {
-    SortedRow row;
-    row.low.fill(below_all);
-    row.middle.fill(below_all);
-    row.high.fill(above_all);
-    row.largest.fill(0.0F);
-    return row;
-}
-
-// The same values where the one that is missing comes last.
-Sorted with_missing_above(const Sorted &row) {
-    return {row.middle, row.high, above_all};
-}
-
-// Of a pixel in the first or last column, of two or more.
-float median_beside_edge(const SortedRow &above, const SortedRow &row, const SortedRow &below, std::size_t x,
-                         bool is_first_row, bool is_last_row) {
-    constexpr Sorted missing{below_all, below_all, below_all};
-    const Sorted own = row.at(x);
-    if (is_first_row)
-        return median_of_rows(missing, with_missing_above(own), with_missing_above(below.at(x)));
-    if (is_last_row)
-        return median_of_rows(with_missing_above(above.at(x)), with_missing_above(own), missing);
-    return median_of_rows(above.at(x), own, with_missing_above(below.at(x)));
-}
-
-// Of a single row or column, where one or two pixels touch a pixel, or none.
+// Of a single row or column.
 void find_in_line(const PixelPlane &line, Neighbourhoods &to) {
     const bool is_row = line.height == 1;
     const std::size_t count = is_row ? line.width : line.height;
     const auto value = [&](std::size_t i) { return line.values[is_row ? i : i * line.stride]; };
     for (std::size_t i = 0; i < count; ++i) {
-        const auto [low, middle, high] =
-            sorted(i > 0 ? value(i - 1) : below_all, value(i), i + 1 < count ? value(i + 1) : below_all);
+        const auto [median, largest] = gpu::neighbourhood_in_line(i > 0 ? value(i - 1) : gpu::BELOW_ALL, value(i),
+                                                                  i + 1 < count ? value(i + 1) : gpu::BELOW_ALL);
         const std::size_t place = is_row ? i : i * region_size;
-        to.median[place] = more_of(middle, 0.0F);
-        to.largest[place] = high;
+        to.median[place] = median;
+        to.largest[place] = largest;
     }
 }
 
@@ -110,26 +54,26 @@ void find_neighbourhoods(const PixelPlane &region, Neighbourhoods &to) {
         find_in_line(region, to);
         return;
     }
-    std::array<SortedRow, 3> rows;
-    rows[2] = missing_row();
+    std::array<SortedRow, 3> rows{};
     sort_row(region, 0, rows[0]);
     for (std::size_t y = 0; y < region.height; ++y) {
         const SortedRow &above = rows[(y + 2) % 3];
         const SortedRow &row = rows[y % 3];
         SortedRow &below = rows[(y + 1) % 3];
+        const bool is_first = y == 0;
         const bool is_last = y + 1 == region.height;
-        if (is_last)
-            below = missing_row();
-        else
+        if (!is_last)
             sort_row(region, y + 1, below);
-        float *const medians = &to.median[y * region_size];
-        float *const largest = &to.largest[y * region_size];
-        for (std::size_t x = 0; x < region_size; ++x) {
-            medians[x] = median_of_rows(above.at(x), row.at(x), below.at(x));
-            largest[x] = more_of(more_of(above.largest[x], row.largest[x]), below.largest[x]);
-        }
-        for (const std::size_t x : {std::size_t{0}, region.width - 1})
-            medians[x] = median_beside_edge(above, row, below, x, y == 0, is_last);
+        const auto find = [&](std::size_t x, bool is_beside_edge) {
+            const auto [median, largest] =
+                gpu::neighbourhood(above.at(x), row.at(x), below.at(x), is_first, is_last, is_beside_edge);
+            to.median[y * region_size + x] = median;
+            to.largest[y * region_size + x] = largest;
+        };
+        for (std::size_t x = 0; x < region_size; ++x)
+            find(x, false);
+        find(0, true);
+        find(region.width - 1, true);
     }
 }
 

@@ -22,9 +22,8 @@ struct PixelPlane {
 // Of the pixels of a region; rows are region_size apart, whatever its width. Of pixels outside it any numbers.
 using RegionFloats = std::array<float, region_size * region_size>;
 
-struct Neighbourhoods {
-    RegionFloats median; // of an even number the lower of the two in the middle, so that of two pixels the brighter
-                         // does not stand for itself; 0 of a pixel alone
+struct Neighbourhoods { // gpu::Neighbourhood
+    RegionFloats median;
     RegionFloats largest;
 };
 

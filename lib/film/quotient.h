@@ -1,6 +1,7 @@
-// Quotients of exact sums and counts, as the kernels compute them (shaders/quotient.glsl, film_mean.glsl): the same
-// bits.
+// Quotients of exact sums and counts, as the kernels compute them (shaders/quotient.h): the same bits, sooner.
 #pragma once
+
+#include "shaders/quotient.h"
 
 #include <cstdint>
 
@@ -18,15 +19,11 @@ struct PartDifference {
     bool first_is_less;   // the mean of the first part is below that of the second
 };
 
-// For sums A and B of a and b samples: |A / a - B / b| sqrt(a b) / (a + b), times 2^exponent, within .52 of the last
-// place.
-//
-// Why: if every sample has the variance v, the squared difference of the two means has the expectation v / a + v / b,
-// and the mean of all samples has the variance v / (a + b), which is that expectation times a b / (a + b)^2.
+// For sums of a and b samples: the standard error that gpu::ErrorDivisor derives, times 2^exponent.
 class PartWeights {
 public:
     // At least one sample in each.
-    PartWeights(std::uint32_t a, std::uint32_t b);
+    PartWeights(std::uint32_t a, std::uint32_t b) : a_(a), b_(b), divisor_(gpu::error_divisor(a, b)) {}
 
     bool are_of(std::uint32_t a, std::uint32_t b) const { return a == a_ && b == b_; }
     PartDifference difference(WideSum sum_a, WideSum sum_b, int exponent) const;
@@ -37,8 +34,7 @@ public:
 private:
     std::uint32_t a_;
     std::uint32_t b_;
-    std::uint32_t divisor_; // (a + b) sqrt(a b), times a power of two
-    int exponent_;          // of that power of two
+    gpu::ErrorDivisor divisor_;
 };
 
 } // namespace pt

@@ -1,7 +1,7 @@
 #include "lib/film/quotient_block.h"
 
-#include "lib/film/min_max.h"
 #include "lib/film/quotient.h"
+#include "shaders/dialects.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +11,9 @@
 namespace pt {
 
 namespace {
+
+using gpu::less_of;
+using gpu::more_of;
 
 // The sum of two whole numbers below 2^53, the first times 2^32.
 struct WideNumber {

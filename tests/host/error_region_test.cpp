@@ -140,7 +140,7 @@ TEST(ErrorRegion, AFewDarkSamplesMakeNoEdge) {
                     128.0F / 16.01F * 0.5F * std::log(16.01F / 0.01F));
 }
 
-// The integral that error_region.cpp derives, taken numerically: the logarithm less about 0.6.
+// The integral that shaders/pixel_error.h derives, taken numerically: the logarithm less about 0.6.
 TEST(ErrorRegion, TheFactorOfAnEdgeIsTheLogarithmOfAnIntegralButForAConstant) {
     constexpr double euler = 0.5772;
     for (const double ratio : {100.0, 1e4, 1e6}) { // T / k

@@ -1,6 +1,6 @@
 """Whether the C++ sources are formatted as .clang-format says. Called by CTest as format_test.py CLANG_FORMAT ROOT.
 
-shaders/gpu_layout.h is GLSL too, which is laid out by hand.
+The headers in shaders are GLSL too, which is laid out by hand.
 """
 
 import pathlib

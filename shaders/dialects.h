@@ -1,0 +1,97 @@
+// What lets one text be C++ and GLSL: the headers that include this have the formulas that host and kernels share. They
+// differ in the type of numbers alone: those of errors are double on the host and float32 in kernels.
+#ifndef PT_DIALECTS_H
+#define PT_DIALECTS_H
+
+#include "gpu_layout.h"
+
+#ifdef __cplusplus
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#define PT_CONSTANT inline constexpr
+#define PT_FUNCTION inline
+#define PT_OUT(type) type &
+#define PT_UNROLL
+
+namespace pt::gpu {
+
+using real = double;
+using uvec4 = glm::uvec4;
+using std::log;
+using std::log1p;
+using std::max;
+using std::min;
+
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+
+// As values: in loops compilers turn these into vector instructions, unlike references. Where one is not a number the
+// first is returned, as by std::min and std::max.
+template <typename Type>
+constexpr Type less_of(Type a, Type b) {
+    return b < a ? b : a;
+}
+
+template <typename Type>
+constexpr Type more_of(Type a, Type b) {
+    return a < b ? b : a;
+}
+
+inline int findMSB(uint number) {
+    return 31 - std::countl_zero(number);
+}
+
+inline uint uaddCarry(uint a, uint b, uint &carry) {
+    carry = a + b < a ? 1 : 0;
+    return a + b;
+}
+
+inline uint usubBorrow(uint a, uint b, uint &borrow) {
+    borrow = a < b ? 1 : 0;
+    return a - b;
+}
+
+inline void umulExtended(uint a, uint b, uint &high, uint &low) {
+    const std::uint64_t product = std::uint64_t{a} * b;
+    high = static_cast<uint>(product >> 32);
+    low = static_cast<uint>(product);
+}
+
+inline real square_of_quotient(real dividend, real square_of_divisor) {
+    return dividend * dividend / square_of_divisor;
+}
+
+} // namespace pt::gpu
+
+#else
+
+#extension GL_EXT_control_flow_attributes : require
+
+#define PT_CONSTANT const
+#define PT_FUNCTION
+#define PT_OUT(type) out type
+#define PT_UNROLL [[unroll]]
+#define real float
+#define less_of min
+#define more_of max
+#define infinity uintBitsToFloat(0x7f800000u)
+
+// Where 1 + x would lose its digits, the first terms of the series do.
+float log1p(float x)
+{
+    return x < 0.015625 ? x * (1.0 - x * (0.5 - x * (1.0 / 3.0))) : log(1.0 + x);
+}
+
+// The square of a dividend may be no float, and nothing by the square of a small divisor no number.
+float square_of_quotient(float dividend, float square_of_divisor)
+{
+    float quotient = dividend == 0.0 ? 0.0 : dividend * inversesqrt(square_of_divisor);
+    return quotient * quotient;
+}
+
+#endif
+#endif

@@ -1,0 +1,27 @@
+// The samples of a pixel and their sums, by part of the film.
+#ifndef FILM_PARTS_GLSL
+#define FILM_PARTS_GLSL
+
+#include "film.glsl"
+
+// Samples of a pixel in a part of the film.
+struct PartCount {
+    uint accepted;
+    uint done; // accepted or left out
+};
+
+PartCount part_count(uint part, uint pixel_in_strip, uint strip_pixel_count)
+{
+    uint first = part * FILM_WORDS * strip_pixel_count + pixel_in_strip;
+    uint accepted = film.words[first + FILM_ACCEPTED * strip_pixel_count];
+    return PartCount(accepted, accepted + film.words[first + FILM_REJECTED * strip_pixel_count]);
+}
+
+uvec4 part_sum(uint part, uint channel, uint pixel_in_strip, uint strip_pixel_count)
+{
+    uint first = (part * FILM_WORDS + channel * FILM_SUM_WORDS) * strip_pixel_count + pixel_in_strip;
+    return uvec4(film.words[first], film.words[first + strip_pixel_count], film.words[first + 2u * strip_pixel_count],
+                 film.words[first + 3u * strip_pixel_count]);
+}
+
+#endif

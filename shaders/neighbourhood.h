@@ -1,0 +1,97 @@
+// What the values about a pixel of a region show, in one channel: of those pixels of the region that touch it, and
+// itself. Values are floats >= 0 on the host too, where they are only compared.
+#ifndef PT_NEIGHBOURHOOD_H
+#define PT_NEIGHBOURHOOD_H
+
+#include "dialects.h"
+
+#ifdef __cplusplus
+namespace pt::gpu {
+#endif
+
+// Where a region ends, a value that is missing beside a pixel lies below or above all.
+PT_CONSTANT float BELOW_ALL = -1.0f;
+
+// Three values in ascending order.
+struct Sorted {
+    float low;
+    float middle;
+    float high;
+};
+
+PT_FUNCTION Sorted sorted(float a, float b, float c)
+{
+    float low = less_of(a, b);
+    float high = more_of(a, b);
+    Sorted values;
+    values.low = less_of(low, c);
+    values.middle = more_of(low, less_of(high, c));
+    values.high = more_of(high, c);
+    return values;
+}
+
+// Of nine values in three rows, each sorted: the median is the middle one of the largest of the low values, the middle
+// one of the middle values and the smallest of the high values (Paeth 1990, Median finding on a 3 x 3 grid).
+PT_FUNCTION float median_of_rows(Sorted a, Sorted b, Sorted c)
+{
+    return sorted(more_of(more_of(a.low, b.low), c.low), sorted(a.middle, b.middle, c.middle).middle,
+                  less_of(less_of(a.high, b.high), c.high))
+        .middle;
+}
+
+// The same values where the one that is missing comes last.
+PT_FUNCTION Sorted with_missing_above(Sorted row)
+{
+    row.low = row.middle;
+    row.middle = row.high;
+    row.high = infinity;
+    return row;
+}
+
+struct Neighbourhood {
+    float median; // of an even number the lower of the two in the middle, so that of two pixels the brighter does not
+                  // stand for itself; 0 of a pixel alone
+    float largest;
+};
+
+// Of rows of three values, among which those missing come first: k of nine, where the region ends beside the pixel. The
+// lower of two in the middle is wanted, that is the value with (k - 1) / 2 values below it, which is the fifth of nine
+// if 4 - (k - 1) / 2 of those that are missing lie below all, and the others above: of the three missing beside an edge
+// two lie below, and of the five about a corner three.
+PT_FUNCTION Neighbourhood neighbourhood(Sorted above, Sorted row, Sorted below, bool is_first_row, bool is_last_row,
+                                        bool is_beside_edge)
+{
+    Neighbourhood near;
+    near.largest = more_of(row.high, more_of(is_first_row ? 0.0f : above.high, is_last_row ? 0.0f : below.high));
+    Sorted missing;
+    missing.low = BELOW_ALL;
+    missing.middle = BELOW_ALL;
+    missing.high = is_beside_edge ? BELOW_ALL : infinity;
+    if (is_first_row)
+        above = missing;
+    else if (is_beside_edge && is_last_row)
+        above = with_missing_above(above);
+    if (is_beside_edge && (is_first_row || is_last_row))
+        row = with_missing_above(row);
+    if (is_last_row)
+        below = missing;
+    else if (is_beside_edge)
+        below = with_missing_above(below);
+    near.median = median_of_rows(above, row, below);
+    return near;
+}
+
+// Of a single row or column, where one or two values touch a pixel, or none.
+PT_FUNCTION Neighbourhood neighbourhood_in_line(float before, float value, float behind)
+{
+    Sorted values = sorted(before, value, behind);
+    Neighbourhood near;
+    near.median = more_of(values.middle, 0.0f);
+    near.largest = values.high;
+    return near;
+}
+
+#ifdef __cplusplus
+} // namespace pt::gpu
+#endif
+#endif
