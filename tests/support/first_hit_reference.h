@@ -2,6 +2,8 @@
 // Used by the tests of what camera rays meet first.
 #pragma once
 
+#include "lib/scene/seen_sphere.h"
+
 #include <pt/pt.h>
 
 #include <glm/glm.hpp>
@@ -52,7 +54,7 @@ struct Meeting {
 // that is allowed. The square under the root is off by r (16 u |c| + 4 u r) at most, or l - r by 8 u |c| + 2 u r:
 // within twice that of touching, it may be missed or met.
 //
-// Where a sphere is so large against its height h over the camera that it is held as a plane with a curvature k,
+// Where a sphere is so large against its height h over where rays start that it is held as a plane with a curvature k,
 // nothing of the size of r is rounded: the distance 2 h / q with q = s + sqrt(s^2 - 2 k h) for the slope s errs by u
 // for h and by what q errs, which is 4 u for s and (4 u s + 4 u) / cosine for the root, the cosine at the surface, and
 // q is no less than that cosine: 16 u / cosine^2 of the distance is allowed, and 8 u for all else; within 64 u of
@@ -150,6 +152,19 @@ struct View {
     }
 };
 
+// Whether the kernel holds a sphere as a plane. The library's rule, since it decides which of two forms rounds: it goes
+// by where rays start, and is another one for lamps, which are held by their centres up to 65536 times their height.
+inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &material, const View &view) {
+    const auto vector = [](const double(&v)[3]) { return glm::dvec3(v[0], v[1], v[2]); };
+    pt::Camera start{};
+    start.position = glm::dvec3(view.position + view.start_distance * view.forward);
+    start.shutter_open = static_cast<double>(view.shutter_open);
+    start.shutter_close = static_cast<double>(view.shutter_close);
+    pt::Material seen{};
+    seen.emission = {material.emission[0], material.emission[1], material.emission[2]};
+    return pt::SeenSphere({vector(sphere.center), sphere.radius, vector(sphere.motion), 0}, seen, start).is_flat;
+}
+
 inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
     return scene.material_flags == nullptr || scene.material_flags[material] != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
@@ -161,9 +176,7 @@ inline std::optional<Meeting> first_met(const pt_scene &scene, const View &view,
         const pt_sphere &sphere = scene.spheres[i];
         if (!is_seen(scene, sphere.material))
             continue;
-        const Vector open = vector_of(sphere.center) + view.shutter_open * vector_of(sphere.motion) - view.position;
-        const bool is_flat =
-            view.tree_step == 0.0L && sphere.radius > 32.0L * std::abs(glm::length(open) - sphere.radius);
+        const bool is_flat = view.tree_step == 0.0L && is_held_as_plane(sphere, scene.materials[sphere.material], view);
         const Real astray = view.tree_step + 4.0L * rounding * glm::length(vector_of(sphere.motion));
         met.push_back(meet_sphere(sphere, view.position, ray, ray.time, is_flat, astray));
         met.back().object = i;
