@@ -32,6 +32,7 @@ struct Ray {
     Real time;
     Vector start;        // where float32 begins to know it, relative to where the ray starts
     Vector origin{0.0L}; // where the ray starts, relative to the camera
+    Vector spread{0.0L}; // the sizes of the two terms of each of its components
 };
 
 // Where a ray meets a surface, and by how much float32 may differ.
@@ -61,6 +62,12 @@ struct Meeting {
 // touching, as s^2 against 2 k h, it may be missed or met. The far wall from within, q / k, likewise. A plane is the
 // same with k = 0.
 //
+// Parallel rays start all over a disc, by origin = a right - b up, whose components are off by 5 u of the sizes of both
+// terms: the rounding of the scale, of the place, of the vector, and of a product, and that of the sum. A centre is
+// relative to it by one more subtraction: 8 u of the length o of these sizes is allowed beside 8 u |c|, and as much
+// again. A height there, n . origin + offset, is off by 9 u of the sum of |n| times these sizes, o too, for n, origin
+// and its own operations, and by 2 u of the offset, which is no more than that and h: 16 u o / cosine is allowed.
+//
 // In narrow views of what is far away rays start ahead of the camera, and |c| and distances count from there. A centre
 // may be elsewhere by astray, as the grid of a tree has it; then the camera's side is uncertain within that, too.
 inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const Ray &ray, Real time, bool is_flat,
@@ -71,7 +78,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     const Real l = glm::length(centre - along * ray.direction);
     const Real height = glm::length(centre) - r;
     Meeting meeting;
-    const Real reach = glm::length(centre - ray.start);
+    const Real reach = glm::length(centre - ray.start) + glm::length(ray.spread);
     const Real touching = is_flat ? 64.0L * rounding * r : (16.0L * reach + 4.0L * r) * rounding + astray;
     if (height > 0.0L && (along <= 0.0L || l > r)) {
         meeting.is_uncertain = along > 0.0L && l - r < touching;
@@ -87,7 +94,7 @@ inline Meeting meet_sphere(const pt_sphere &sphere, const Vector &camera, const 
     const Vector from_centre = meeting.distance * ray.direction - centre;
     const Vector outward = glm::normalize(from_centre);
     const Real cosine = std::max(std::abs(glm::dot(outward, ray.direction)), rounding);
-    const Real way = glm::length(meeting.distance * ray.direction - ray.start);
+    const Real way = glm::length(meeting.distance * ray.direction - ray.start) + glm::length(ray.spread);
     const Real across = is_flat ? way : reach;
     meeting.tolerance = is_flat ? way * rounding * (8.0L + 16.0L / (cosine * cosine))
                                 : rounding * (16.0L * reach + (16.0L * reach + 4.0L * r) / cosine) + astray / cosine;
@@ -109,7 +116,7 @@ inline Meeting meet_plane(const pt_plane &plane, const Vector &camera, const Ray
     if (slope <= 0.0L)
         return meeting;
     meeting.distance = height / slope;
-    const Real way = glm::length(meeting.distance * ray.direction - ray.start);
+    const Real way = glm::length(meeting.distance * ray.direction - ray.start) + glm::dot(glm::abs(normal), ray.spread);
     meeting.tolerance = way * rounding * (8.0L + 16.0L / slope);
     meeting.normal = normal;
     meeting.normal_tolerance = 4.0L * rounding;
@@ -146,9 +153,11 @@ struct View {
         const Real downwards = row + y - height / 2.0L;
         const Real time = shutter_open + share * (shutter_close - shutter_open);
         if (parallel_pixel > 0.0L)
-            return {forward, time, start_distance * forward, parallel_pixel * (to_right * right - downwards * up)};
-        return {glm::normalize(focal_pixels * forward + to_right * right - downwards * up), time,
-                start_distance * forward};
+            return {forward, time, start_distance * forward, parallel_pixel * (to_right * right - downwards * up),
+                    parallel_pixel * (glm::abs(to_right * right) + glm::abs(downwards * up))};
+        return {.direction = glm::normalize(focal_pixels * forward + to_right * right - downwards * up),
+                .time = time,
+                .start = start_distance * forward};
     }
 };
 
