@@ -1,5 +1,6 @@
 // What camera rays meet first in random scenes of 1 to 2,000 spheres, in a tree and in a list, from wherever a camera
-// may be, against long double. PT_TEST_MANY asks for 600 scenes. Run alone with --gtest_filter=RandomFirstHit*.
+// may be, against long double. PT_TEST_MANY asks for 600 scenes, PT_TEST_FIRST_SCENE for those from one of them on. Run
+// alone with --gtest_filter=RandomFirstHit*.
 #include "lib/kernel/gpu_scene.h"
 #include "tests/device/first_hit_scenes.h"
 #include "tests/device/tree_fixture.h"
@@ -174,10 +175,13 @@ private:
 
 TEST_F(RandomFirstHit, IsThatOfLongDouble) {
     const int scene_count = std::getenv("PT_TEST_MANY") ? 600 : 48;
+    const char *const first = std::getenv("PT_TEST_FIRST_SCENE");
     RandomScenes scenes;
     std::array<Counts, 2> counts{};
     for (int i = 0; i < scene_count && !HasFailure(); ++i) {
         const Shot given = scenes.next();
+        if (first && i < std::atoi(first))
+            continue;
         for (const bool has_tree : {true, false}) {
             SCOPED_TRACE(std::to_string(i) + ": " + given.name + (has_tree ? ", tree" : ", list"));
             const Counts found = judge(has_tree ? context() : without_tree(), has_tree, given);
