@@ -13,28 +13,35 @@ struct CameraRay {
 
 // How far a place in [0, 1)^2 of the pixel (column, row), counted from the top left, lies from the image's middle: in
 // pixels to the right and downwards. The pixel's part of it is a multiple of 1/2 and exact, however wide the image is.
-vec2 image_place(FrameConstants frame, uvec2 pixel, vec2 place)
+vec2 image_place(CameraView camera, uvec2 pixel, vec2 place)
 {
-    return 0.5 * vec2(ivec2(2u * pixel) - ivec2(frame.width, frame.height)) + place;
+    return 0.5 * vec2(ivec2(2u * pixel) - ivec2(camera.width, camera.height)) + place;
 }
 
 // Unit direction through that place of the image.
-vec3 camera_direction(FrameConstants frame, vec2 from_middle)
+vec3 camera_direction(CameraView camera, vec2 from_middle)
 {
     if (ORTHOGRAPHIC == 1)
-        return frame.camera_forward;
-    return normalize(frame.camera_forward + from_middle.x * frame.camera_right - from_middle.y * frame.camera_up);
+        return camera.forward;
+    return normalize(camera.forward + from_middle.x * camera.right - from_middle.y * camera.up);
 }
 
 // Where the ray through that place starts: at the pinhole, or (STARTS_AHEAD) where it passes the plane through the
 // origin across the view. Before that plane there is nothing in view, or only what parallel rays do not see
 // (lib/kernel/ray_start.h).
-vec3 camera_origin(FrameConstants frame, vec2 from_middle)
+vec3 camera_origin(CameraView camera, vec2 from_middle)
 {
     if (STARTS_AHEAD == 0)
         return vec3(0.0);
-    vec2 start = frame.start_scale * from_middle;
-    return start.x * frame.camera_right - start.y * frame.camera_up;
+    vec2 start = camera.start_scale * from_middle;
+    return start.x * camera.right - start.y * camera.up;
+}
+
+// numbers: the place in the pixel (x, y) and the time (z).
+CameraRay ray_through(CameraView camera, uvec2 pixel, vec3 numbers)
+{
+    vec2 from_middle = image_place(camera, pixel, numbers.xy);
+    return CameraRay(camera_origin(camera, from_middle), camera_direction(camera, from_middle), numbers.z);
 }
 
 #endif

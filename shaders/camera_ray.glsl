@@ -6,11 +6,9 @@
 #include "dimensions.glsl"
 
 // Spread over the pixel's square (box filter).
-CameraRay camera_ray(FrameConstants frame, uvec2 pixel, SampleKey key)
+CameraRay camera_ray(CameraView camera, uvec2 pixel, SampleKey key)
 {
-    vec3 numbers = camera_numbers(key);
-    vec2 from_middle = image_place(frame, pixel, numbers.xy);
-    return CameraRay(camera_origin(frame, from_middle), camera_direction(frame, from_middle), numbers.z);
+    return ray_through(camera, pixel, camera_numbers(key));
 }
 
 #endif

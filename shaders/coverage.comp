@@ -8,7 +8,6 @@
 layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { CoverageConstants view; };
 
-#include "camera_frame.glsl"
 #include "camera_ray.glsl"
 #include "camera_walk.glsl"
 
@@ -20,17 +19,17 @@ layout(set = 0, binding = BINDING_TILES) readonly buffer TileSamples { uvec2 ran
 
 uint tile_of(uvec2 pixel)
 {
-    uint columns = (view.width + TILE_SIZE - 1u) / TILE_SIZE;
+    uint columns = (view.camera.width + TILE_SIZE - 1u) / TILE_SIZE;
     return (pixel.y - view.first_row) / TILE_SIZE * columns + pixel.x / TILE_SIZE;
 }
 
 bool meets_something(uvec2 pixel, uint sample_index)
 {
-    uint pixel_index = pixel.y * view.width + pixel.x;
+    uint pixel_index = pixel.y * view.camera.width + pixel.x;
     SampleKey key = key_of_pixel(view.seed, pixel_index);
     key.sample_index = sample_index;
     key.row = sample_index - view.first_sample;
-    Walk walk = walk_from_camera(camera_ray(camera_frame(), pixel, key));
+    Walk walk = walk_from_camera(camera_ray(view.camera, pixel, key));
     finish(walk, false);
     return walk.hit.surface != NO_SURFACE;
 }
@@ -41,8 +40,9 @@ void main()
     if (index >= view.pixel_count)
         return;
     uint place = view.first_of_rectangle + index;
-    uint pixel_index = view.first_pixel + place / view.rectangle_width * view.width + place % view.rectangle_width;
-    uvec2 pixel = uvec2(pixel_index % view.width, pixel_index / view.width);
+    uint row = place / view.rectangle_width;
+    uint pixel_index = view.first_pixel + row * view.camera.width + place % view.rectangle_width;
+    uvec2 pixel = uvec2(pixel_index % view.camera.width, pixel_index / view.camera.width);
     uvec2 range = tile_samples.ranges[tile_of(pixel)];
     uint current = max(range.x, view.first_sample);
     uint last = min(range.y, view.last_sample);

@@ -11,7 +11,6 @@
 layout(local_size_x = WORKGROUP_SIZE) in;
 layout(push_constant) uniform Push { FirstHitConstants view; };
 
-#include "camera_frame.glsl"
 #include "camera_walk.glsl"
 #include "half.glsl"
 #include "maths.glsl"
@@ -32,18 +31,10 @@ vec3 lattice_point(uint ray)
     return (vec3(point) + 0.5) / float(FILTER_RAYS);
 }
 
-CameraRay ray_through(uint pixel_index, vec3 numbers)
-{
-    FrameConstants frame = camera_frame();
-    uvec2 pixel = uvec2(pixel_index % view.width, pixel_index / view.width);
-    vec2 from_middle = image_place(frame, pixel, numbers.xy);
-    return CameraRay(camera_origin(frame, from_middle), camera_direction(frame, from_middle), numbers.z);
-}
-
 // Along the view: rays start at the pinhole, or on a plane across the view ahead of it.
 float depth_of(CameraRay ray, Hit hit)
 {
-    float cosine = dot(ray.direction, view.camera_forward) / length(view.camera_forward);
+    float cosine = dot(ray.direction, view.camera.forward) / length(view.camera.forward);
     return view.start_distance + max(hit.distance, 0.0) * cosine;
 }
 
@@ -99,8 +90,9 @@ void main()
     if (is_there) {
         uint row = (view.first_of_rectangle + index) / view.rectangle_width;
         uint column = (view.first_of_rectangle + index) % view.rectangle_width;
-        uint pixel_index = view.first_pixel + row * view.width + column;
-        CameraRay ray = ray_through(pixel_index, takes_mean ? lattice_point(ray_index) : vec3(0.5));
+        uint pixel_index = view.first_pixel + row * view.camera.width + column;
+        uvec2 pixel = uvec2(pixel_index % view.camera.width, pixel_index / view.camera.width);
+        CameraRay ray = ray_through(view.camera, pixel, takes_mean ? lattice_point(ray_index) : vec3(0.5));
         Walk walk = walk_from_camera(ray);
         finish(walk, false);
         surface = walk.hit.surface;

@@ -169,6 +169,8 @@ PT_CONSTANT FORMAT_R32UI = 3; // of first_hit.comp alone
 PT_CONSTANT WORKGROUP_SIZE = 64;
 
 // ---- Scene buffer: an array of vec4, positions relative to the camera -----------------------------------------------
+// A surface is its index: spheres first, then planes, then with TREE the spheres of the tree.
+PT_CONSTANT NO_SURFACE = 0xffffffffu;
 // With S = spheres + planes and each block following the one before:
 //   geometry[S]       sphere: centre as the shutter opens, radius; plane: unit normal, offset (lib/scene/curved_plane.h)
 //   emission[S]       radiance R, G, B; mean of the three
@@ -316,14 +318,20 @@ struct RegionError {
 };
 
 // ---- Push constants ----------------------------------------------------------------------------------------------
-struct FrameConstants {
-    vec3 camera_right; // unit vector
-    float film_scale;  // radiance times this is in film units; a power of two
-    vec3 camera_up;    // unit vector
+// The camera, for all kernels that take rays from it.
+struct CameraView {
+    vec3 right;        // unit vector
+    float start_scale; // rays start this times their distance from the image's middle in pixels off the origin
+    vec3 up;           // unit vector
     uint width;        // of the image, pixels
-    vec3 camera_forward; // as long as the image plane is far away in pixels; of parallel rays a unit vector
-    uint height;         // of the image, pixels
-    uvec2 seed;          // well mixed words made from pt_render.seed
+    vec3 forward;      // as long as the image plane is far away in pixels; of parallel rays a unit vector
+    uint height;       // of the image, pixels
+};
+
+struct FrameConstants {
+    CameraView camera;
+    uvec2 seed;             // well mixed words made from pt_render.seed
+    float film_scale;       // radiance times this is in film units; a power of two
     uint film_first_pixel;  // index of the film's first pixel in the image, row by row
     uint strip_first_pixel; // of the strip's, in the film
     uint strip_pixel_count;
@@ -333,7 +341,6 @@ struct FrameConstants {
     uint first_sample; // index in the sequence
     uint sample_count; // >= 1
     uint share;        // samples that an invocation takes, at the most; those along y have the next ones
-    float start_scale; // camera rays start this times their distance from the image's middle in pixels off the origin
 };
 
 PT_CONSTANT ANY_COUNT = 0xffffffffu;
@@ -355,14 +362,9 @@ struct ResolveConstants {
 
 // Of first_hit.comp. Pixels are counted row by row over the image.
 struct FirstHitConstants {
-    vec3 camera_right;    // as in FrameConstants, like all that has its name
-    float start_scale;
-    vec3 camera_up;
+    CameraView camera;
     float start_distance; // of the scene's origin from the pinhole, along the view
-    vec3 camera_forward;
     uint quantity;        // PT_QUANTITY_* of pt.h
-    uint width;
-    uint height;
     uint format;          // PT_FORMAT_* of pt.h
     uint first_pixel;     // of a rectangle
     uint rectangle_width;
@@ -374,12 +376,7 @@ PT_CONSTANT FILTER_RAYS = 16;
 
 // Of coverage.comp, likewise. The samples are a range, of which each tile may have a part.
 struct CoverageConstants {
-    vec3 camera_right;
-    float start_scale;
-    vec3 camera_up;
-    uint width;
-    vec3 camera_forward;
-    uint height;
+    CameraView camera;
     uvec2 seed;
     uint first_row; // of the film, in the image: tiles count from there
     uint first_pixel;
@@ -413,13 +410,13 @@ struct AddConstants {
 
 #ifdef __cplusplus
 // Vulkan guarantees 128 bytes of push constants; the offsets are those of GLSL's std430.
+static_assert(sizeof(CameraView) == 48 && offsetof(CameraView, start_scale) == 12 && offsetof(CameraView, up) == 16);
+static_assert(offsetof(CameraView, forward) == 32 && offsetof(CameraView, height) == 44);
 static_assert(sizeof(FrameConstants) == 96 && sizeof(FrameConstants) <= 128);
-static_assert(offsetof(FrameConstants, film_scale) == 12 && offsetof(FrameConstants, camera_up) == 16);
-static_assert(offsetof(FrameConstants, camera_forward) == 32 && offsetof(FrameConstants, seed) == 48);
-static_assert(offsetof(FrameConstants, film_first_pixel) == 56 && offsetof(FrameConstants, start_scale) == 92);
+static_assert(offsetof(FrameConstants, seed) == 48 && offsetof(FrameConstants, share) == 92);
 static_assert(sizeof(TreeFrame) == 80 && offsetof(TreeFrame, middle) == 32 && offsetof(TreeFrame, first_motion) == 48);
 static_assert(sizeof(ResolveConstants) == 48 && offsetof(ResolveConstants, row_words) == 44);
-static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, camera_forward) == 32);
+static_assert(sizeof(FirstHitConstants) == 76 && offsetof(FirstHitConstants, pixel_count) == 72);
 static_assert(WORKGROUP_SIZE % FILTER_RAYS == 0);
 static_assert(sizeof(CoverageConstants) == 84 && offsetof(CoverageConstants, seed) == 48);
 static_assert(sizeof(EstimateConstants) == 36 && offsetof(EstimateConstants, sample_counts) == 16);

@@ -46,8 +46,6 @@ float share_beside_spots(Spots spots, Path path, Vertex first, float time)
 // samples every lamp if they are few, and is left in several branches where paths go further than one direction.
 vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
 {
-    const float directions = float(BRANCH_COUNT);
-    const vec3 whole = vec3(1.0);
     Vertex vertex = vertex_at(arrival, time);
     Material material = material_to_leave(vertex.surface, 1u);
     Lamps lamps;
@@ -61,7 +59,8 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
         uint i = BRANCH_COUNT;
         [[unroll]] do {
             vec2 place = every_lamp_numbers(key, i);
-            LampLight lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, i), place, 1.0, directions);
+            LampLight lamp = light_of_lamp(vec3(1.0), vertex, material, choice_of(lamps, i), place, 1.0,
+                                          float(BRANCH_COUNT));
             radiance += lamp.light * (is_hidden(lamp.shadow, start, time) ? 0.0 : lamp.weight);
             ++i;
         } while (i < LAMP_COUNT);
@@ -76,22 +75,10 @@ vec3 light_from_first_vertex(Arrival arrival, SampleKey key, float time)
     uint branch = 0u;
     do {
         SampleKey branch_numbers = branch_key(key, branch);
-        LampLight lamp = no_lamp_light();
-        if (SAMPLE_EVERY_LAMP && branch < LAMP_COUNT) {
-            vec2 place = every_lamp_numbers(key, branch);
-            lamp = light_of_lamp(whole, vertex, material, choice_of(lamps, branch), place, 1.0, directions);
-        }
-        if (SAMPLE_ONE_LAMP) {
-            ChosenLampNumbers numbers = chosen_lamp_numbers(branch_numbers, first_vertex_blocks());
-            lamp = light_of_chosen_lamp(whole, vertex, material, lamps, numbers, directions, directions);
-        }
-
-        vec4 numbers = direction_numbers(branch_numbers, first_vertex_blocks(), vertex_blocks(1u, LAMP_COUNT));
-        numbers.z = lobe_number(numbers.z, branch, directions);
         Path path = path_from(arrival);
         if (SPOT_COUNT > 0u)
             departure_share = 1.0;
-        leave(path, vertex, material, lamp, lamps, SAMPLE_EVERY_LAMP ? 0.0 : directions, time, numbers, directions);
+        leave(path, vertex, material, lamps, Way(key, branch_numbers, first_vertex_blocks(), branch, true), time);
         if (SPOT_COUNT > 0u)
             departure_share = share_beside_spots(spots, path, vertex, time);
         if (MAX_PATH_LENGTH > 2u && path.alive) {
@@ -112,9 +99,9 @@ vec3 emitted_by(uint surface) { return may_emit(surface) ? emission_of(surface).
 
 // Radiance of the path of one sample, an estimate of what the pixel sees: emission plus throughput-weighted light at
 // each of up to MAX_PATH_LENGTH vertices.
-vec3 path_radiance(FrameConstants frame, uvec2 pixel, SampleKey key)
+vec3 path_radiance(CameraView camera, uvec2 pixel, SampleKey key)
 {
-    CameraRay ray = camera_ray(frame, pixel, key);
+    CameraRay ray = camera_ray(camera, pixel, key);
     Walk walk = walk_from_camera(ray);
     finish(walk, false);
     Hit hit = walk.hit;

@@ -38,7 +38,7 @@ void take_samples(uvec2 pixel, uint pixel_index, uint done, uint end, inout Film
     FrameConstants held = frame;
     SampleKey key = key_of_pixel(held.seed, pixel_index);
     do {
-        vec3 radiance = path_radiance(held, pixel, key_of_sample(key, held, done));
+        vec3 radiance = path_radiance(held.camera, pixel, key_of_sample(key, held, done));
         if (TREE == 0u || !walk_was_cut)
             add_sample(held, gathered, radiance);
         ++done;
@@ -72,7 +72,7 @@ void take_samples_by_steps(uvec2 pixel, uint pixel_index, uint done, uint end, i
                 walk = leave_last_vertex(current, departure, lamps);
             } else if (done < end) {
                 SampleKey key = key_of_sample(pixel_key, held, done);
-                current = sample_of(key, camera_ray(held, pixel, key));
+                current = sample_of(key, camera_ray(held.camera, pixel, key));
                 walk = walk_from_camera(current.camera);
                 begins = false;
             }
@@ -86,7 +86,7 @@ void main()
     TilePixel at = tile_pixel();
     if (!at.exists)
         return;
-    uvec2 pixel = uvec2(at.in_image % frame.width, at.in_image / frame.width);
+    uvec2 pixel = uvec2(at.in_image % frame.camera.width, at.in_image / frame.camera.width);
 
     // Its samples of the slice: a range of its own.
     uint done = gl_GlobalInvocationID.y * frame.share;

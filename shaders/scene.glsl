@@ -54,9 +54,6 @@ layout(set = 0, binding = BINDING_SCENE_STORAGE) readonly buffer SceneStorage { 
 
 const uint SURFACE_COUNT = SPHERE_COUNT + PLANE_COUNT;
 
-// A surface is its index: spheres first, then planes, then with TREE the spheres of the tree.
-const uint NO_SURFACE = 0xffffffffu;
-
 // Runs a statement for each index from first to end - 1, both constants. Loops over few indices are unrolled
 // (DevicePolicy::unrolled).
 #define FOR_EACH(index, first, end, statement)                                                                         \

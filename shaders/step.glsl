@@ -13,7 +13,6 @@
 // otherwise, and at later vertices, one that is chosen.
 const bool SAMPLE_LAMPS = (ESTIMATOR == ESTIMATOR_MIS || ESTIMATOR == ESTIMATOR_LIGHT) && LAMP_COUNT > 0u;
 const bool SAMPLE_EVERY_LAMP = SAMPLE_LAMPS && LAMP_COUNT <= EVERY_LAMP_LIMIT;
-const bool SAMPLE_ONE_LAMP = SAMPLE_LAMPS && LAMP_COUNT > EVERY_LAMP_LIMIT;
 
 struct Path {
     Arrival arrival; // at its last vertex
@@ -76,15 +75,6 @@ float lamp_samples(LampChoice choice, float choices)
     return choices > 0.0 ? choice.probability * choices : 1.0;
 }
 
-// Light of one lamp, chosen by what it can contribute: one of the vertex's choices.
-LampLight light_of_chosen_lamp(vec3 throughput, Vertex vertex, Material material, Lamps lamps,
-                               ChosenLampNumbers numbers, float choices, float directions)
-{
-    LampChoice choice = choose(lamps, numbers.which);
-    float samples = lamp_samples(choice, choices);
-    return light_of_lamp(throughput, vertex, material, choice, numbers.place, samples, directions);
-}
-
 // Of a branch the number that chooses the lobe is stratified over all of them; the sum may round up to 1.
 float lobe_number(float number, uint branch, float directions)
 {
@@ -103,11 +93,50 @@ struct Departure {
     float lamp_choices; // of the vertex; 0: it samples each lamp
 };
 
-// Takes the vertex and the direction into the path's throughput.
-Departure depart(inout Path path, Vertex vertex, Material material, LampLight lamp, float lamp_choices, vec4 numbers,
-                 float directions)
+// Which of a sample's directions one is.
+struct Way {
+    SampleKey of_sample;
+    SampleKey of_branch;
+    uint begin;    // the first of the vertex's blocks
+    uint branch;
+    bool at_first; // whether it leaves the first vertex
+};
+
+// Light of the lamp that goes with a direction. At the first vertex, if every lamp is sampled there, it is the branch's
+// own, or none; otherwise one that is chosen by what it can contribute. choices: of the vertex; 0: it samples each lamp.
+LampLight lamp_light(vec3 throughput, Vertex vertex, Material material, Lamps lamps, Way way, float choices,
+                     float directions)
 {
+    const bool every_lamp = SAMPLE_EVERY_LAMP && way.at_first;
+    LampLight light = no_lamp_light();
+    if (SAMPLE_LAMPS && (!every_lamp || way.branch < LAMP_COUNT)) {
+        LampChoice choice;
+        vec2 place;
+        if (every_lamp) {
+            choice = choice_of(lamps, way.branch);
+            place = every_lamp_numbers(way.of_sample, way.branch);
+        } else {
+            ChosenLampNumbers chosen = chosen_lamp_numbers(way.of_branch, way.begin);
+            choice = choose(lamps, chosen.which);
+            place = chosen.place;
+        }
+        float samples = lamp_samples(choice, choices);
+        light = light_of_lamp(throughput, vertex, material, choice, place, samples, directions);
+    }
+    return light;
+}
+
+// Takes the vertex and the direction into the path's throughput.
+Departure depart(inout Path path, Vertex vertex, Material material, Lamps lamps, Way way)
+{
+    const float directions = way.at_first ? float(BRANCH_COUNT) : 1.0;
     Departure departure;
+    departure.lamp_choices = SAMPLE_EVERY_LAMP && way.at_first ? 0.0 : directions;
+    departure.lamp = lamp_light(path.throughput, vertex, material, lamps, way, departure.lamp_choices, directions);
+
+    vec4 numbers = direction_numbers(way.of_branch, way.begin, vertex_blocks(way.at_first ? 1u : 2u, LAMP_COUNT));
+    if (way.at_first)
+        numbers.z = lobe_number(numbers.z, way.branch, directions);
     departure.origin = vertex.position;
     departure.direction = sample_direction(material, vertex, numbers.xy, numbers.z);
     Reflection onwards = reflection(material, vertex, departure.direction);
@@ -116,8 +145,6 @@ Departure depart(inout Path path, Vertex vertex, Material material, LampLight la
     departure.strongest = strongest_of(path.throughput);
     departure.carries_light = !(departure.strongest <= 0.0); // what is not a number goes on, to be rejected
     departure.survival = numbers.w;
-    departure.lamp = lamp;
-    departure.lamp_choices = lamp_choices;
     return departure;
 }
 
@@ -207,10 +234,9 @@ Walk walk_onwards(Vertex vertex, Path path, inout Departure departure, float tim
 }
 
 // Takes the path from a vertex to the next in one of the directions in which it is left.
-void leave(inout Path path, Vertex vertex, Material material, LampLight lamp, Lamps lamps, float lamp_choices,
-           float time, vec4 numbers, float directions)
+void leave(inout Path path, Vertex vertex, Material material, Lamps lamps, Way way, float time)
 {
-    Departure departure = depart(path, vertex, material, lamp, lamp_choices, numbers, directions);
+    Departure departure = depart(path, vertex, material, lamps, way);
     Walk walk = walk_onwards(vertex, path, departure, time);
     finish(walk, SAMPLE_LAMPS);
     arrive(path, departure, lamps, ahead(walk.hit), walk.blocked);
@@ -225,21 +251,16 @@ Material material_to_leave(uint surface, uint vertex_count)
     return SAMPLE_LAMPS && SKY_COUNT + PLANES_EMIT == 0u && last ? at_last_direction(material) : material;
 }
 
-// Takes a path from a vertex beyond the first to the next. begin: the first of the numbers' blocks; as_vertex: the
-// number of the vertex, or of that as which it is left.
+// Takes a path from a vertex beyond the first to the next, which its material takes for vertex number as_vertex. begin:
+// the first of the vertex's blocks.
 void extend(inout Path path, SampleKey key, uint begin, uint as_vertex, float time)
 {
     Vertex vertex = vertex_at(path.arrival, time);
     Material material = material_to_leave(vertex.surface, as_vertex);
     Lamps lamps;
-    LampLight lamp = no_lamp_light();
-    if (SAMPLE_LAMPS) {
+    if (SAMPLE_LAMPS)
         lamps = lamps_from(vertex, time);
-        ChosenLampNumbers numbers = chosen_lamp_numbers(key, begin);
-        lamp = light_of_chosen_lamp(path.throughput, vertex, material, lamps, numbers, 1.0, 1.0);
-    }
-    vec4 numbers = direction_numbers(key, begin, vertex_blocks(2u, LAMP_COUNT));
-    leave(path, vertex, material, lamp, lamps, 1.0, time, numbers, 1.0);
+    leave(path, vertex, material, lamps, Way(key, key, begin, 0u, false), time);
 }
 
 #endif

@@ -16,9 +16,9 @@ TilePixel tile_pixel()
 {
     uint corner = tiles.first_pixels[frame.first_entry + gl_WorkGroupID.x];
     uint column = gl_LocalInvocationID.x % TILE_SIZE;
-    uint in_film = corner + gl_LocalInvocationID.x / TILE_SIZE * frame.width + column;
+    uint in_film = corner + gl_LocalInvocationID.x / TILE_SIZE * frame.camera.width + column;
     uint in_strip = in_film - frame.strip_first_pixel;
-    bool exists = corner % frame.width + column < frame.width && in_strip < frame.strip_pixel_count;
+    bool exists = corner % frame.camera.width + column < frame.camera.width && in_strip < frame.strip_pixel_count;
     return TilePixel(frame.film_first_pixel + in_film, in_strip, exists);
 }
 

@@ -32,7 +32,7 @@ constexpr glm::uvec2 no_samples(1, 0);
 
 // The first block of a sample's numbers is all that its camera ray takes.
 PointLayout camera_layout(const Features &features) {
-    return {{gpu::camera_dimensions(features.motion ? 1 : 0)}, 1, 1};
+    return {{camera_dimensions(features)}, 1, 1};
 }
 
 std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vulkan::Device &device,
@@ -47,12 +47,7 @@ std::array<std::uint32_t, gpu::CONSTANT_COUNT> coverage_specialization(const vul
 
 gpu::CoverageConstants coverage_constants(const gpu::FrameConstants &frame) {
     gpu::CoverageConstants constants{};
-    constants.camera_right = frame.camera_right;
-    constants.camera_up = frame.camera_up;
-    constants.camera_forward = frame.camera_forward;
-    constants.start_scale = frame.start_scale;
-    constants.width = frame.width;
-    constants.height = frame.height;
+    constants.camera = frame.camera;
     constants.seed = frame.seed;
     return constants;
 }
@@ -138,7 +133,7 @@ void Coverage::read(const CoverageQuery &query, double tests_per_submission, con
     Buffers &buffers = this->buffers(most, query.samples.grid().count());
     gpu::CoverageConstants constants = constants_;
     constants.first_row = query.settings.first_row;
-    constants.first_pixel = (query.settings.first_row + query.pixels.y) * constants.width + query.pixels.x;
+    constants.first_pixel = (query.settings.first_row + query.pixels.y) * constants.camera.width + query.pixels.x;
     constants.rectangle_width = query.pixels.width;
     std::vector<std::uint32_t> counts;
     for (std::uint64_t done = 0; done < total; done += constants.pixel_count) {

@@ -34,13 +34,8 @@ std::uint32_t rays_of_pixel(std::uint32_t quantity) {
 
 gpu::FirstHitConstants first_hit_constants(const GpuScene &scene) {
     gpu::FirstHitConstants constants{};
-    constants.camera_right = scene.frame.camera_right;
-    constants.camera_up = scene.frame.camera_up;
-    constants.camera_forward = scene.frame.camera_forward;
-    constants.start_scale = scene.frame.start_scale;
+    constants.camera = scene.frame.camera;
     constants.start_distance = static_cast<float>(scene.start_distance);
-    constants.width = scene.frame.width;
-    constants.height = scene.frame.height;
     return constants;
 }
 
@@ -93,7 +88,7 @@ void FirstHits::read(const FirstHitQuery &query, double tests_per_submission, co
     gpu::FirstHitConstants constants = constants_;
     constants.quantity = query.quantity;
     constants.format = query.format;
-    constants.first_pixel = query.pixels.y * constants.width + query.pixels.x;
+    constants.first_pixel = query.pixels.y * constants.camera.width + query.pixels.x;
     constants.rectangle_width = query.pixels.width;
     for (std::uint64_t done = 0, total = query.pixels.pixel_count(); done < total; done += constants.pixel_count) {
         constants.first_of_rectangle = static_cast<std::uint32_t>(done);

@@ -141,8 +141,8 @@ std::vector<TreeLamp> tree_lamps(const KernelSurfaces &surfaces, const PreparedS
     return lamps;
 }
 
-std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedScene &scene, const Camera &camera,
-                                const Features &features) {
+std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const std::vector<LightSpot> &spots,
+                                const PreparedScene &scene, const Camera &camera, const Features &features) {
     std::vector<glm::vec4> words(SceneBlocks(features).word_count);
     Writer writer(words, features);
     std::uint32_t surface = 0;
@@ -163,11 +163,8 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     }
     for (std::uint32_t i = 0; i < features.table_materials; ++i)
         writer.reflection(i, scene.used_materials[i]);
-    if (features.spot_count > 0) {
-        std::uint32_t index = 0;
-        for (const LightSpot &spot : light_spots(surfaces, scene.scene.materials))
-            writer.spot(index++, spot);
-    }
+    for (std::uint32_t i = 0; i < features.spot_count; ++i)
+        writer.spot(i, spots[i]);
     if (scene.tree)
         writer.tree(*scene.tree, camera, scene.scene.materials);
     if (features.lamp_tree) {
@@ -179,62 +176,69 @@ std::vector<glm::vec4> words_of(const KernelSurfaces &surfaces, const PreparedSc
     return words;
 }
 
+gpu::CameraView camera_view(const Camera &camera, const RenderSettings &render) {
+    gpu::CameraView view{camera.right, 0.0F, camera.up, render.width, camera.forward, render.height};
+    if (camera.is_orthographic()) {
+        view.start_scale = static_cast<float>(camera.vertical_extent / render.height);
+    } else {
+        view.forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
+        view.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
+    }
+    return view;
+}
+
 gpu::FrameConstants frame_constants(const Camera &camera, const RenderSettings &render, double film_unit) {
     const std::uint64_t seed = mixed(render.seed);
     gpu::FrameConstants constants{};
-    constants.camera_right = camera.right;
-    constants.camera_up = camera.up;
-    if (camera.is_orthographic()) {
-        constants.camera_forward = camera.forward;
-        constants.start_scale = static_cast<float>(camera.vertical_extent / render.height);
-    } else {
-        constants.camera_forward = camera.forward * (render.height / (2.0 * camera.tan_half_fov));
-        constants.start_scale = static_cast<float>(camera.start_distance * (2.0 * camera.tan_half_fov / render.height));
-    }
-    constants.film_scale = static_cast<float>(1.0 / film_unit);
-    constants.width = render.width;
-    constants.height = render.height;
+    constants.camera = camera_view(camera, render);
     constants.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+    constants.film_scale = static_cast<float>(1.0 / film_unit);
     return constants;
 }
 
-// The scene without twins, seen from where camera rays start.
-struct FromStart {
-    DistinctScene distinct;
-    Camera start;
-};
-
-FromStart from_start(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    SeenScene seen = seen_scene(scene.scene, camera);
-    const Camera start = starting_ahead(seen, scene.tree.get(), camera, settings);
-    if (start.start_distance > 0.0)
-        seen = seen_scene(scene.scene, start);
-    require_held_motions(seen, scene.scene, start);
-    return {without_twins(std::move(seen), scene.sphere_order), start};
+// Numbers of the surfaces in the caller's scene, where planes follow all spheres.
+std::vector<std::uint32_t> objects_of(const KernelSurfaces &surfaces, const PreparedScene &scene) {
+    const Scene &held = scene.scene;
+    const std::size_t sphere_count = scene.tree ? scene.tree->scene_sphere_count() : held.spheres.size();
+    const auto of_sphere = [&](std::uint32_t index) { return held.indices.empty() ? index : held.indices[index]; };
+    std::vector<std::uint32_t> objects;
+    for (const SeenSphere &sphere : surfaces.spheres)
+        objects.push_back(of_sphere(sphere.index));
+    for (const CurvedPlane &plane : surfaces.planes) {
+        const bool is_sphere = plane.curvature > 0.0;
+        objects.push_back(is_sphere ? of_sphere(plane.index) : static_cast<std::uint32_t>(sphere_count) + plane.index);
+    }
+    return objects;
 }
 
 } // namespace
 
-GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    const auto [distinct, start] = from_start(scene, camera, settings);
-    return gpu_scene(distinct, scene, start, settings);
+std::uint32_t GpuScene::object_of(std::uint32_t surface) const {
+    if (surface == gpu::NO_SURFACE)
+        return PT_NO_OBJECT;
+    return surface < objects.size() ? objects[surface] : tree->spheres()[surface - objects.size()];
 }
 
-KernelSurfaces surfaces_of(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
-    const auto [distinct, start] = from_start(scene, camera, settings);
-    return kernel_surfaces(distinct.seen, scene.tree.get(), start);
+GpuScene gpu_scene(const PreparedScene &scene, const Camera &camera, const RenderSettings &settings) {
+    const Camera start = starting_ahead(scene.scene, scene.tree.get(), camera, settings);
+    SeenScene seen = seen_scene(scene.scene, start);
+    require_held_motions(seen, scene.scene, start);
+    return gpu_scene(without_twins(std::move(seen), scene.sphere_order), scene, start, settings);
 }
 
 GpuScene gpu_scene(const DistinctScene &distinct, const PreparedScene &scene, const Camera &start,
                    const RenderSettings &settings) {
     const KernelSurfaces surfaces = kernel_surfaces(distinct.seen, scene.tree.get(), start);
-    const Features features = features_of(distinct, surfaces, scene, start, settings);
+    Features features = features_of(distinct, surfaces, scene, start, settings);
+    const std::vector<LightSpot> spots = light_spots(surfaces, scene.scene.materials, features);
+    features.spot_count = static_cast<std::uint32_t>(spots.size());
     return {features,
-            words_of(surfaces, scene, start, features),
+            words_of(surfaces, spots, scene, start, features),
             frame_constants(start, settings, scene.film_unit),
             scene.film_unit,
             scene.tree,
-            start.start_distance};
+            start.start_distance,
+            objects_of(surfaces, scene)};
 }
 
 } // namespace pt

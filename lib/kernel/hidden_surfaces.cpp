@@ -39,12 +39,11 @@ bool lies_apart(const MovingBall &ball, const PointBox &box) {
 }
 
 bool lies_apart(const SeenSphere &hidden, const SeenScene &scene, const SphereTree *tree, const Camera &camera) {
-    const auto is_apart = [&](const auto &surface) { return surface.hidden || lies_apart(hidden, surface); };
+    const auto is_in_touch = [&](const auto &surface) { return !surface.hidden && !lies_apart(hidden, surface); };
     const auto of_scene = [&](const PointBox &box) {
         return PointBox{box.low - camera.position, box.high - camera.position};
     };
-    return std::ranges::all_of(scene.spheres, is_apart) && std::ranges::all_of(scene.planes, is_apart) &&
-           (tree == nullptr || lies_apart(hidden, of_scene(tree->bounds())));
+    return !scene.any_surface(is_in_touch) && (tree == nullptr || lies_apart(hidden, of_scene(tree->bounds())));
 }
 
 } // namespace pt

@@ -1,6 +1,7 @@
 // Chooses spots; see light_spots.h.
 #include "lib/kernel/light_spots.h"
 
+#include "lib/kernel/scene_blocks.h"
 #include "shaders/gpu_layout.h"
 
 #include <algorithm>
@@ -94,7 +95,12 @@ private:
 
 } // namespace
 
-std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials) {
+std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
+                                   const Features &features) {
+    const bool are_of_use = samples_lamps(features) && features.max_path_length > 2;
+    if (!are_of_use || features.lamp_count > gpu::EVERY_LAMP_LIMIT || !features.scene_in_uniform ||
+        SceneBlocks(features).word_count + gpu::SPOT_LIMIT > gpu::UNIFORM_SCENE_WORDS)
+        return {};
     std::vector<LightSpot> spots = SpotChoice(surfaces, materials).spots();
     if (spots.size() > gpu::SPOT_LIMIT)
         spots.clear();

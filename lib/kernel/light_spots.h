@@ -2,6 +2,7 @@
 // their light rarely, and much of it at a time (shaders/spots.glsl).
 #pragma once
 
+#include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/scene_features.h"
 #include "lib/scene/scene.h"
 
@@ -18,8 +19,10 @@ struct LightSpot {
     float glossiness;  // of a mirror image; -1 for a glow
 };
 
-// None where there are more than SPOT_LIMIT, as what they cost grows with their number. What the camera sees does not
-// matter: a camera that moves keeps its kernel.
-std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials);
+// None where paths are too short to go by way of one, or lamps are many; nor where there are more than SPOT_LIMIT, as
+// what they cost grows with their number. What the camera sees does not matter: a camera that moves keeps its kernel.
+// features: of the surfaces, without spots.
+std::vector<LightSpot> light_spots(const KernelSurfaces &surfaces, const std::vector<Material> &materials,
+                                   const Features &features);
 
 } // namespace pt

@@ -3,6 +3,8 @@
 
 #include "lib/base/error.h"
 #include "lib/base/rules.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/seen_sphere.h"
 
 #include <algorithm>
 #include <array>
@@ -175,12 +177,12 @@ double depth_of_sphere(const MovingBall &sphere, const AnyView &view, double mar
 // that rays keep a distance from them at which float32 tells the side: it costs no precision, as the centre is known
 // no better.
 template <typename AnyView>
-double first_depth(const SeenScene &seen, const SphereTree *tree, const Camera &camera, const AnyView &view) {
+double first_depth(const Scene &scene, const SphereTree *tree, const Camera &camera, const AnyView &view) {
     double depth = out_of_view;
-    for (const SeenSphere &sphere : seen.spheres)
-        depth = std::min(depth, depth_of_sphere(sphere, view));
-    for (const CurvedPlane &plane : seen.planes)
-        depth = std::min(depth, nearest_depth(plane, view));
+    for (const Sphere &sphere : scene.spheres)
+        depth = std::min(depth, depth_of_sphere(seen_ball(sphere, camera), view));
+    for (const Plane &plane : scene.planes)
+        depth = std::min(depth, nearest_depth(curved_plane(plane, scene.materials[plane.material], camera), view));
     if (tree)
         depth = std::min(
             depth, tree->least_depth(
@@ -204,11 +206,11 @@ void require_held_view(const Camera &camera, const RenderSettings &settings) {
 
 // Stays as far before the first surface as the view is wide, and a little more, so that no surface in view divides the
 // disc.
-Camera starting_in_parallel(const SeenScene &seen, const SphereTree *tree, const Camera &camera,
+Camera starting_in_parallel(const Scene &scene, const SphereTree *tree, const Camera &camera,
                             const RenderSettings &settings) {
     require_held_view(camera, settings);
     const ParallelView view(camera, settings);
-    const double depth = first_depth(seen, tree, camera, view);
+    const double depth = first_depth(scene, tree, camera, view);
     Camera ahead = camera;
     ahead.start_radius = view.radius;
     if (depth <= farthest_start)
@@ -219,14 +221,14 @@ Camera starting_in_parallel(const SeenScene &seen, const SphereTree *tree, const
 
 } // namespace
 
-Camera starting_ahead(const SeenScene &seen, const SphereTree *tree, const Camera &camera,
+Camera starting_ahead(const Scene &scene, const SphereTree *tree, const Camera &camera,
                       const RenderSettings &settings) {
     if (camera.is_orthographic())
-        return starting_in_parallel(seen, tree, camera, settings);
+        return starting_in_parallel(scene, tree, camera, settings);
     if (2.0 * camera.tan_half_fov / settings.height > narrow_pixel)
         return camera;
     const View view(camera, settings);
-    const double depth = first_depth(seen, tree, camera, view);
+    const double depth = first_depth(scene, tree, camera, view);
     if (depth > farthest_start)
         return camera;
     // Keeps a distance from the first surface as large as the view is wide there, so that rounding puts no start behind

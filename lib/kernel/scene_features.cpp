@@ -3,7 +3,6 @@
 
 #include "lib/kernel/hidden_surfaces.h"
 #include "lib/kernel/lamp_tree_words.h"
-#include "lib/kernel/light_spots.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/scene_blocks.h"
 #include "lib/scene/lamp_tree.h"
@@ -14,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <span>
 
@@ -26,6 +24,15 @@ namespace pt {
 std::uint64_t loop_trips_per_walk(const Features &features) {
     constexpr std::uint64_t tree_trips = 200;
     return features.surface_count() + (features.tree ? tree_trips : 0);
+}
+
+bool samples_lamps(const Features &features) {
+    const bool does = features.estimator == PT_ESTIMATOR_MIS || features.estimator == PT_ESTIMATOR_LIGHT;
+    return does && features.max_path_length > 1;
+}
+
+std::uint32_t camera_dimensions(const Features &features) {
+    return gpu::camera_dimensions(features.motion ? 1 : 0);
 }
 
 namespace {
@@ -49,13 +56,6 @@ bool is_in_region(const std::vector<CurvedPlane> &planes, const PointBox &box, c
     });
 }
 
-// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a
-// straight line both ends tell.
-bool holds_camera(const SeenSphere &sphere) {
-    constexpr double margin = 1.0 - side_margin;
-    return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;
-}
-
 // Whether the camera is on a side of a plane that float32 can tell, as the shutter opens.
 bool has_known_side(const CurvedPlane &plane) {
     return static_cast<float>(plane.offset) != 0.0F;
@@ -64,11 +64,6 @@ bool has_known_side(const CurvedPlane &plane) {
 std::uint32_t rounded_up(std::uint32_t levels) {
     constexpr std::uint32_t step = 4;
     return (levels + step - 1) / step * step;
-}
-
-bool samples_lamps(const RenderSettings &render) {
-    return (render.estimator == PT_ESTIMATOR_MIS || render.estimator == PT_ESTIMATOR_LIGHT) &&
-           render.max_path_length > 1;
 }
 
 // Loop trips for which a vertex looks at the lamps: over all of them once, and once more to choose; or over the top of
@@ -85,40 +80,6 @@ std::uint64_t loop_trips_per_branch(const Features &features) {
 }
 
 } // namespace
-
-KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera) {
-    KernelSurfaces surfaces{};
-    std::vector<SeenSphere> &spheres = surfaces.spheres;
-    spheres.reserve(distinct.spheres.size());
-    const auto add = [&](auto &&is_next) {
-        const std::size_t before = spheres.size();
-        std::ranges::copy_if(distinct.spheres, std::back_inserter(spheres),
-                             [&](const SeenSphere &sphere) { return !sphere.is_flat && is_next(sphere); });
-        return static_cast<std::uint32_t>(spheres.size() - before);
-    };
-    const auto is_sky = [&](const SeenSphere &sphere) {
-        return holds_camera(sphere) && !(sphere.hidden && lies_apart(sphere, distinct, tree, camera));
-    };
-    const auto is_lamp = [&](const SeenSphere &sphere) { return sphere.emits && !is_sky(sphere); };
-    HiddenCounts &hidden = surfaces.hidden;
-    surfaces.lamp_count = add([&](const SeenSphere &sphere) { return is_lamp(sphere) && !sphere.hidden; });
-    surfaces.lamp_count += hidden.lamps =
-        add([&](const SeenSphere &sphere) { return is_lamp(sphere) && sphere.hidden; });
-    surfaces.sky_count = hidden.skies =
-        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && sphere.hidden; });
-    surfaces.sky_count +=
-        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && !sphere.hidden; });
-    add([](const SeenSphere &sphere) { return !sphere.emits && !sphere.hidden; });
-    hidden.others = add([](const SeenSphere &sphere) { return !sphere.emits && sphere.hidden; });
-    for (const SeenSphere &sphere : distinct.spheres)
-        if (sphere.is_flat)
-            surfaces.planes.push_back(curved_plane(sphere));
-    surfaces.planes.insert(surfaces.planes.end(), distinct.planes.begin(), distinct.planes.end());
-    const auto seen = std::stable_partition(surfaces.planes.begin(), surfaces.planes.end(),
-                                            [](const CurvedPlane &plane) { return plane.hidden; });
-    hidden.planes = static_cast<std::uint32_t>(seen - surfaces.planes.begin());
-    return surfaces;
-}
 
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render) {
@@ -169,8 +130,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
                             (tree_lamps > 0 && !is_in_region(distinct.seen.planes, tree->bounds(), camera));
     // Of flat planes vertices tell the side as well, and a little faster, where no two all but coincide.
     // Where rays start on both sides of a surface, or pass it, the camera does not tell them.
-    const bool starts_divided =
-        planes_divide || std::ranges::any_of(distinct.seen.spheres, divides) || (tree && tree->divides_start(camera));
+    const bool starts_divided = distinct.seen.any_surface(divides) || (tree && tree->divides_start(camera));
     const bool some_are_passed = planes_are_passed || std::ranges::any_of(distinct.seen.spheres, is_passed);
     features.known_sides = !starts_divided && !some_are_passed &&
                            (features.inside || features.curvature || distinct.close_planes) &&
@@ -190,11 +150,7 @@ Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfac
         features.scene_in_uniform = false;
         features.table_materials = static_cast<std::uint32_t>(scene.used_materials.size());
     }
-    if (features.scene_in_uniform && samples_lamps(render) && render.max_path_length > 2 &&
-        features.lamp_count <= gpu::EVERY_LAMP_LIMIT &&
-        SceneBlocks(features).word_count + gpu::SPOT_LIMIT <= gpu::UNIFORM_SCENE_WORDS)
-        features.spot_count = static_cast<std::uint32_t>(light_spots(surfaces, scene.scene.materials).size());
-    features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(render);
+    features.lamp_tree = features.lamp_count >= least_tree_lamps && samples_lamps(features);
     return features;
 }
 
@@ -222,7 +178,7 @@ PointLayout point_layout(const Features &features) {
     if (features.sampler == PT_SAMPLER_RANDOM)
         return {{}, 0, branches};
     std::vector<std::uint32_t> blocks(shared, 2); // the place on each lamp
-    blocks.front() = gpu::camera_dimensions(features.motion ? 1 : 0);
+    blocks.front() = camera_dimensions(features);
     const std::uint32_t direction = gpu::direction_dimensions(features.gloss ? 1 : 0, features.max_path_length);
     if (features.spot_count > 0) {
         const std::uint32_t spot = gpu::every_lamp_blocks(features.lamp_count);

@@ -2,33 +2,18 @@
 // TracePipelines specialises pathtrace.comp with it.
 #pragma once
 
+#include "lib/kernel/kernel_surfaces.h"
 #include "lib/kernel/point_sequence.h"
 #include "lib/kernel/prepared_scene.h"
 #include "lib/scene/camera.h"
-#include "lib/scene/curved_plane.h"
 #include "lib/scene/render_settings.h"
-#include "lib/scene/seen_scene.h"
-#include "lib/scene/seen_sphere.h"
 #include "lib/scene/twins.h"
 #include "shaders/gpu_layout.h"
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 namespace pt {
-
-// Of surfaces that the camera does not see, none of which is in the tree.
-struct HiddenCounts {
-    std::uint32_t lamps;
-    std::uint32_t skies;
-    std::uint32_t others; // spheres that do not emit
-    std::uint32_t planes;
-
-    bool operator==(const HiddenCounts &) const = default;
-
-    bool any() const { return lamps + skies + others + planes > 0; }
-};
 
 struct Features {
     std::uint32_t sphere_count; // spheres held by centre and radius
@@ -68,24 +53,15 @@ struct Features {
     std::uint32_t walked_lamps() const { return lamp_count - tree_lamps; }
 };
 
-// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in
-// the scene's order. Hidden ones are the last lamps, the first skies, the last other spheres and the first planes, so
-// that those that the camera sees are two ranges. Paths cannot leave a sphere that holds the camera: one that emits
-// surrounds them all like a sky, which cannot be sampled from within. A hidden one that lies apart from all that is
-// seen is a lamp.
-struct KernelSurfaces {
-    std::vector<SeenSphere> spheres; // held by centre and radius
-    std::vector<CurvedPlane> planes;
-    std::uint32_t lamp_count;
-    std::uint32_t sky_count;
-    HiddenCounts hidden;
-};
-
-// tree: NULL if there is none.
-KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
-
+// All but spot_count (light_spots.h).
 Features features_of(const DistinctScene &distinct, const KernelSurfaces &surfaces, const PreparedScene &scene,
                      const Camera &camera, const RenderSettings &render);
+
+// Whether the estimator does, and paths are long enough.
+bool samples_lamps(const Features &features);
+
+// Numbers that a camera ray consumes.
+std::uint32_t camera_dimensions(const Features &features);
 
 // Branches in which a path leaves its first vertex. Where light comes over several vertices, so does most of the noise,
 // and the camera ray, its vertex and the lamps seen from it serve all branches. (Measured on the coursework scene with

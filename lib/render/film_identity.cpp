@@ -1,7 +1,5 @@
 #include "lib/render/film_identity.h"
 
-#include "lib/base/digest.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,17 +8,6 @@
 namespace pt {
 
 namespace {
-
-std::string digest_of(const Camera &camera) {
-    Digest digest;
-    for (const glm::dvec3 &vector : {camera.position, camera.right, camera.up, camera.forward})
-        digest.add(vector);
-    for (const double number : {camera.tan_half_fov, camera.shutter_open, camera.shutter_close})
-        digest.add(number);
-    if (camera.is_orthographic())
-        digest.add(camera.vertical_extent);
-    return digest.text();
-}
 
 // Printable ASCII, as a film's header is.
 std::string printable(std::string text) {

@@ -87,7 +87,7 @@ void Renderer::readback(const Image &image) {
     require_settings();
     if (is_of_first_hits(image.layout.quantity)) { // a few rays a pixel: one device does
         const KernelsKept kept(devices_);
-        read_first_hits(image, {*scene_, *camera_, *settings_, gpu_scene_of_settings()}, *devices_.front());
+        read_first_hits(image, *settings_, gpu_scene_of_settings(), *devices_.front());
         return;
     }
     require_samples();

@@ -1,6 +1,7 @@
 // The rules of a camera and its defaults; see camera.h.
 #include "lib/scene/camera.h"
 
+#include "lib/base/digest.h"
 #include "lib/base/rules.h"
 #include "lib/base/scaled_vector.h"
 
@@ -101,6 +102,17 @@ Camera validated_camera(const pt_camera &source) {
             camera.shutter_open,
             camera.shutter_close,
             camera.vertical_extent};
+}
+
+std::string digest_of(const Camera &camera) {
+    Digest digest;
+    for (const glm::dvec3 &vector : {camera.position, camera.right, camera.up, camera.forward})
+        digest.add(vector);
+    for (const double number : {camera.tan_half_fov, camera.shutter_open, camera.shutter_close})
+        digest.add(number);
+    if (camera.is_orthographic())
+        digest.add(camera.vertical_extent);
+    return digest.text();
 }
 
 } // namespace pt

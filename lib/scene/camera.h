@@ -5,6 +5,8 @@
 
 #include <glm/glm.hpp>
 
+#include <string>
+
 namespace pt {
 
 struct Camera {
@@ -24,5 +26,8 @@ struct Camera {
 
 // Takes over a camera whose struct_size is settled. Throws PT_ERROR_INVALID_ARGUMENT with all broken rules.
 Camera validated_camera(const pt_camera &source);
+
+// Tells cameras apart, in films.
+std::string digest_of(const Camera &camera);
 
 } // namespace pt

@@ -22,7 +22,7 @@ struct CurvedPlane {
 };
 
 // With its normal towards the camera. index: into Scene::planes.
-CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index);
+CurvedPlane curved_plane(const Plane &plane, const Material &of_plane, const Camera &camera, std::uint32_t index = 0);
 
 // Of a sphere that is_flat: in float32, its centre and radius would put its surface off by 2^-24 of the radius, this
 // does by 2^-24 of what the scene measures.

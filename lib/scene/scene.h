@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -47,6 +48,12 @@ struct Scene {
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays
     std::vector<std::uint32_t> indices = {};      // of the spheres in the caller's scene, where they are not all of it
+
+    template <typename Use>
+    void for_each_surface(const Use &use) const {
+        std::ranges::for_each(spheres, use);
+        std::ranges::for_each(planes, use);
+    }
 };
 
 // Copies a scene whose struct_size is settled. Throws PT_ERROR_INVALID_SCENE with all broken rules.

@@ -6,6 +6,7 @@
 #include "lib/scene/scene.h"
 #include "lib/scene/seen_sphere.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace pt {
@@ -14,6 +15,12 @@ namespace pt {
 struct SeenScene {
     std::vector<SeenSphere> spheres;
     std::vector<CurvedPlane> planes; // flat ones
+
+    // Whether some surface is so, whatever its kind.
+    template <typename Is>
+    bool any_surface(const Is &is) const {
+        return std::ranges::any_of(spheres, is) || std::ranges::any_of(planes, is);
+    }
 };
 
 SeenScene seen_scene(const Scene &scene, const Camera &camera);

@@ -29,8 +29,7 @@ bool moves_little(const SeenSphere &sphere) {
 } // namespace
 
 SeenSphere::SeenSphere(const Sphere &sphere, const Material &of_sphere, const Camera &camera, std::uint32_t of_index) :
-    MovingBall{sphere.center + camera.shutter_open * sphere.motion - camera.position,
-               (camera.shutter_close - camera.shutter_open) * sphere.motion, sphere.radius},
+    MovingBall(seen_ball(sphere, camera)),
     distance(glm::length(open)),
     material(sphere.material),
     index(of_index),

@@ -10,6 +10,11 @@
 namespace pt {
 
 // From the shutter's opening to its closing, relative to the camera.
+inline MovingBall seen_ball(const Sphere &sphere, const Camera &camera) {
+    return {sphere.center + camera.shutter_open * sphere.motion - camera.position,
+            (camera.shutter_close - camera.shutter_open) * sphere.motion, sphere.radius};
+}
+
 struct SeenSphere : MovingBall {
     double distance;        // of the centre as the shutter opens
     std::uint32_t material; // index into Scene::materials

@@ -16,23 +16,18 @@ namespace {
 
 TEST(GpuLayout, KernelReadsEachPushConstantWhereTheHostWritesIt) {
     pt::gpu::FrameConstants frame{};
-    frame.camera_right = {1, 2, 3};
-    frame.film_scale = 4;
-    frame.camera_up = {5, 6, 7};
-    frame.width = 8;
-    frame.camera_forward = {9, 10, 11};
-    frame.height = 12;
+    frame.camera = {{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
     frame.seed = {13, 14};
-    frame.film_first_pixel = 15;
-    frame.strip_first_pixel = 16;
-    frame.strip_pixel_count = 17;
-    frame.first_entry = 18;
-    frame.film_part = 19;
-    frame.is_first = 20;
-    frame.first_sample = 21;
-    frame.sample_count = 22;
-    frame.share = 23;
-    frame.start_scale = 24;
+    frame.film_scale = 15;
+    frame.film_first_pixel = 16;
+    frame.strip_first_pixel = 17;
+    frame.strip_pixel_count = 18;
+    frame.first_entry = 19;
+    frame.film_part = 20;
+    frame.is_first = 21;
+    frame.first_sample = 22;
+    frame.sample_count = 23;
+    frame.share = 24;
     const auto seen = Probe(push_layout_spirv(), sizeof frame).run<float>({}, 24, frame, 1);
     for (int i = 0; i < 24; ++i)
         EXPECT_EQ(seen[static_cast<std::size_t>(i)], static_cast<float>(i + 1));

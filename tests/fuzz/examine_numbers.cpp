@@ -197,7 +197,7 @@ void require_frame(const pt::gpu::FrameConstants &frame, double unit) {
     int exponent = 0;
     require(std::frexp(unit, &exponent) == 0.5 && std::abs(exponent) <= 121, "the film's unit is a power of two");
     require(std::isnormal(frame.film_scale), "the film's scale is a normal number");
-    const float distance = glm::length(frame.camera_forward);
+    const float distance = glm::length(frame.camera.forward);
     require(distance > 0.0F && distance <= 1e18F, "the distance of the image plane is a length");
 }
 

@@ -28,7 +28,7 @@ double start_before(const std::vector<pt::Sphere> &spheres, const std::vector<pt
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
     scene.spheres = spheres;
     scene.planes = planes;
-    return pt::starting_ahead(pt::seen_scene(scene, camera), nullptr, camera, square).start_distance;
+    return pt::starting_ahead(scene, nullptr, camera, square).start_distance;
 }
 
 // Five eighths of a view's diagonal are 1.25 of its half: of a square of side 2, that is 1.25 sqrt(2).

@@ -31,7 +31,7 @@ double start_of(const std::vector<pt::Sphere> &spheres, const std::vector<pt::Pl
     scene.materials = {{glm::vec3(0.5F), glm::vec3(0), glm::vec3(0), 0}};
     scene.spheres = spheres;
     scene.planes = planes;
-    const pt::Camera ahead = pt::starting_ahead(pt::seen_scene(scene, camera), nullptr, camera, square);
+    const pt::Camera ahead = pt::starting_ahead(scene, nullptr, camera, square);
     EXPECT_LT(glm::length(ahead.position - camera.position - ahead.start_distance * camera.forward),
               1e-15 * ahead.start_distance + 1e-15);
     return ahead.start_distance;
@@ -169,8 +169,7 @@ TEST(RayStart, OfATreeIsThatOfItsSpheres) {
             list.push_back({centre, radius * (is_around ? 1.0 - 0x1p-15 : 1.0 + 0x1p-15), way, 0});
         }
         const pt::PreparedScene prepared(pt::checked_scene(scene_of({&grey, 1}, held, {})), 1);
-        const pt::SeenScene beside = pt::seen_scene(prepared.scene, camera); // what reaches too far for the tree
-        const double start = pt::starting_ahead(beside, prepared.tree.get(), camera, square).start_distance;
+        const double start = pt::starting_ahead(prepared.scene, prepared.tree.get(), camera, square).start_distance;
         const double expected = start_of(list, {}, camera);
         EXPECT_NEAR(start, expected, 1e-3 * (1.0 + 1e-3 * expected)) << "round " << round;
         ahead += expected > 1.0 ? 1 : 0;

@@ -16,12 +16,12 @@ void main()
     if (!is_item(index))
         return;
     Item item = items[index];
-    FrameConstants frame;
-    frame.camera_right = item.right_width.xyz;
-    frame.camera_up = item.up_height.xyz;
-    frame.camera_forward = item.forward.xyz;
-    frame.width = floatBitsToUint(item.right_width.w);
-    frame.height = floatBitsToUint(item.up_height.w);
-    vec2 place = image_place(frame, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw);
-    results[index] = vec4(camera_direction(frame, place), 0.0);
+    CameraView camera;
+    camera.right = item.right_width.xyz;
+    camera.up = item.up_height.xyz;
+    camera.forward = item.forward.xyz;
+    camera.width = floatBitsToUint(item.right_width.w);
+    camera.height = floatBitsToUint(item.up_height.w);
+    vec2 place = image_place(camera, floatBitsToUint(item.pixel_place.xy), item.pixel_place.zw);
+    results[index] = vec4(camera_direction(camera, place), 0.0);
 }

@@ -12,10 +12,10 @@ void main()
 {
     if (gl_GlobalInvocationID.x != 0u)
         return;
-    values[0] = vec4(frame.camera_right, frame.film_scale);
-    values[1] = vec4(frame.camera_up, frame.width);
-    values[2] = vec4(frame.camera_forward, frame.height);
-    values[3] = vec4(frame.seed, frame.film_first_pixel, frame.strip_first_pixel);
-    values[4] = vec4(frame.strip_pixel_count, frame.first_entry, frame.film_part, frame.is_first);
-    values[5] = vec4(frame.first_sample, frame.sample_count, frame.share, frame.start_scale);
+    values[0] = vec4(frame.camera.right, frame.camera.start_scale);
+    values[1] = vec4(frame.camera.up, frame.camera.width);
+    values[2] = vec4(frame.camera.forward, frame.camera.height);
+    values[3] = vec4(frame.seed, frame.film_scale, frame.film_first_pixel);
+    values[4] = vec4(frame.strip_first_pixel, frame.strip_pixel_count, frame.first_entry, frame.film_part);
+    values[5] = vec4(frame.is_first, frame.first_sample, frame.sample_count, frame.share);
 }

@@ -1,0 +1,56 @@
+#include "lib/kernel/kernel_surfaces.h"
+
+#include "lib/kernel/hidden_surfaces.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace pt {
+
+namespace {
+
+// Whether a sphere holds the camera while the shutter is open, with a margin for float32. Of one that moves on a
+// straight line both ends tell.
+bool holds_camera(const SeenSphere &sphere) {
+    constexpr double margin = 1.0 - side_margin;
+    return sphere.distance < sphere.radius * margin && glm::length(sphere.close()) < sphere.radius * margin;
+}
+
+} // namespace
+
+KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera) {
+    KernelSurfaces surfaces{};
+    std::vector<SeenSphere> &spheres = surfaces.spheres;
+    spheres.reserve(distinct.spheres.size());
+    const auto add = [&](auto &&is_next) {
+        const std::size_t before = spheres.size();
+        std::ranges::copy_if(distinct.spheres, std::back_inserter(spheres),
+                             [&](const SeenSphere &sphere) { return !sphere.is_flat && is_next(sphere); });
+        return static_cast<std::uint32_t>(spheres.size() - before);
+    };
+    const auto is_sky = [&](const SeenSphere &sphere) {
+        return holds_camera(sphere) && !(sphere.hidden && lies_apart(sphere, distinct, tree, camera));
+    };
+    const auto is_lamp = [&](const SeenSphere &sphere) { return sphere.emits && !is_sky(sphere); };
+    HiddenCounts &hidden = surfaces.hidden;
+    surfaces.lamp_count = add([&](const SeenSphere &sphere) { return is_lamp(sphere) && !sphere.hidden; });
+    surfaces.lamp_count += hidden.lamps =
+        add([&](const SeenSphere &sphere) { return is_lamp(sphere) && sphere.hidden; });
+    surfaces.sky_count = hidden.skies =
+        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && sphere.hidden; });
+    surfaces.sky_count +=
+        add([&](const SeenSphere &sphere) { return sphere.emits && is_sky(sphere) && !sphere.hidden; });
+    add([](const SeenSphere &sphere) { return !sphere.emits && !sphere.hidden; });
+    hidden.others = add([](const SeenSphere &sphere) { return !sphere.emits && sphere.hidden; });
+    for (const SeenSphere &sphere : distinct.spheres)
+        if (sphere.is_flat)
+            surfaces.planes.push_back(curved_plane(sphere));
+    surfaces.planes.insert(surfaces.planes.end(), distinct.planes.begin(), distinct.planes.end());
+    const auto seen = std::stable_partition(surfaces.planes.begin(), surfaces.planes.end(),
+                                            [](const CurvedPlane &plane) { return plane.hidden; });
+    hidden.planes = static_cast<std::uint32_t>(seen - surfaces.planes.begin());
+    return surfaces;
+}
+
+} // namespace pt

@@ -1,0 +1,43 @@
+// The surfaces that one camera sees, in the order in which kernels number them. Made by gpu_scene.
+#pragma once
+
+#include "lib/scene/camera.h"
+#include "lib/scene/curved_plane.h"
+#include "lib/scene/seen_scene.h"
+#include "lib/scene/seen_sphere.h"
+#include "lib/tree/sphere_tree.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pt {
+
+// Of surfaces that the camera does not see, none of which is in the tree.
+struct HiddenCounts {
+    std::uint32_t lamps;
+    std::uint32_t skies;
+    std::uint32_t others; // spheres that do not emit
+    std::uint32_t planes;
+
+    bool operator==(const HiddenCounts &) const = default;
+
+    bool any() const { return lamps + skies + others + planes > 0; }
+};
+
+// A scene without twins as the kernel has it: lamps, skies, other spheres, planes with curvature, planes; otherwise in
+// the scene's order. Hidden ones are the last lamps, the first skies, the last other spheres and the first planes, so
+// that those that the camera sees are two ranges. Paths cannot leave a sphere that holds the camera: one that emits
+// surrounds them all like a sky, which cannot be sampled from within. A hidden one that lies apart from all that is
+// seen is a lamp.
+struct KernelSurfaces {
+    std::vector<SeenSphere> spheres; // held by centre and radius
+    std::vector<CurvedPlane> planes;
+    std::uint32_t lamp_count;
+    std::uint32_t sky_count;
+    HiddenCounts hidden;
+};
+
+// tree: NULL if there is none.
+KernelSurfaces kernel_surfaces(const SeenScene &distinct, const SphereTree *tree, const Camera &camera);
+
+} // namespace pt
