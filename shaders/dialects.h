@@ -23,9 +23,9 @@ namespace pt::gpu {
 using real = double;
 using uvec4 = glm::uvec4;
 using std::log;
-using std::log1p;
 using std::max;
 using std::min;
+using std::sqrt;
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -79,12 +79,6 @@ inline real square_of_quotient(real dividend, real square_of_divisor) {
 #define less_of min
 #define more_of max
 #define infinity uintBitsToFloat(0x7f800000u)
-
-// Where 1 + x would lose its digits, the first terms of the series do.
-float log1p(float x)
-{
-    return x < 0.015625 ? x * (1.0 - x * (0.5 - x * (1.0 / 3.0))) : log(1.0 + x);
-}
 
 // The square of a dividend may be no float, and nothing by the square of a small divisor no number.
 float square_of_quotient(float dividend, float square_of_divisor)

@@ -40,7 +40,7 @@ double margin(std::uint32_t sampler) {
 // and the parts of a film tell too little of it there (exaggeration()): so much more is stated, within the bounds; of
 // what is uncertain the bounds are wide enough. Calibrated.
 double margin_of_sequence(std::uint32_t sampler) {
-    return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.1;
+    return sampler == PT_SAMPLER_RANDOM ? 1.0 : 1.125;
 }
 
 // How many pixels with equal errors would make a sum as uncertain: their squares are each a share of 1 / n of the sum,

@@ -54,7 +54,8 @@ ErrorEstimate Renderer::error_with_lamps() {
     if (!small_lamps_)
         small_lamps_ = small_lamps_in_view(*scene_, ray_start(), settings_->width, settings_->height,
                                            settings_->first_row, settings_->row_count);
-    const UnmetSquares sums = unmet_squares(*small_lamps_, relative_offset, [this](const LampPiece &piece) {
+    const bool is_random = settings_->sampler == PT_SAMPLER_RANDOM;
+    const UnmetSquares sums = unmet_squares(*small_lamps_, relative_offset, is_random, [this](const LampPiece &piece) {
         return samples_.of(samples_.grid().tile_at(piece.x, piece.y)).count();
     });
     const double values = 3.0 * settings_->width * settings_->row_count;

@@ -129,16 +129,19 @@ std::vector<LampPiece> small_lamps_in_view(const PreparedScene &scene, const Cam
     return pieces;
 }
 
-UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset,
+UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples) {
     UnmetSquares all{0.0, 0.0};
     for (const LampPiece &piece : pieces) {
         const auto count = static_cast<double>(samples(piece));
         if (count * piece.lamp_size >= enough_meetings)
             continue;
+        const double meetings = count * piece.share;
+        const double random_variance = meetings * (1.0 - piece.share);
+        const double variance = is_random ? random_variance : std::min(random_variance, 0.6 * std::sqrt(meetings));
         for (int channel = 0; channel < 3; ++channel) {
             const double emission = piece.emission[channel];
-            const double square = emission * emission * piece.share * (1.0 - piece.share) / count;
+            const double square = emission * emission * variance / (count * count);
             const double limit = piece.share * emission;
             all.square += square;
             all.relative_square += square / (limit * limit + offset);

@@ -34,9 +34,12 @@ struct UnmetSquares {
 };
 
 // Those expected of lamps that the samples of a pixel, whose number is asked for, should have met less than 8 times. A
-// sample meets a piece that covers a share p with that probability, so that the mean of n samples, whose limit is p E,
-// errs by E sqrt(p (1 - p) / n). offset: that of a relative error (x - r)^2 / (r^2 + offset).
-UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset,
+// piece that covers a share p of the pixel is met by n p of n samples, with the variance n p (1 - p) if they are
+// random. Of quasi-random points there is one in each of n cells of the pixel, so chance is left in the cells that the
+// edge of the piece crosses: of a disc of n p cells some 4.5 sqrt(n p), with 0.13 each, or 0.6 sqrt(n p) together (the
+// test counts). The mean of n samples, whose limit is p E, errs by E / n times the root of the variance. offset: that
+// of a relative error (x - r)^2 / (r^2 + offset).
+UnmetSquares unmet_squares(const std::vector<LampPiece> &pieces, double offset, bool is_random,
                            const std::function<std::uint64_t(const LampPiece &)> &samples);
 
 } // namespace pt

@@ -130,7 +130,9 @@ double relative_square(const Value &value, double around) {
 
 double unseen(double mean, double largest, double samples) {
     const double brightest = largest / samples;
-    return mean >= brightest ? 0.0 : 0.5 / samples * std::log1p(brightest * brightest / (mean * mean + 0.01));
+    const double b = brightest / std::sqrt(mean * mean + 0.01);
+    const double of_corners = 0.05 * (b * b) / (std::sqrt(samples) * (3.0 + 0.81 * b + 0.9 * b * std::sqrt(b)));
+    return mean >= brightest ? 0.0 : of_corners;
 }
 
 bool stands_out(const Value &value, double around) {

@@ -1,5 +1,6 @@
 // What single pixels say about the error of an image, in regions whose result is known.
 #include "lib/film/error_region.h"
+#include "shaders/pixel_error.h"
 
 #include <gtest/gtest.h>
 
@@ -159,8 +160,8 @@ TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
     channel.mean[middle] = 1000.0F;
     constexpr double samples = 64.0;
     const pt::PixelErrors found = errors(channel, samples);
-    const double share = 1000.0 / samples;
-    const double expected = std::log((1.01 + share * share) / 1.01) / (2.0 * samples);
+    const double b = 1000.0 / samples / std::sqrt(1.01);
+    const double expected = 0.05 * b * b / (std::sqrt(samples) * (3.0 + 0.81 * b + 0.9 * std::pow(b, 1.5)));
     for (std::size_t y = 10; y < 17; ++y)
         for (std::size_t x = 8; x < 15; ++x) {
             const bool beside = x >= 10 && x <= 12 && y >= 12 && y <= 14 && index_of(x, y) != middle;
@@ -168,6 +169,24 @@ TEST(ErrorRegion, UnseenLightIsExpectedOnlyBesideBrighterPixels) {
         }
     for (const double unseen : errors(channel, 1024.0).unseen) // a sample of 1000 would show
         EXPECT_EQ(unseen, 0.0);
+}
+
+// The integral over p from 0 to 1 / N of 0.05 / (2 sqrt(p)) times p / N / (a^2 + p^2), in steps of s = sqrt(p).
+TEST(ErrorRegion, UnseenLightIsTheExpectationOverCorners) {
+    constexpr double samples = 64.0;
+    for (const double b : {1.01, 2.0, 10.0, 100.0, 1e4, 1e6}) {
+        const double a = 1.0 / (samples * b);
+        constexpr int steps = 1'000'000;
+        const double step = std::sqrt(1.0 / samples) / steps;
+        double integral = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const double p = (i + 0.5) * step * (i + 0.5) * step;
+            integral += 0.05 * step * p / samples / (a * a + p * p);
+        }
+        const double found = pt::gpu::unseen_square(0.0, b * samples, samples, 1.0);
+        EXPECT_LT(found, 1.006 * integral) << b;
+        EXPECT_GT(found, 0.857 * integral) << b;
+    }
 }
 
 // A small piece of an image is a region too, down to a pixel, of which the darker part alone tells the limit.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <vector>
 
 namespace small_lamps {
@@ -113,8 +114,9 @@ TEST(SmallLamps, AreThoseThatTheCameraSees) {
 TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     const std::vector<pt::LampPiece> pieces{{3, 4, 0.125, 0.25, glm::dvec3(8, 0, 16)},
                                             {5, 6, 0.25, 0.5, glm::dvec3(4)}};
-    const auto with = [&](std::uint64_t first, std::uint64_t second) {
-        return pt::unmet_squares(pieces, 0.01, [=](const auto &piece) { return piece.x == 3 ? first : second; });
+    const auto with = [&](std::uint64_t first, std::uint64_t second, bool is_random = true) {
+        return pt::unmet_squares(pieces, 0.01, is_random,
+                                 [=](const auto &piece) { return piece.x == 3 ? first : second; });
     };
     const double variance = 0.125 * 0.875;
     const pt::UnmetSquares found = with(16, 16); // of the second lamp they should have met 8
@@ -122,6 +124,34 @@ TEST(SmallLamps, AddWhatSamplesShouldHaveMet) {
     EXPECT_DOUBLE_EQ(found.relative_square, variance * (64.0 / 1.01 + 256.0 / 4.01) / 16.0);
     EXPECT_EQ(with(32, 16).square, 0.0);
     EXPECT_DOUBLE_EQ(with(32, 8).square, 3.0 * 16.0 * 0.25 * 0.75 / 8.0);
+    EXPECT_DOUBLE_EQ(with(32, 4, false).square, 3.0 * 16.0 * 0.6 / 16.0) << "at the edge of a disc of one cell";
+    EXPECT_DOUBLE_EQ(with(32, 1, false).square, with(32, 1).square) << "in a part of a cell";
+}
+
+// The variance of how many points of a grid of cells, one at random in each, lie in a disc of a few cells.
+TEST(SmallLamps, PointsOneToACellMeetADiscAsOftenAsStated) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> number(0.0, 1.0);
+    for (const double area : {1.0, 2.0, 4.0, 7.0}) {
+        const double square_of_radius = area / std::numbers::pi;
+        double sum = 0.0;
+        constexpr int trials = 20'000;
+        for (int i = 0; i < trials; ++i) {
+            const double left = number(random);
+            const double top = number(random);
+            double met = 0.0;
+            for (int cell = 0; cell < 36; ++cell) {
+                const double x = left + cell % 6 - 3.0 + number(random);
+                const double y = top + cell / 6 - 3.0 + number(random);
+                met += x * x + y * y < square_of_radius ? 1.0 : 0.0;
+            }
+            sum += (met - area) * (met - area);
+        }
+        const std::vector<pt::LampPiece> pieces{{0, 0, area / 64.0, area / 64.0 / 8.0, glm::dvec3(64.0, 0.0, 0.0)}};
+        EXPECT_NEAR(pt::unmet_squares(pieces, 0.01, false, [](const auto &) { return 64; }).square, sum / trials,
+                    0.15 * sum / trials)
+            << area;
+    }
 }
 
 } // namespace
