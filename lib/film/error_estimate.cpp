@@ -19,9 +19,9 @@ constexpr double normal_95 = 1.96;
 // An estimate that comes from fewer pixels is uncertain: its root is off by 1 / (2 sqrt(8)) = 18% or more as a rule.
 constexpr double few_pixels = 8.0;
 
-// Nor is it certain if light that no sample has met is expected to add more than this share, 5% of the root:
+// Nor is it certain if light that no sample has met is expected to add more than this share, a fortieth of the root:
 // calibrated.
-constexpr double much_unseen = 0.1;
+constexpr double much_unseen = 0.05;
 
 // Squares scatter: the root of a sum that rests on n pixels is by a share of about 1 / (2 sqrt(n)) too small as often
 // as too large, or by more than that if it is the brightest that are missing. A little more than one such share is

@@ -28,7 +28,7 @@ enum {
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
-    /** More than a tenth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
+    /** More than a twentieth of relative_rmse, squared, is light that no sample has met, but that is expected in dark
      * pixels beside very bright ones. */
     PT_UNCERTAIN_UNSEEN = 4,
     /** Lamps in view, below half a pixel, that a pixel's samples are expected to meet fewer than 8 times: what they
