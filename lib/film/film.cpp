@@ -15,7 +15,7 @@ namespace pt {
 namespace {
 
 // Of a tile in memory, but for one long row: 7 MB, so that little is there twice while another film's tiles cut it.
-constexpr std::uint32_t most_pixels = 1U << 16;
+constexpr std::uint32_t most_tile_pixels = 1U << 16;
 
 [[noreturn]] void refuse(const std::string &field, const std::string &value, const std::string &rule) {
     throw Error(PT_ERROR_INCOMPATIBLE, BrokenRule{.subject = "film", .member = field, .value = value, .rule = rule});
@@ -60,7 +60,7 @@ Film::Film(std::span<const std::byte> bytes) {
     header_ = {reader.header().identity, canonical_tiles(tiles), reader.header().round};
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         const auto [x, y, width, height] = tiles[i].pixels;
-        const std::uint32_t row_count = std::max(most_pixels / width, 1U);
+        const std::uint32_t row_count = std::max(most_tile_pixels / width, 1U);
         for (std::uint32_t row = 0; row < height; row += row_count) {
             const Rectangle pixels{x, y + row, width, std::min(row_count, height - row)};
             tiles_.push_back({pixels, tiles[i].samples, {}});

@@ -67,9 +67,9 @@ std::span<const double> Renderer::tile_squares() {
     if (view_.finds_tile_squares_alone())
         return view_.tile_squares(scene_->film_unit, samples_);
     if (tile_squares_.empty()) {
-        std::vector<double> squares(samples_.grid().count());
-        look(squares, false);
-        tile_squares_ = std::move(squares);
+        std::vector<double> by_tile(samples_.grid().count());
+        look(by_tile, false);
+        tile_squares_ = std::move(by_tile);
     }
     return tile_squares_;
 }
