@@ -143,7 +143,7 @@ PT_FUNCTION bool is_met_again(real mean, real lesser)
 // p M^2 / N and a^2 = (T^2 + offset) / M^2, the expectation of p / N / (a^2 + p^2) is the integral of c / (2 sqrt(p))
 // times that from 0 to 1 / N: c sqrt(b / N) G(sqrt(b)) with b = 1 / (N a) and G(t) the integral of t^2 / (1 + t^4) from
 // 0 to t. G is t^3 / 3 for small t and pi / sqrt(8) - 1 / t for large ones, and t^3 / (3 + 0.81 t^2 + 0.9 t^3), which has
-// both limits, is at most a seventh less in between. c is calibrated.
+// both limits, is at most a seventh less in between. c = 0.05 is calibrated (shaders/README.md, section 11).
 PT_FUNCTION real unseen_square(real mean, real largest_beside, real sample_count, real offset_square)
 {
     real brightest = largest_beside / sample_count;
