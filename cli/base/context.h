@@ -85,19 +85,17 @@ public:
             fail(result, last_error());
     }
 
-    // Samples so far. Cheap: unlike read_stats(), it reads nothing back.
-    std::uint32_t sample_count() const {
-        pt_stats stats{};
-        stats.struct_size = offsetof(pt_stats, rmse);
-        require(pt_get_stats(context_, &stats));
-        return stats.sample_count;
-    }
-
-    // With the estimate of the error, for which the image is read back.
-    pt_stats read_stats() const {
+    pt_stats stats() const {
         auto stats = sized<pt_stats>();
         require(pt_get_stats(context_, &stats));
         return stats;
+    }
+
+    // For which the image is read back.
+    pt_error_estimate error_estimate() const {
+        auto error = sized<pt_error_estimate>();
+        require(pt_get_error_estimate(context_, &error));
+        return error;
     }
 
     // Three components to a pixel.

@@ -14,7 +14,7 @@ std::string kind_name(std::uint32_t kind);
 // "7.7 GiB", "480 B": in the largest unit of which there is one at least.
 std::string memory_text(std::uint64_t bytes);
 
-// Of the library, which is the program's too: "0.2.0".
+// Of the library, which is the program's too: "0.3.0".
 std::string version_text();
 
 // 32 hexadecimal digits in the usual groups.

@@ -94,6 +94,12 @@ pt_stats FilmHandle::stats() const {
     return stats;
 }
 
+pt_error_estimate FilmHandle::error_estimate() const {
+    auto error = sized<pt_error_estimate>();
+    require(pt_get_film_error_estimate(film_, &error));
+    return error;
+}
+
 std::vector<pt_sample_range> FilmHandle::ranges(std::uint32_t tile) const {
     std::uint32_t count = 0;
     require(pt_get_film_ranges(film_, tile, nullptr, &count));

@@ -26,6 +26,7 @@ public:
 
     pt_film_info info() const;
     pt_stats stats() const;
+    pt_error_estimate error_estimate() const;
     std::vector<pt_sample_range> ranges(std::uint32_t tile) const;
 
     // Of the film's rectangle, three components to a pixel. quantity: PT_QUANTITY_*.

@@ -123,6 +123,7 @@ RenderReport picture_of(const FilmHandle &film, const pt_film_info &info, const 
     picture.render.estimator = info.estimator;
     picture.render.sampler = info.sampler;
     picture.stats = film.stats();
+    picture.error = film.error_estimate();
     picture.requested_sample_count = picture.stats.sample_count;
     std::snprintf(picture.device.name, sizeof picture.device.name, "%s", info.device);
     return picture;
@@ -162,7 +163,7 @@ nlohmann::ordered_json stats_json(const MergeReport &report) {
                                  {"sampler", samplers.name(info.sampler)},
                                  {"estimator", estimators.name(info.estimator)},
                                  {"device", info.device}};
-    stats.update(error_json(report.picture.stats));
+    stats.update(error_json(report.picture.error));
     stats.update(nlohmann::ordered_json{{"rejected_samples", report.picture.stats.rejected_samples},
                                         {"tone_map", tone_map_json(report.picture)}});
     return stats;

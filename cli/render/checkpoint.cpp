@@ -98,7 +98,7 @@ std::uint32_t resume(const Context &context, const RenderTask &task) {
     const std::vector<pt_sample_range> ranges = FilmHandle(path, bytes).ranges(0);
     add_film(context, path, bytes);
     require_first_samples(path, ranges, task);
-    return context.sample_count();
+    return context.stats().sample_count;
 }
 
 } // namespace cli

@@ -30,14 +30,16 @@ pt_render piece_of(const RenderTask &task, std::uint32_t first_row, std::uint32_
 
 // Adds what is known of a piece of so many rows to what is known of those before. The bounds of several pieces are
 // joined as if all erred to the same side.
-void join(pt_stats &whole, const pt_stats &piece, std::uint32_t rows_before, std::uint32_t rows) {
-    if (rows_before == 0) {
-        whole = piece;
+void join(RenderedImage &image, const pt_stats &piece, const pt_error_estimate &error, std::uint32_t rows) {
+    if (image.rows_done == 0) {
+        image.stats = piece;
+        image.error = error;
         return;
     }
     const auto mean = [&](double before, double of_piece) {
-        return (before * rows_before + of_piece * rows) / (static_cast<double>(rows_before) + rows);
+        return (before * image.rows_done + of_piece * rows) / (static_cast<double>(image.rows_done) + rows);
     };
+    pt_stats &whole = image.stats;
     whole.sample_count = std::min(whole.sample_count, piece.sample_count);
     whole.max_sample_count = std::max(whole.max_sample_count, piece.max_sample_count);
     whole.mean_sample_count = mean(whole.mean_sample_count, piece.mean_sample_count);
@@ -45,20 +47,21 @@ void join(pt_stats &whole, const pt_stats &piece, std::uint32_t rows_before, std
     whole.device_bytes = std::max(whole.device_bytes, piece.device_bytes);
     whole.submit_count = piece.submit_count; // of the context
     whole.device_seconds = piece.device_seconds;
-    whole.uncertain |= piece.uncertain;
-    for (double pt_stats::*const error :
-         {&pt_stats::rmse, &pt_stats::rmse_low, &pt_stats::rmse_high, &pt_stats::relative_rmse,
-          &pt_stats::relative_rmse_low, &pt_stats::relative_rmse_high}) {
-        whole.*error = std::sqrt(mean(whole.*error * whole.*error, piece.*error * piece.*error));
+    image.error.uncertain |= error.uncertain;
+    using Error = pt_error_estimate;
+    for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
+                                      &Error::relative_rmse_low, &Error::relative_rmse_high}) {
+        double &root = image.error.*each;
+        root = std::sqrt(mean(root * root, error.*each * error.*each));
     }
 }
 
 // Adds the samples that the context has of a piece; false if there are none.
 bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image) {
-    const pt_stats stats = context.read_stats();
+    const pt_stats stats = context.stats();
     if (stats.sample_count == 0)
         return false;
-    join(image.stats, stats, image.rows_done, rows);
+    join(image, stats, context.error_estimate(), rows);
     const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
         const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
         context.read_columns(image.part.x, image.part.width, rows, quantity, &values[first]);
@@ -108,7 +111,7 @@ ImageRender::ImageRender(const Context &context, const RenderTask &task, std::ui
     image_.standard_error.resize(options.output.standard_error.empty() ? 0 : image_.radiance.size());
     for (const std::uint32_t layer : options.wanted_layers())
         image_.layers.emplace_back(layer, image_.part.pixel_count());
-    progress_.begin_at(context.sample_count());
+    progress_.begin_at(context.stats().sample_count);
     if (options.time_limit)
         progress_.limit_time(*options.time_limit);
     if (!options.checkpoint.empty())
@@ -124,7 +127,7 @@ ImageRender::Result ImageRender::run() {
             break;
     }
     if (image_.rows_done == 0)
-        image_.stats = context_.read_stats();
+        image_.stats = context_.stats();
     preview_task_.finish();
     if (checkpoint_)
         checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
@@ -140,7 +143,7 @@ void ImageRender::enter_piece() {
     const double end = (image_.rows_done + piece_rows_) / height;
     progress_.enter_part(image_.rows_done / height, end);
     if (has_target()) // the next check
-        progress_.expect(forecast_sample_count(context_.sample_count(), 1.0, 1.0, task_.sample_count));
+        progress_.expect(forecast_sample_count(context_.stats().sample_count, 1.0, 1.0, task_.sample_count));
     // Each piece has its share of the time, with what those before have left.
     if (task_.options.time_limit)
         time_end_ = start_ + clock_duration(*task_.options.time_limit * end);
@@ -151,20 +154,20 @@ void ImageRender::enter_piece() {
 // target error is looked at by the library, at counts that do not depend on the steps.
 void ImageRender::render_piece() {
     constexpr std::uint32_t first_end = 16; // where an error is known, and tiles take as many again from there on
-    Done done = done_of(has_target() ? std::optional(context_.read_stats()) : std::nullopt);
+    pt_stats done = context_.stats();
     std::uint32_t wanted = first_step_length;
-    bool ended = done.least >= task_.sample_count;
+    bool ended = done.sample_count >= task_.sample_count;
     while (!ended && !stops()) {
-        const std::uint32_t before = done.most;
+        const std::uint32_t before = done.max_sample_count;
         std::uint32_t length = std::min(wanted, task_.sample_count - before); // 0: those that pixels lack of the most
         if (has_target())
             length = std::min(length, std::max(first_end, 2 * std::bit_floor(before)) - before);
         const Clock::time_point start = Clock::now();
-        const pt_result result = take(length, done.mean);
+        const pt_result result = take(length, done.mean_sample_count);
         const double seconds = seconds_between(start, Clock::now());
         done = look(result);
-        if (done.most > before) // else it was ended within a sample, and says nothing
-            wanted = next_step_length(done.most - before, seconds);
+        if (done.max_sample_count > before) // else it was ended within a sample, and says nothing
+            wanted = next_step_length(done.max_sample_count - before, seconds);
         ended = has_ended(result, done);
     }
 }
@@ -188,32 +191,25 @@ pt_result ImageRender::take(std::uint32_t length, double done) {
     return result;
 }
 
-ImageRender::Done ImageRender::done_of(const std::optional<pt_stats> &stats) const {
-    if (stats)
-        return {stats->mean_sample_count, stats->sample_count, stats->max_sample_count};
-    const std::uint32_t count = context_.sample_count();
-    return {static_cast<double>(count), count, count};
-}
-
 // Whether all is done after a step.
-bool ImageRender::has_ended(pt_result result, const Done &done) const {
-    return result == PT_TARGET_REACHED || (result == PT_OK && done.most >= task_.sample_count);
+bool ImageRender::has_ended(pt_result result, const pt_stats &done) const {
+    return result == PT_TARGET_REACHED || (result == PT_OK && done.max_sample_count >= task_.sample_count);
 }
 
 // After a step. The error takes a read-out of the image: where it is only shown, for a hundredth of the time.
-ImageRender::Done ImageRender::look(pt_result result) {
+pt_stats ImageRender::look(pt_result result) {
     constexpr double share = 0.01;
     const Clock::time_point start = Clock::now();
-    std::optional<pt_stats> stats;
+    std::optional<pt_error_estimate> error;
     if (has_target() || (progress_.shows_error() && start >= next_error_))
-        stats = context_.read_stats();
+        error = context_.error_estimate();
     const Clock::time_point now = Clock::now();
-    if (stats)
+    if (error)
         next_error_ = now + clock_duration(seconds_between(start, now) / share);
-    const Done done = done_of(stats);
+    const pt_stats done = context_.stats();
     const bool ended = has_ended(result, done);
-    show(done, ended, stats, now);
-    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean));
+    show(done, ended, error, now);
+    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
     if (sample_count > 0)
         preview(now);
     if (checkpoint_)
@@ -224,17 +220,18 @@ ImageRender::Done ImageRender::look(pt_result result) {
 }
 
 // With a target error, the number of samples is a guess, which is mended at each check of the error.
-void ImageRender::show(const Done &done, bool ended, const std::optional<pt_stats> &stats, Clock::time_point now) {
-    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean));
-    if (stats)
-        progress_.show_error(stats->relative_rmse);
+void ImageRender::show(const pt_stats &done, bool ended, const std::optional<pt_error_estimate> &error,
+                       Clock::time_point now) {
+    const auto sample_count = static_cast<std::uint32_t>(std::lround(done.mean_sample_count));
+    if (error)
+        progress_.show_error(error->relative_rmse);
     if (sample_count >= task_.sample_count)
         return;
     if (ended) {
         progress_.expect(sample_count);
         progress_.update_samples(sample_count, now);
     } else if (has_target()) {
-        progress_.expect(forecast_sample_count(sample_count, stats->relative_rmse_high, task_.options.target_error,
+        progress_.expect(forecast_sample_count(sample_count, error->relative_rmse_high, task_.options.target_error,
                                                task_.sample_count));
     }
 }

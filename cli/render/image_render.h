@@ -54,6 +54,7 @@ struct RenderedImage {
     std::vector<PictureLayer> layers;  // likewise
     std::uint32_t rows_done;           // of it, with samples
     pt_stats stats;                    // of these rows; sample_count is the least of the pieces
+    pt_error_estimate error;           // likewise
 };
 
 // Hands the render settings over for the first piece, and returns how many rows a piece has: as many as the options say
@@ -87,21 +88,14 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    // Samples that are done. Where pixels may have different numbers of them, those that have fewest may lack some.
-    struct Done {
-        double mean;         // of the pixels
-        std::uint32_t least; // of a pixel
-        std::uint32_t most;
-    };
-
     bool has_target() const { return task_.has_target(); }
     void enter_piece();
     void render_piece();
     pt_result take(std::uint32_t length, double done);
-    Done done_of(const std::optional<pt_stats> &stats) const;
-    bool has_ended(pt_result result, const Done &done) const;
-    Done look(pt_result result);
-    void show(const Done &done, bool has_ended, const std::optional<pt_stats> &stats, Clock::time_point now);
+    bool has_ended(pt_result result, const pt_stats &done) const;
+    pt_stats look(pt_result result);
+    void show(const pt_stats &done, bool has_ended, const std::optional<pt_error_estimate> &error,
+              Clock::time_point now);
     void preview(Clock::time_point now);
     bool stops() const { return stop_() || is_time_over_; }
     bool wants_preview() const;

@@ -72,7 +72,7 @@ const char *ending_of(const RenderReport &report, bool interrupted, bool timed_o
 // What an image in pieces takes of memory, before it is rendered.
 void print_pieces(const Context &context, const RenderTask &task, std::uint32_t rows) {
     print_message(concat((task.window.part.height + rows - 1) / rows, " pieces of up to ", rows,
-                         " rows: ", memory_text(context.read_stats().device_bytes), " on the device, ",
+                         " rows: ", memory_text(context.stats().device_bytes), " on the device, ",
                          memory_text(image_bytes(task)), " for the image"));
 }
 
@@ -160,6 +160,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     const auto write_preview = [&](const RenderedImage &image) {
         RenderReport so_far = report;
         so_far.stats = image.stats;
+        so_far.error = image.error;
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
         const OutputOptions files = without_standard_output(options.output); // a stream takes one image
@@ -173,6 +174,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
     report.total_seconds = seconds_since(times.start);
 
     report.stats = image.stats;
+    report.error = image.error;
     const bool interrupted = interrupt_signal() != 0 && !superseded();
     report.ended_by = ending_of(report, interrupted, rendered.timed_out);
     const std::string checkpoint = rendered.has_checkpoint ? options.checkpoint : "";

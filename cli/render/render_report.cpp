@@ -66,14 +66,15 @@ std::string uncertainty_text(std::uint32_t uncertain) {
                                                   : "";
 }
 
-std::string estimate_text(const pt_stats &stats) {
-    if (!std::isfinite(stats.relative_rmse)) {
+std::string estimate_text(const RenderReport &report) {
+    const pt_error_estimate &error = report.error;
+    if (!std::isfinite(error.relative_rmse)) {
         const std::uint32_t first_check = pt_next_check(0);
         const std::string reason = " with fewer than " + std::to_string(first_check) + " samples";
-        return "error unknown" + (stats.sample_count < first_check ? reason : uncertainty_text(stats.uncertain));
+        return "error unknown" + (report.stats.sample_count < first_check ? reason : uncertainty_text(error.uncertain));
     }
-    return "error " + percent_text(stats.relative_rmse) + " (" + percent_text(stats.relative_rmse_low) + " to " +
-           percent_text(stats.relative_rmse_high) + ")" + uncertainty_text(stats.uncertain);
+    return "error " + percent_text(error.relative_rmse) + " (" + percent_text(error.relative_rmse_low) + " to " +
+           percent_text(error.relative_rmse_high) + ")" + uncertainty_text(error.uncertain);
 }
 
 // "64", or of pixels that have different numbers "37.3 (16 to 256)".
@@ -87,8 +88,8 @@ std::string target_text(const RenderReport &report) {
     const std::string samples = samples_text(report.stats) + " samples";
     if (report.target_reached())
         return "target reached after " + samples;
-    const std::string high = std::isfinite(report.stats.relative_rmse_high)
-                                 ? percent_text(report.stats.relative_rmse_high) + " is above "
+    const std::string high = std::isfinite(report.error.relative_rmse_high)
+                                 ? percent_text(report.error.relative_rmse_high) + " is above "
                                  : "unknown error for ";
     const bool interrupted = report.stats.max_sample_count < report.requested_sample_count;
     return "target not reached: " + high + percent_text(report.target_error) + " after " + samples +
@@ -107,14 +108,14 @@ nlohmann::ordered_json tone_map_json(const RenderReport &report) {
             {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
 }
 
-nlohmann::ordered_json error_json(const pt_stats &stats) {
-    return {{"rmse", number_or_null(stats.rmse)},
-            {"rmse_low", number_or_null(stats.rmse_low)},
-            {"rmse_high", number_or_null(stats.rmse_high)},
-            {"relative_rmse", number_or_null(stats.relative_rmse)},
-            {"relative_rmse_low", number_or_null(stats.relative_rmse_low)},
-            {"relative_rmse_high", number_or_null(stats.relative_rmse_high)},
-            {"uncertain", names_of(stats.uncertain, uncertainty_names)}};
+nlohmann::ordered_json error_json(const pt_error_estimate &error) {
+    return {{"rmse", number_or_null(error.rmse)},
+            {"rmse_low", number_or_null(error.rmse_low)},
+            {"rmse_high", number_or_null(error.rmse_high)},
+            {"relative_rmse", number_or_null(error.relative_rmse)},
+            {"relative_rmse_low", number_or_null(error.relative_rmse_low)},
+            {"relative_rmse_high", number_or_null(error.relative_rmse_high)},
+            {"uncertain", names_of(error.uncertain, uncertainty_names)}};
 }
 
 nlohmann::ordered_json stats_json(const RenderReport &report) {
@@ -136,7 +137,7 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
         {"estimator", estimators.name(render.estimator)},
         {"device",
          {{"name", report.device.name}, {"driver", report.device.driver}, {"uuid", uuid_text(report.device.uuid)}}}};
-    stats.update(error_json(report.stats));
+    stats.update(error_json(report.error));
     stats.update(nlohmann::ordered_json{
         {"target_error", report.target_error > 0.0 ? nlohmann::ordered_json(report.target_error) : nullptr},
         {"target_reached", report.target_reached()},
@@ -167,7 +168,7 @@ std::string automatic_exposure_line(const RenderReport &report) {
 }
 
 std::string error_text(const RenderReport &report) {
-    return estimate_text(report.stats) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
+    return estimate_text(report) + (report.target_error > 0.0 ? "; " + target_text(report) : "");
 }
 
 // No time that the rendering took and no date but one that was given: equal runs give equal files. samplesPerPixel has
@@ -198,8 +199,8 @@ std::vector<ImageAttribute> image_metadata(const RenderReport &report, std::uint
     add("pt.sampler", std::string(samplers.name(report.render.sampler)));
     add("pt.estimator", std::string(estimators.name(report.render.estimator)));
     add("pt.rejectedSamples", std::to_string(report.stats.rejected_samples));
-    if (std::isfinite(report.stats.relative_rmse))
-        add("pt.relativeError", report.stats.relative_rmse);
+    if (std::isfinite(report.error.relative_rmse))
+        add("pt.relativeError", report.error.relative_rmse);
     add("pt.device", std::string(report.device.name));
     if (report.device.driver[0] != '\0')
         add("pt.driver", std::string(report.device.driver));

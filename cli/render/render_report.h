@@ -25,6 +25,7 @@ struct RenderReport {
     std::uint32_t requested_sample_count; // the most, if there is a target
     double target_error;                  // relative; 0: none
     pt_stats stats;
+    pt_error_estimate error;
     pt_device_info device;
     double create_seconds;
     double accumulate_seconds;
@@ -34,13 +35,13 @@ struct RenderReport {
     std::string ended_by; // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 
-    bool target_reached() const { return target_error > 0.0 && stats.relative_rmse_high <= target_error; }
+    bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
 };
 
 nlohmann::ordered_json stats_json(const RenderReport &report);
 
 // Its parts that are about the error and the tone map.
-nlohmann::ordered_json error_json(const pt_stats &stats);
+nlohmann::ordered_json error_json(const pt_error_estimate &error);
 nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"

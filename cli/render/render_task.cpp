@@ -133,8 +133,6 @@ bool describe_scene(const Context &context, const SceneFile &file, const std::fu
     const std::vector<pt_sphere_array> arrays = file.sphere_arrays();
     scene.sphere_arrays = arrays.data();
     scene.sphere_array_count = static_cast<std::uint32_t>(arrays.size());
-    const std::vector<std::uint32_t> flags = file.material_flags();
-    scene.material_flags = flags.empty() ? nullptr : flags.data();
     scene.progress = &call_listener;
     scene.progress_user = &listener;
     const pt_result result = pt_set_scene(context.get(), &scene);

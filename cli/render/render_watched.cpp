@@ -118,7 +118,7 @@ private:
 
     // Kernels that differ have discarded the samples of the picture.
     bool is_up_to_date() const {
-        return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->sample_count() > 0;
+        return rendered_scene_ && rendered_scene_ == sources_.scene() && context_->stats().sample_count > 0;
     }
 
     void print_unless_quiet(const std::string &message) const {

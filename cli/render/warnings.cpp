@@ -61,7 +61,8 @@ std::optional<std::size_t> dark_ball_around_camera(const SceneFile &scene) {
             const double height = n[0] * ball.center[0] + n[1] * ball.center[1] + n[2] * ball.center[2] + lamp.offset;
             return shines(lamp) && std::abs(height) <= ball.radius * std::hypot(n[0], n[1], n[2]);
         };
-        return !shines(ball) && !moves(ball) && !scene.is_hidden(ball.material) &&
+        return !shines(ball) && !moves(ball) &&
+               scene.materials[ball.material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA &&
                distance(scene.camera.position, ball.center) < ball.radius &&
                std::ranges::none_of(scene.sphere_columns, shines) &&
                std::ranges::none_of(scene.spheres, sphere_reaches_in) &&

@@ -116,17 +116,6 @@ std::vector<pt_sphere_array> SceneFile::sphere_arrays() const {
     return arrays;
 }
 
-std::vector<std::uint32_t> SceneFile::material_flags() const {
-    std::vector<std::uint32_t> flags(hidden_materials.empty() ? 0 : materials.size());
-    for (const std::uint32_t material : hidden_materials)
-        flags[material] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
-    return flags;
-}
-
-bool SceneFile::is_hidden(std::uint32_t material) const {
-    return std::ranges::find(hidden_materials, material) != hidden_materials.end();
-}
-
 std::size_t SceneFile::item_of(std::size_t sphere) const {
     for (const SphereColumns &each : sphere_columns)
         sphere += each.item <= sphere ? 1 : 0;

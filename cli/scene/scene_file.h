@@ -25,13 +25,8 @@ namespace cli {
 constexpr pt_camera default_camera() {
     auto camera = sized<pt_camera>();
     camera.position[2] = 1.0;
+    camera.shutter_close = 1.0;
     return camera;
-}
-
-// When its shutter opens and closes: 0 and 0 are pt.h's default, the whole of [0, 1].
-constexpr std::array<double, 2> shutter_of(const pt_camera &camera) {
-    const bool is_default = camera.shutter_open == 0.0 && camera.shutter_close == 0.0;
-    return {camera.shutter_open, is_default ? 1.0 : camera.shutter_close};
 }
 
 constexpr pt_render default_render() {
@@ -49,7 +44,6 @@ struct SceneFile {
     std::vector<JsonPath> given;             // keys of `camera`, `film` and `render`, of the file or of overrides
     std::vector<std::string> material_names; // like all arrays from here on in the order of the file
     std::vector<pt_material> materials;
-    std::vector<std::uint32_t> hidden_materials; // indices of those that are hidden from the camera
     std::vector<pt_sphere> spheres;
     std::vector<std::array<float, 3>> sphere_colors; // of each sphere where any has one, else empty
     std::vector<pt_plane> planes;
@@ -66,9 +60,7 @@ struct SceneFile {
     // spheres is another.
     pt_scene scene() const;
     std::vector<pt_sphere_array> sphere_arrays() const;
-    std::vector<std::uint32_t> material_flags() const; // empty: 0 for all
-    bool is_hidden(std::uint32_t material) const;      // from the camera
-    std::size_t item_of(std::size_t sphere) const;     // index in the file's section of spheres[sphere]
+    std::size_t item_of(std::size_t sphere) const; // index in the file's section of spheres[sphere]
 
     bool gives(const JsonPath &key) const;
 

@@ -53,13 +53,6 @@ void put(Value value, Number (&target)[Count]) {
         target[i] = (value.is_array() ? value[i] : value).template get<Number>();
 }
 
-// pt.h takes [0, 0] as its default, the whole of [0, 1]. Here it is the instant 0, and the smallest number after 0
-// makes an interval in which nothing moves.
-void put_shutter(pt_camera &camera, double open, double close) {
-    camera.shutter_open = open;
-    camera.shutter_close = open == 0.0 && close == 0.0 ? std::numeric_limits<double>::denorm_min() : close;
-}
-
 constexpr bool required = true;
 constexpr bool optional = false;
 
@@ -89,9 +82,11 @@ constexpr std::array camera_keys{
              "Of an orthographic projection: the height of what is seen. Nothing behind the plane through position "
              "across the view is seen",
              "", optional, [](Item item, Value value) { item.scene.camera.vertical_extent = value.get<double>(); }},
-    SceneKey{
-        "shutter", times, "When it opens and closes", "[0, 1]", optional,
-        [](Item item, Value value) { put_shutter(item.scene.camera, value[0].get<double>(), value[1].get<double>()); }},
+    SceneKey{"shutter", times, "When it opens and closes", "[0, 1]", optional,
+             [](Item item, Value value) {
+                 std::tie(item.scene.camera.shutter_open, item.scene.camera.shutter_close) =
+                     value.get<std::pair<double, double>>();
+             }},
 };
 
 constexpr std::array film_keys{
@@ -153,10 +148,12 @@ constexpr std::array material_keys{
              [](Item item, Value value) { item.material.glossiness = value.get<float>(); }},
     SceneKey{"emission", radiance, "Light of its own, the same in all directions", "0", optional,
              [](Item item, Value value) { put(value, item.material.emission); }},
-    SceneKey{"hidden_from_camera", boolean,
-             "The camera looks through the surface, all other rays meet it: for a lamp that is not in the picture, or "
-             "a wall, to look into a room",
-             "false", optional, [](Item item, Value value) { item.is_hidden = value.get<bool>(); }},
+    SceneKey{
+        "hidden_from_camera", boolean,
+        "The camera looks through the surface, all other rays meet it: for a lamp that is not in the picture, or "
+        "a wall, to look into a room",
+        "false", optional,
+        [](Item item, Value value) { item.material.flags = value.get<bool>() ? PT_MATERIAL_HIDDEN_FROM_CAMERA : 0; }},
 };
 
 constexpr std::array sphere_keys{

@@ -19,7 +19,6 @@ namespace cli {
 struct SceneItem {
     SceneFile &scene;
     pt_material material{};
-    bool is_hidden = false;
     pt_sphere sphere{};
     std::optional<std::array<float, 3>> color = std::nullopt;
     pt_plane plane{};

@@ -184,7 +184,7 @@ void read_animation_item(SceneFile &scene, const JsonPlace &place, const json &v
 }
 
 std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint32_t frame) {
-    const auto [open, close] = shutter_of(scene.camera);
+    const double middle = 0.5 * (scene.camera.shutter_open + scene.camera.shutter_close);
     std::vector<SceneOverride> overrides;
     for (const AnimatedValue &value : scene.animation) {
         const std::string source = scene.path + ": animation[\"" + value.name + "\"] in frame " + std::to_string(frame);
@@ -197,7 +197,7 @@ std::vector<SceneOverride> overrides_of_frame(const SceneFile &scene, std::uint3
             put(value.path, json_of(value, value.at(frame)));
             put(motion, way_of(value, frame));
         } else {
-            put(value.path, json_of(value, value.at(frame + 0.5 * (open + close))));
+            put(value.path, json_of(value, value.at(frame + middle)));
         }
     }
     return overrides;

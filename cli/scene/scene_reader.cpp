@@ -154,8 +154,6 @@ private:
 
     void add(SceneItem &item, const JsonPlace &place) {
         if (section_->name == "materials") {
-            if (item.is_hidden)
-                scene_.hidden_materials.push_back(static_cast<std::uint32_t>(scene_.materials.size()));
             scene_.materials.push_back(item.material);
             scene_.material_names.emplace_back(place.key);
             return;

@@ -104,7 +104,7 @@ std::vector<SelftestCheck> check_scenes(const Context &context) {
     double left_out = 0.0;
     for (const SelftestScene &scene : selftest_scenes()) {
         checks.push_back(scene.judge(render(context, scene.scene, {scene.scene.sample_count.value()})));
-        left_out += static_cast<double>(context.read_stats().rejected_samples);
+        left_out += static_cast<double>(context.stats().rejected_samples);
     }
     checks.push_back({"scene", "samples left out", left_out, 0.0, "samples", "of all scenes"});
     return checks;

@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -343,9 +342,14 @@ pt_result pt_add_film(pt_context *context, const void *data, uint64_t size_bytes
 }
 
 pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
+    return pt::guard_context(context,
+                             [&](const pt::Renderer &renderer) { pt::copy_out(renderer.stats(), stats, "stats"); });
+}
+
+pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
     return pt::guard_context(context, [&](pt::Renderer &renderer) {
-        const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
-        pt::copy_out(renderer.stats(with_error), stats, "stats");
+        pt::struct_size_of(error, "error"); // before the work
+        pt::copy_out(pt::stated(renderer.error_with_lamps()), error, "error");
     });
 }
 

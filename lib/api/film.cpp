@@ -78,15 +78,13 @@ void write_image(const Film &film, const Image &image) {
     });
 }
 
-pt_stats stats_of(const Film &film, bool with_error) {
-    const ErrorEstimate error = with_error ? film.error(may_miss_lamps(film.facts())) : unknown_error();
+pt_stats stats_of(const Film &film) {
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(film.sample_count());
     stats.max_sample_count = static_cast<std::uint32_t>(film.max_sample_count());
     stats.mean_sample_count =
         static_cast<double>(film.total_samples()) / static_cast<double>(film.bounds().pixel_count());
     stats.rejected_samples = film.rejected_samples();
-    set_error(stats, error);
     return stats;
 }
 
@@ -234,8 +232,15 @@ pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range
 pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats) {
     return pt::guard(pt::thread_last_error, [&] {
         pt::require_not_null(film, "film");
-        const bool with_error = pt::struct_size_of(stats, "stats") > offsetof(pt_stats, rmse);
-        pt::copy_out(pt::stats_of(film->film, with_error), stats, "stats");
+        pt::copy_out(pt::stats_of(film->film), stats, "stats");
+    });
+}
+
+pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error) {
+    return pt::guard(pt::thread_last_error, [&] {
+        pt::require_not_null(film, "film");
+        pt::struct_size_of(error, "error"); // before the work
+        pt::copy_out(pt::stated(film->film.error(pt::may_miss_lamps(film->film.facts()))), error, "error");
     });
 }
 

@@ -23,8 +23,7 @@ typedef struct own_vulkan {
 } own_vulkan;
 
 /* Vulkan 1.2 is what pt needs of the instance. */
-static VkResult make_instance(own_vulkan *own)
-{
+static VkResult make_instance(own_vulkan *own) {
     const VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                            .apiVersion = VK_API_VERSION_1_2};
     const VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
@@ -33,8 +32,7 @@ static VkResult make_instance(own_vulkan *own)
 }
 
 /* Finds a queue family that computes. */
-static int has_compute(VkPhysicalDevice device, uint32_t *family)
-{
+static int has_compute(VkPhysicalDevice device, uint32_t *family) {
     VkQueueFamilyProperties families[MAX_FAMILIES];
     uint32_t count = MAX_FAMILIES;
 
@@ -46,8 +44,7 @@ static int has_compute(VkPhysicalDevice device, uint32_t *family)
 }
 
 /* Takes the first device with Vulkan 1.2 and a queue that computes. */
-static VkResult choose_device(own_vulkan *own)
-{
+static VkResult choose_device(own_vulkan *own) {
     VkPhysicalDevice devices[MAX_DEVICES];
     uint32_t count = MAX_DEVICES;
     const VkResult result = vkEnumeratePhysicalDevices(own->instance, &count, devices);
@@ -68,8 +65,7 @@ static VkResult choose_device(own_vulkan *own)
 
 /* pt needs no features and no extensions. Devices that want VK_KHR_portability_subset enabled are only listed for
  * instances that ask for them, which this one does not. */
-static VkResult make_device(own_vulkan *own)
-{
+static VkResult make_device(own_vulkan *own) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = own->queue_family,
@@ -85,8 +81,7 @@ static VkResult make_device(own_vulkan *own)
 }
 
 /* On failure, what was made so far stays in own, for unmake. */
-static VkResult make(own_vulkan *own)
-{
+static VkResult make(own_vulkan *own) {
     VkResult result = make_instance(own);
 
     if (result == VK_SUCCESS)
@@ -96,28 +91,24 @@ static VkResult make(own_vulkan *own)
     return result;
 }
 
-static void unmake(own_vulkan *own)
-{
+static void unmake(own_vulkan *own) {
     if (own->device)
         vkDestroyDevice(own->device, NULL);
     if (own->instance)
         vkDestroyInstance(own->instance, NULL);
 }
 
-static void lock_queue(void *user)
-{
+static void lock_queue(void *user) {
     pthread_mutex_lock(user);
 }
 
-static void unlock_queue(void *user)
-{
+static void unlock_queue(void *user) {
     pthread_mutex_unlock(user);
 }
 
-static pt_result render_on(pt_context *context, float *pixels, uint64_t size_bytes)
-{
+static pt_result render_on(pt_context *context, float *pixels, uint64_t size_bytes) {
     /* A sphere around the camera that shines in red, green and blue of 1, 2 and 4: every pixel is that. */
-    static const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 4.0f}, 0.0f};
+    static const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {1.0f, 2.0f, 4.0f}, 0.0f, 0};
     static const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
     const pt_scene scene = {
         .struct_size = sizeof scene,
@@ -144,8 +135,7 @@ static pt_result render_on(pt_context *context, float *pixels, uint64_t size_byt
 }
 
 /* The context ends before the Vulkan that it was lent. */
-static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes)
-{
+static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes) {
     const pt_vulkan vulkan = {.struct_size = sizeof vulkan,
                               .queue_family = own->queue_family,
                               .instance = own->instance,
@@ -168,8 +158,7 @@ static pt_result render(own_vulkan *own, float *pixels, uint64_t size_bytes)
 }
 
 /* Lets the queue signal a fence: the device still works for this program. */
-static VkResult use_queue(own_vulkan *own)
-{
+static VkResult use_queue(own_vulkan *own) {
     const uint64_t nanoseconds = 5000000000u;
     const VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence fence;
@@ -186,8 +175,7 @@ static VkResult use_queue(own_vulkan *own)
     return result;
 }
 
-int main(void)
-{
+int main(void) {
     static float pixels[WIDTH * HEIGHT * 3];
     own_vulkan own = {.queue_mutex = PTHREAD_MUTEX_INITIALIZER};
     VkResult made = make(&own);

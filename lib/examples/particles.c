@@ -40,8 +40,8 @@ static void arrange(particles *all) {
 
 static pt_result set_scene(pt_context *context, const particles *all) {
     static const pt_material materials[] = {
-        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},    /* white, so that colours are as given */
-        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f}, /* a lamp */
+        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0}, /* white, so that colours are as given */
+        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
     };
     static const pt_sphere lamp = {{2.0, 5.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0};
     const pt_sphere_array array = {

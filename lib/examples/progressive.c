@@ -32,26 +32,23 @@ typedef struct render_job {
     atomic_int ended;
 } render_job;
 
-static void request_stop(int signal_number)
-{
+static void request_stop(int signal_number) {
     (void)signal_number;
     atomic_store(&stop, 1);
 }
 
 /* Runs on the thread that renders, after every submission. What is not 0 ends pt_accumulate with PT_CANCELLED. */
-static int32_t on_progress(void *user, double fraction)
-{
+static int32_t on_progress(void *user, double fraction) {
     render_job *job = user;
     atomic_store(&job->step_permille, (int)(fraction * 1000.0));
     return atomic_load(&stop);
 }
 
-static pt_result set_up(pt_context *context)
-{
+static pt_result set_up(pt_context *context) {
     static const pt_material materials[] = {
-        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f},    /* white, matt */
-        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f},  /* red, glossy */
-        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f}, /* a lamp */
+        {{0.8f, 0.8f, 0.8f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0},    /* white, matt */
+        {{0.4f, 0.1f, 0.1f}, {0.4f, 0.4f, 0.4f}, {0.0f, 0.0f, 0.0f}, 100.0f, 0},  /* red, glossy */
+        {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
     };
     static const pt_sphere spheres[] = {
         {{0.0, 1.0, 0.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0},
@@ -78,14 +75,12 @@ static pt_result set_up(pt_context *context)
     return result;
 }
 
-static unsigned char display_value(float radiance)
-{
+static unsigned char display_value(float radiance) {
     return (unsigned char)(255.0f * powf(radiance / (1.0f + radiance), 1.0f / 2.2f)); /* Reinhard et al. 2002 */
 }
 
 /* Writes beside the file and renames, so that a viewer that watches it never sees half an image. */
-static int write_ppm(const float *pixels)
-{
+static int write_ppm(const float *pixels) {
     static unsigned char bytes[WIDTH * HEIGHT * 3];
     FILE *file = fopen("progressive.ppm.part", "wb");
     int whole;
@@ -102,12 +97,14 @@ static int write_ppm(const float *pixels)
 }
 
 /* Shows the samples so far. */
-static pt_result show(render_job *job, const pt_stats *stats)
-{
+static pt_result show(render_job *job, uint32_t sample_count) {
     static float pixels[WIDTH * HEIGHT * 3];
     const pt_image image = {.struct_size = sizeof image, .data = pixels, .size_bytes = sizeof pixels};
-    const pt_result result = pt_readback(job->context, &image);
+    pt_error_estimate error = {.struct_size = sizeof error};
+    pt_result result = pt_readback(job->context, &image);
 
+    if (result >= 0)
+        result = pt_get_error_estimate(job->context, &error);
     if (result < 0)
         return result;
     atomic_store(&job->shown, write_ppm(pixels));
@@ -115,16 +112,15 @@ static pt_result show(render_job *job, const pt_stats *stats)
         perror("progressive.ppm");
         atomic_store(&stop, 1);
     }
-    printf("\r%u samples", (unsigned)stats->sample_count);
-    if (isfinite(stats->relative_rmse)) /* it is known from 16 samples */
-        printf(", error %.2g%%", 100.0 * stats->relative_rmse);
+    printf("\r%u samples", (unsigned)sample_count);
+    if (isfinite(error.relative_rmse)) /* it is known from 16 samples */
+        printf(", error %.2g%%", 100.0 * error.relative_rmse);
     printf("          \n");
     return result;
 }
 
 /* However the samples are split into steps, the image has the same bits. */
-static pt_result render_in_steps(render_job *job)
-{
+static pt_result render_in_steps(render_job *job) {
     pt_stats stats = {.struct_size = sizeof stats};
     pt_accumulate_info step = {.struct_size = sizeof step, .sample_count = 1};
     pt_result result = set_up(job->context);
@@ -137,7 +133,7 @@ static pt_result render_in_steps(render_job *job)
         const pt_result accumulated = pt_accumulate(job->context, &step); /* PT_CANCELLED keeps whole samples */
         result = accumulated < 0 ? accumulated : pt_get_stats(job->context, &stats);
         if (result >= 0 && stats.sample_count > 0)
-            result = show(job, &stats);
+            result = show(job, stats.sample_count);
         if (result >= 0)
             result = accumulated;
         step.sample_count = stats.sample_count > 0 ? stats.sample_count : 1; /* as many again */
@@ -145,8 +141,7 @@ static pt_result render_in_steps(render_job *job)
     return result;
 }
 
-static void *render_thread(void *user)
-{
+static void *render_thread(void *user) {
     render_job *job = user;
     job->result = render_in_steps(job);
     atomic_store(&job->ended, 1);
@@ -154,8 +149,7 @@ static void *render_thread(void *user)
 }
 
 /* Waits until the thread has ended; after so many seconds (0: never) asks it to stop, but not before it has samples. */
-static void watch(render_job *job, double seconds)
-{
+static void watch(render_job *job, double seconds) {
     const struct timespec pause = {0, 20000000};
     double waited = 0.0; /* nearly: sleeps are a little longer */
 
@@ -170,8 +164,7 @@ static void watch(render_job *job, double seconds)
     printf("\n");
 }
 
-int main(int argc, char **argv)
-{
+int main(int argc, char **argv) {
     render_job job = {.samples = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1024};
     const double seconds = argc > 2 ? strtod(argv[2], NULL) : 0.0;
     pthread_t thread;

@@ -39,9 +39,9 @@ Context create_context() {
 // R, G, B of each pixel, row by row, from an eye so far to the right. Everything of the context happens on this thread.
 std::vector<float> render(double eye) {
     const pt_material materials[] = {
-        {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0},
-        {{0.4F, 0.1F, 0.1F}, {0.4F, 0.4F, 0.4F}, {0, 0, 0}, 100},
-        {{0, 0, 0}, {0, 0, 0}, {40, 40, 36}, 0},
+        {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+        {{0.4F, 0.1F, 0.1F}, {0.4F, 0.4F, 0.4F}, {0, 0, 0}, 100, 0},
+        {{0, 0, 0}, {0, 0, 0}, {40, 40, 36}, 0, 0},
     };
     const pt_sphere spheres[] = {{{0, 1, 0}, 1, {0, 0, 0}, 1, 0}, {{2, 4, 2}, 1, {0, 0, 0}, 2, 0}};
     const pt_plane floor{{0, 1, 0}, 0, 0, 0};

@@ -88,14 +88,15 @@ ErrorEstimate unknown_error() {
     return {{infinity, 0.0, infinity}, {infinity, 0.0, infinity}, 0};
 }
 
-void set_error(pt_stats &stats, const ErrorEstimate &error) {
-    stats.rmse = error.rmse.estimate;
-    stats.rmse_low = error.rmse.low;
-    stats.rmse_high = error.rmse.high;
-    stats.relative_rmse = error.relative_rmse.estimate;
-    stats.relative_rmse_low = error.relative_rmse.low;
-    stats.relative_rmse_high = error.relative_rmse.high;
-    stats.uncertain = error.uncertain;
+pt_error_estimate stated(const ErrorEstimate &error) {
+    return {.struct_size = sizeof(pt_error_estimate),
+            .uncertain = error.uncertain,
+            .rmse = error.rmse.estimate,
+            .rmse_low = error.rmse.low,
+            .rmse_high = error.rmse.high,
+            .relative_rmse = error.relative_rmse.estimate,
+            .relative_rmse_low = error.relative_rmse.low,
+            .relative_rmse_high = error.relative_rmse.high};
 }
 
 bool hides_error(std::uint64_t rejected_samples, std::uint64_t samples) {

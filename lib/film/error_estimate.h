@@ -32,8 +32,8 @@ inline constexpr double uncertain_factor = 2.0;
 // What is known without samples.
 ErrorEstimate unknown_error();
 
-// Sets what it says of the error.
-void set_error(pt_stats &stats, const ErrorEstimate &error);
+// As pt.h gives it.
+pt_error_estimate stated(const ErrorEstimate &error);
 
 // Whether so many of an image's samples were left out that its error is unknown. Of those that were too bright each may
 // have carried more than 2^20 times the brightest emission (gpu_layout.h, FILM_MAX_EXPONENT): from one in 2^20 on, they

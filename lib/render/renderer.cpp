@@ -69,6 +69,10 @@ void Renderer::add_device(const vk::raii::PhysicalDevice &physical_device, vulka
     });
 }
 
+bool Renderer::is_alive() const {
+    return std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
+}
+
 void Renderer::require_alive() const {
     for (const auto &device : devices_)
         device->device().require_alive();

@@ -127,8 +127,11 @@ public:
     void save_film(const FilmHeader &header, std::span<std::byte> bytes) const; // of the size of its FilmLayout
     void add_film(std::span<const std::byte> bytes);
 
-    // Without the error its fields say that nothing is known.
-    pt_stats stats(bool with_error);
+    pt_stats stats() const;
+
+    // Of the image, with the lamps in view that no sample has met: said, but no bound that ends a rendering, since
+    // films that are added elsewhere do not know of lamps.
+    ErrorEstimate error_with_lamps();
 
     // Of the kernel's elementary functions on the first device; leaves the samples alone.
     std::vector<pt_function_accuracy> accuracy();
@@ -148,6 +151,7 @@ private:
     void use_device_of(const vulkan::CallerVulkan &caller, const CreateSettings &settings);
     void add_device(const vk::raii::PhysicalDevice &physical_device, vulkan::LogicalDevice logical_device,
                     const CreateSettings &settings);
+    bool is_alive() const;
     void require_alive() const;
     void require_settings() const;
     void require_samples() const;
@@ -159,7 +163,6 @@ private:
     FilmIdentity identity() const;
     Rectangle pixels() const;
     const ErrorEstimate &error();
-    ErrorEstimate error_with_lamps();
     void look(std::span<double> by_tile, bool is_recorded);
     std::span<const double> tile_squares();
     bool is_on_target(double target_error);

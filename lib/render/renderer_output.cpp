@@ -46,8 +46,9 @@ void Renderer::look(std::span<double> by_tile, bool is_recorded) {
     error_ = is_unknown ? unknown_error() : estimator.result();
 }
 
-// Said, but no bound that ends a rendering: films that are added elsewhere do not know of lamps.
 ErrorEstimate Renderer::error_with_lamps() {
+    if (!settings_ || !is_alive())
+        return unknown_error();
     ErrorEstimate known = error();
     if (samples_.least() < min_estimate_samples)
         return known;
@@ -165,10 +166,8 @@ void Renderer::add_film(std::span<const std::byte> bytes) {
     take_over(std::move(all));
 }
 
-pt_stats Renderer::stats(bool with_error) {
-    const bool alive = std::ranges::none_of(devices_, [](const auto &device) { return device->device().lost(); });
-    const bool readable = settings_ && alive;
-    const ErrorEstimate error = with_error && readable ? error_with_lamps() : unknown_error();
+pt_stats Renderer::stats() const {
+    const bool readable = settings_ && is_alive();
     pt_stats stats{};
     stats.sample_count = static_cast<std::uint32_t>(samples_.least());
     stats.max_sample_count = static_cast<std::uint32_t>(samples_.most());
@@ -185,7 +184,6 @@ pt_stats Renderer::stats(bool with_error) {
     stats.rejected_samples += rejected_samples_.value_or(0);
     stats.features = gpu_scene_ ? feature_bits(gpu_scene_->features) : 0;
     stats.device_count = static_cast<std::uint32_t>(devices_.size());
-    set_error(stats, error);
     return stats;
 }
 

@@ -44,8 +44,6 @@ pt_camera with_defaults(pt_camera camera) {
         camera.up[1] = 1.0;
     if (camera.vertical_fov == 0.0 && camera.projection != PT_PROJECTION_ORTHOGRAPHIC)
         camera.vertical_fov = default_vertical_fov;
-    if (camera.shutter_open == 0.0 && camera.shutter_close == 0.0)
-        camera.shutter_close = 1.0;
     return camera;
 }
 

@@ -53,7 +53,8 @@ Plane normalized(const pt_plane &plane) {
 }
 
 Material owned(const pt_material &material) {
-    return {colour(material.diffuse), colour(material.specular), colour(material.emission), material.glossiness};
+    return {colour(material.diffuse), colour(material.specular), colour(material.emission), material.glossiness,
+            (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0};
 }
 
 Plane owned(const pt_plane &plane) {
@@ -74,11 +75,7 @@ public:
         material.check_each("specular", source.specular, colour_rule);
         material.check_each("emission", source.emission, colour_rule);
         material.check("glossiness", source.glossiness, glossiness_rule);
-    }
-
-    void check(std::uint32_t flags, std::size_t index) const {
-        const Subject material(violations_, "material_flags", index);
-        material.require(flags <= PT_MATERIAL_HIDDEN_FROM_CAMERA, "", flags,
+        material.require(source.flags <= PT_MATERIAL_HIDDEN_FROM_CAMERA, "flags", source.flags,
                          "must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");
     }
 
@@ -157,13 +154,6 @@ std::vector<Owned> owned_all(std::span<const Element> elements) {
     return all;
 }
 
-std::vector<Material> owned_materials(std::span<const pt_material> materials, std::span<const std::uint32_t> flags) {
-    std::vector<Material> all = owned_all<Material>(materials);
-    for (std::size_t i = 0; i < flags.size(); ++i)
-        all[i].hidden = (flags[i] & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0;
-    return all;
-}
-
 } // namespace
 
 CheckedScene checked_scene(const pt_scene &scene) {
@@ -181,19 +171,17 @@ CheckedScene checked_scene(const pt_scene &scene, WorkProgress &progress) {
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
 
     const auto materials = elements(scene.materials, scene.material_count, "material", violations);
-    const std::span<const std::uint32_t> flags(scene.material_flags, scene.material_flags ? materials.size() : 0);
     const auto spheres = elements(scene.spheres, scene.sphere_count, "sphere", violations);
     const auto planes = elements(scene.planes, scene.plane_count, "plane", violations);
     const Checker checker(violations, scene.material_count);
     progress.enter(share_of_checks,
                    static_cast<double>(materials.size() + spheres.size() + planes.size()) + elements_of(arrays));
     check_all(materials, checker, progress);
-    check_all(flags, checker, progress);
     check_all(spheres, checker, progress);
     check_sphere_arrays(arrays, scene.material_count, violations, progress);
     check_all(planes, checker, progress);
     violations.throw_if_any(PT_ERROR_INVALID_SCENE);
-    return {owned_materials(materials, flags), SphereSource(spheres, arrays), owned_all<Plane>(planes)};
+    return {owned_all<Material>(materials), SphereSource(spheres, arrays), owned_all<Plane>(planes)};
 }
 
 } // namespace pt

@@ -86,7 +86,7 @@ def check_the_check(headers, table, compiler):
         ("double offset;", "double before; double offset;", "+ pt_plane.offset 32 8"),
         ("float glossiness;", "double glossiness;", "+ pt_material.glossiness 40 8"),
         ("double shutter_open;", "double shutter;", "- pt_camera.shutter_open 88 8"),
-        ("double rmse_low;", "", "- pt_stats.rmse_low 56 8"),
+        ("double rmse_low;", "", "- pt_error_estimate.rmse_low 16 8"),
         ("int64_t index;", "int32_t index;", "- pt_broken_rule.index 8 8"),
     ):
         assert sum(text.count(old) for text in headers.values()) == 1, old
@@ -101,7 +101,7 @@ def check_the_package_check(headers):
     written = generate.files_of(headers)
     for old, new, wanted in (
         ("uint32_t row_count;", "uint32_t row_count; uint64_t more;", '("row_count", c_uint32), ("more", c_uint64)]'),
-        ("float glossiness;", "uint32_t glossiness;", '("glossiness", c_uint32)]'),
+        ("float glossiness;", "uint32_t glossiness;", '("glossiness", c_uint32), '),
         ("const uint32_t *tile_samples;", "const double *tile_samples;", '("tile_samples", POINTER(c_double))'),
         ("PT_PENDING = 3,", "PT_PENDING = 4,", "PENDING = 4  #"),
         ("PT_QUANTITY_RADIANCE = 0,", "PT_QUANTITY_RADIANCE = 0, PT_QUANTITY_MORE = 9,", "MORE = 9"),

@@ -36,12 +36,13 @@ double largest_error(const Image &image, double exact) {
 TEST_F(ExactLight, FromASphereItselfItsFarSideIsSeen) {
     for (const float emission : {0.0F, 0.5F}) {
         // Behind it another lamp shows what passes through: a lamp and a black sphere are held differently.
-        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0},
-                                         {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {emission, emission, emission}, 0, 0},
+                                         {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere spheres[] = {{{0, 0, -1}, 1, {0, 0, 0}, 0, 0}, {{0, 0, -1}, 50, {0, 0, 0}, 1, 0}};
         const pt_scene scene = scene_of(materials, spheres, {});
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.target[2] = -1;
         for (const float value : image_of(scene, camera, render_of(16, 16, 1), 16).radiance)
             ASSERT_EQ(value, emission);

@@ -30,7 +30,7 @@ const SphereCoverage sphere_coverage(1, 0.5, -5);
 
 // What the middle of the sphere at (1, 0.5, -4), seen from (0, 0, 1), shows.
 Image render_sphere(const Shape &shape, double radius, const auto &image_of) {
-    const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     const pt_sphere sphere{{1, 0.5, -4}, radius, {0, 0, 0}, 0, 0};
     const pt_scene scene = scene_of({&material, 1}, {&sphere, 1}, {});
     pt_camera camera{};

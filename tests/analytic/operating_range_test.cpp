@@ -242,7 +242,8 @@ TEST_F(DISABLED_OperatingRange, DistanceOfAWorld) {
             const double distance = std::pow(10.0, exponent);
             cli::SceneFile scene = read_scene("14-gloss-n40");
             const std::uint32_t white = 0, lamp = 1;
-            scene.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0}, {{0, 0, 0}, {0, 0, 0}, {20, 20, 20}, 0}};
+            scene.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                               {{0, 0, 0}, {0, 0, 0}, {20, 20, 20}, 0, 0}};
             scene.planes.clear();
             const glm::dvec3 middle = distance * look.direction;
             const glm::dvec3 away = 0.8 * look.direction;

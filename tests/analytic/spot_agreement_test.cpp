@@ -29,11 +29,11 @@ struct SpotScene {
 };
 
 pt_material diffuse(float albedo) {
-    return {{albedo, albedo, albedo}, {0, 0, 0}, {0, 0, 0}, 0};
+    return {{albedo, albedo, albedo}, {0, 0, 0}, {0, 0, 0}, 0, 0};
 }
 
 pt_material polished(float albedo, float specular, float glossiness) {
-    return {{albedo, albedo, albedo}, {specular, specular, specular}, {0, 0, 0}, glossiness};
+    return {{albedo, albedo, albedo}, {specular, specular, specular}, {0, 0, 0}, glossiness, 0};
 }
 
 pt_sphere low_lamp() {
@@ -45,7 +45,7 @@ protected:
     void render_with(float lamp_radiance) {
         const SpotScene &of = GetParam();
         const std::array<pt_material, 4> materials = {
-            {{{0, 0, 0}, {0, 0, 0}, {lamp_radiance, lamp_radiance, lamp_radiance}, 0},
+            {{{0, 0, 0}, {0, 0, 0}, {lamp_radiance, lamp_radiance, lamp_radiance}, 0, 0},
              of.floor,
              diffuse(0.7F),
              of.ball}};

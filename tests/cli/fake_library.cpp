@@ -299,15 +299,14 @@ pt_result pt_get_stats(pt_context *context, pt_stats *stats) {
     stats->submit_count = 4 * std::uint64_t{context->sample_count};
     stats->device_seconds = 0.25;
     stats->features = PT_FEATURE_LAMPS | PT_FEATURE_MOTION;
-    const double error = fake_error(context->sample_count);
-    stats->rmse_high = error;
-    stats->rmse = 0.5 * error;
-    stats->rmse_low = std::isinf(error) ? 0.0 : 0.25 * error;
-    stats->relative_rmse_high = stats->rmse_high;
-    stats->relative_rmse = stats->rmse;
-    stats->relative_rmse_low = stats->rmse_low;
-    stats->uncertain = 0;
     return call(context, "stats");
+}
+
+pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error) {
+    const double high = fake_error(context->sample_count);
+    const double low = std::isinf(high) ? 0.0 : 0.25 * high;
+    *error = {sizeof *error, 0, 0.5 * high, low, high, 0.5 * high, low, high};
+    return call(context, "error");
 }
 
 pt_result pt_save_film(pt_context *context, void *data, std::uint64_t *size_bytes) {

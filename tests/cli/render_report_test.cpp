@@ -41,9 +41,9 @@ cli::RenderReport example_render() {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void set_error(cli::RenderReport &report, double estimate, double low, double high) {
-    report.stats.relative_rmse = estimate;
-    report.stats.relative_rmse_low = low;
-    report.stats.relative_rmse_high = high;
+    report.error.relative_rmse = estimate;
+    report.error.relative_rmse_low = low;
+    report.error.relative_rmse_high = high;
 }
 
 TEST(RenderReport, StatsJson) {
@@ -80,7 +80,7 @@ TEST(RenderReport, ToneMapAndWarningsInJson) {
 
 TEST(RenderReport, ErrorInJson) {
     cli::RenderReport report = example_render();
-    report.stats.rmse = report.stats.rmse_high = report.stats.relative_rmse = report.stats.relative_rmse_high =
+    report.error.rmse = report.error.rmse_high = report.error.relative_rmse = report.error.relative_rmse_high =
         infinity;
     auto json = cli::stats_json(report);
     for (const char *key : {"rmse", "rmse_high", "relative_rmse", "relative_rmse_high", "target_error"}) {
@@ -90,7 +90,7 @@ TEST(RenderReport, ErrorInJson) {
     EXPECT_EQ(json.at("target_reached"), false);
 
     set_error(report, 0.0042, 0.0040, 0.0044);
-    report.stats.rmse = 7.0;
+    report.error.rmse = 7.0;
     report.target_error = 0.0044;
     json = cli::stats_json(report);
     EXPECT_EQ(json.at("rmse"), 7.0);
@@ -152,7 +152,7 @@ TEST(RenderReport, AnUncertainErrorIsCalledSo) {
     set_error(report, 0.0042, 0.0040, 0.0044);
     EXPECT_EQ(cli::stats_json(report).at("uncertain"), nlohmann::json::array());
     const auto text_with = [&](std::uint32_t uncertain) {
-        report.stats.uncertain = uncertain;
+        report.error.uncertain = uncertain;
         return cli::error_text(report);
     };
     EXPECT_EQ(text_with(PT_UNCERTAIN_RMSE), "error 0.42% (0.4% to 0.44%)"); // the relative one is known

@@ -59,7 +59,7 @@ def needed(program):
 
 def check_linkage(program, shared):
     names = [name for name in needed(program) if name.startswith("libpt")]
-    require(names == (["libpt.so.0.2"] if shared else []), f"{program} needs {names}")
+    require(names == (["libpt.so.0.3"] if shared else []), f"{program} needs {names}")
 
 
 class Steps:
@@ -194,7 +194,7 @@ class Steps:
     def python(self):
         """The package with the library, and the example in Python, whose image has the bits of the example in C."""
         folder = self.folder("python")
-        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.2"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
+        library = {"PT_LIBRARY": str(self.library / "libpt.so.0.3"), "PYTHONPATH": str(SOURCE / "lib" / "python")}
         enclosure = [sys.executable, "-B", HERE / "python" / "enclosure.py"]
         run(*enclosure, "2", **library)
         run(*enclosure, "2.5", expect=1, **library)
@@ -258,12 +258,12 @@ class Steps:
         folder = self.folder("debian")
         run(self.options.cpack, "-G", "DEB", "-B", folder, cwd=self.options.build)
         packages = {path.name.split("_")[0]: path for path in folder.glob("*.deb")}
-        compiler = "libpt0.2-glsl"  # where its libraries were there when it was built
-        expected = ["libpt-dev", "libpt0.2", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
+        compiler = "libpt0.3-glsl"  # where its libraries were there when it was built
+        expected = ["libpt-dev", "libpt0.3", *([compiler] if compiler in packages else []), "pt", "pt-image-formats"]
         require(sorted(packages) == expected, f"the packages are {sorted(packages)}")
-        exact = f"libpt0.2 (= {self.options.version})"
+        exact = f"libpt0.3 (= {self.options.version})"
         for name, wanted in {
-            "libpt0.2": ["libc6", "libstdc++6", "libvulkan1"],
+            "libpt0.3": ["libc6", "libstdc++6", "libvulkan1"],
             "libpt-dev": [exact, "libvulkan-dev"],
             "pt": [exact, "libpng16-16", "libstdc++6"],
             "pt-image-formats": [f"pt (= {self.options.version})", "libopenimageio2."]
@@ -277,7 +277,7 @@ class Steps:
         require(recommends == [f"pt-image-formats (= {self.options.version})"], f"pt recommends {recommends}")
 
         alone = folder / "alone"
-        for name in "libpt0.2", "pt":
+        for name in "libpt0.3", "pt":
             run("dpkg-deb", "--extract", packages[name], alone)
         self.check_program_without_module(alone / "usr/bin/pt", folder,
                                           LD_LIBRARY_PATH=str(alone / "usr" / self.options.libdir))

@@ -83,13 +83,6 @@ protected:
         return bytes;
     }
 
-    static pt_stats stats_of(pt_context *on) {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
-        return stats;
-    }
-
     static Bytes film_on_target(pt_context *on) {
         begin(on);
         EXPECT_EQ(take(on, no_limit, uneven_target), PT_TARGET_REACHED) << pt_last_error(on);
@@ -131,7 +124,7 @@ TEST_F(AdaptiveTest, EachTileHasTheBitsOfAnEvenFilm) {
         EXPECT_EQ(stats.sample_count, pixels.begin()->first);
         EXPECT_EQ(stats.max_sample_count, pixels.rbegin()->first);
         EXPECT_DOUBLE_EQ(stats.mean_sample_count, total / (uneven_width * uneven_height));
-        EXPECT_LE(stats.relative_rmse_high, uneven_target);
+        EXPECT_LE(error_of(uneven.get()).relative_rmse_high, uneven_target);
     }
 }
 
@@ -219,7 +212,7 @@ TEST_F(AdaptiveTest, SeveralDevicesGiveTheBytesOfOne) {
         for (const uint32_t submit_milliseconds : {1U, 50U}) {
             const Context shared = context_on(3, submit_milliseconds, like_gpus);
             EXPECT_EQ(film_on_target(shared.get()), expected);
-            EXPECT_EQ(stats_of(shared.get()).relative_rmse_high, stats_of(alone.get()).relative_rmse_high);
+            EXPECT_EQ(error_of(shared.get()).relative_rmse_high, error_of(alone.get()).relative_rmse_high);
         }
     }
 }

@@ -18,7 +18,7 @@ inline constexpr uint32_t width = 12;
 inline constexpr uint32_t height = 7;
 
 // A sphere around the camera that emits red, green and blue of 1, 2 and 4: every pixel is that, exactly.
-inline const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 2, 4}, 0};
+inline const pt_material material{{0, 0, 0}, {0, 0, 0}, {1, 2, 4}, 0, 0};
 inline const pt_sphere sphere{{0, 0, 0}, 9, {0, 0, 0}, 0, 0};
 inline const std::array<float, 3> radiance{1, 2, 4};
 
@@ -29,6 +29,7 @@ inline pt_scene valid_scene() {
 inline pt_camera valid_camera() {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[2] = -1;
     return camera;
 }

@@ -298,7 +298,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     for (const uint32_t more : {0U, 15U}) {
         if (more > 0)
             accumulate(more);
-        const pt_stats unknown = stats();
+        const pt_error_estimate unknown = error();
         EXPECT_EQ(unknown.rmse, infinity);
         EXPECT_EQ(unknown.rmse_low, 0.0);
         EXPECT_EQ(unknown.rmse_high, infinity);
@@ -310,7 +310,7 @@ TEST_F(ApiTest, TheErrorIsKnownFrom16Samples) {
     info.target_error = 1e-6;
     ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();
     expect_image(16);
-    const pt_stats known = stats();
+    const pt_error_estimate known = error();
     EXPECT_EQ(known.rmse, 0.0);
     EXPECT_EQ(known.relative_rmse_high, 0.0);
     ASSERT_EQ(pt_accumulate(context(), &info), PT_TARGET_REACHED) << message();

@@ -24,7 +24,7 @@ constexpr std::uint32_t picture_width = 29;
 constexpr std::uint32_t picture_height = 19;
 
 struct Shining {
-    std::vector<pt_material> materials = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+    std::vector<pt_material> materials = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
     pt_camera camera = CourseworkScene::camera();

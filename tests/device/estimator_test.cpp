@@ -32,11 +32,11 @@ struct ListedScene {
 };
 
 pt_material diffuse(float albedo) {
-    return {{albedo, albedo, albedo}, {0, 0, 0}, {0, 0, 0}, 0};
+    return {{albedo, albedo, albedo}, {0, 0, 0}, {0, 0, 0}, 0, 0};
 }
 
 pt_material lamp(float radiance) {
-    return {{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0};
+    return {{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0};
 }
 
 constexpr pt_plane floor_plane{{0, 1, 0}, 1, 0, 0};
@@ -62,7 +62,7 @@ class Estimator : public BatchFixture {};
 // A lamp so large that directions find it by chance, over a floor with a diffuse and a glossy ball: finite variance
 // for all.
 ListedScene large_lamp() {
-    const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10};
+    const pt_material glossy{{0.3F, 0.3F, 0.3F}, {0.5F, 0.5F, 0.5F}, {0, 0, 0}, 10, 0};
     return {{diffuse(0.8F), lamp(5), diffuse(0.6F), glossy},
             {{{0.5, 4, -6}, 2, {0, 0, 0}, 1, 0},
              {{-1.2, -0.2, -5}, 0.8, {0, 0, 0}, 2, 0},

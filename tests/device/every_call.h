@@ -37,6 +37,8 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
     pt_device_info device{};
     pt_stats stats{};
     stats.struct_size = sizeof stats;
+    pt_error_estimate error{};
+    error.struct_size = sizeof error;
     std::uint32_t count = 0;
     const std::map<std::string, std::function<pt_result()>> calls = {
         {"pt_get_context_device", [&] { return pt_get_context_device(context, &device); }},
@@ -51,6 +53,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
         {"pt_map_image", [&] { return pt_map_image(context, &mapped, &data, nullptr); }},
         {"pt_readback_to_buffer", [&] { return pt_readback_to_buffer(context, &buffer_image); }},
         {"pt_get_stats", [&] { return pt_get_stats(context, &stats); }},
+        {"pt_get_error_estimate", [&] { return pt_get_error_estimate(context, &error); }},
         {"pt_get_accuracy", [&] { return pt_get_accuracy(context, nullptr, &count); }},
     };
     Outcomes outcomes;
@@ -63,7 +66,7 @@ inline Outcomes outcomes_of_every_call(pt_context *context) {
 
 // That each of them was refused so.
 inline void expect_every_call(const Outcomes &outcomes, const std::string &expected) {
-    EXPECT_EQ(outcomes.size(), 13U);
+    EXPECT_EQ(outcomes.size(), 14U);
     for (const auto &[name, outcome] : outcomes)
         EXPECT_EQ(outcome, expected) << name;
 }

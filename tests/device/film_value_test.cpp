@@ -102,19 +102,21 @@ TEST_F(FilmValue, ShowsWhatTheContextShows) {
             ASSERT_EQ(pt_read_film(value.get(), &image), PT_OK) << pt_last_error(nullptr);
             EXPECT_TRUE(here == there) << quantity << ' ' << format;
         }
-    pt_stats rendered{};
-    rendered.struct_size = sizeof rendered;
-    pt_stats kept = rendered;
-    ASSERT_EQ(pt_get_stats(context(), &rendered), PT_OK) << pt_last_error(context());
+    pt_stats kept{};
+    kept.struct_size = sizeof kept;
     ASSERT_EQ(pt_get_film_stats(value.get(), &kept), PT_OK) << pt_last_error(nullptr);
-    EXPECT_EQ(kept.sample_count, rendered.sample_count);
-    EXPECT_EQ(kept.rejected_samples, rendered.rejected_samples);
-    EXPECT_EQ(kept.uncertain, rendered.uncertain);
-    for (double pt_stats::*const error :
-         {&pt_stats::rmse, &pt_stats::rmse_low, &pt_stats::rmse_high, &pt_stats::relative_rmse,
-          &pt_stats::relative_rmse_low, &pt_stats::relative_rmse_high})
+    EXPECT_EQ(kept.sample_count, stats().sample_count);
+    EXPECT_EQ(kept.rejected_samples, stats().rejected_samples);
+    using Error = pt_error_estimate;
+    Error kept_error{};
+    kept_error.struct_size = sizeof kept_error;
+    ASSERT_EQ(pt_get_film_error_estimate(value.get(), &kept_error), PT_OK) << pt_last_error(nullptr);
+    const Error rendered = error();
+    EXPECT_EQ(kept_error.uncertain, rendered.uncertain);
+    for (double Error::*const each : {&Error::rmse, &Error::rmse_low, &Error::rmse_high, &Error::relative_rmse,
+                                      &Error::relative_rmse_low, &Error::relative_rmse_high})
         // A GPU sums up the squares of a region, at most 3072, in float32: each sum is within 3072 x 2^-24.
-        EXPECT_NEAR(kept.*error, rendered.*error, 2e-4 * rendered.*error);
+        EXPECT_NEAR(kept_error.*each, rendered.*each, 2e-4 * rendered.*each);
 }
 
 } // namespace

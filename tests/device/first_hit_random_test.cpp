@@ -115,10 +115,9 @@ public:
         Shot given;
         given.name = scenes_.kind() + ", " + std::to_string(scene.spheres.size()) + " spheres";
         for (const pt::Material &material : scene.materials)
-            given.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {material.emission.r, 0, 0}, 0});
-        given.flags.assign(3, 0);
+            given.materials.push_back({{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {material.emission.r, 0, 0}, 0, 0});
         if (chance(0.3))
-            given.flags[2] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+            given.materials[2].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
         given.spheres = caller_spheres(scene.spheres);
         for (const pt::Plane &plane : scene.planes)
             given.planes.push_back({{plane.normal.x, plane.normal.y, plane.normal.z}, plane.offset, 1, 0});
@@ -201,7 +200,7 @@ TEST_F(RandomFirstHit, IsThatOfLongDouble) {
 // and so pictures of a tree and of a list the same bits.
 TEST_F(RandomFirstHit, OfALatticeInASkyIsThatOfAList) {
     Shot shot;
-    shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+    shot.materials = {{{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
     for (int i = 0; i < 125; ++i)
         shot.spheres.push_back(
             {{0.5 * (i % 5) - 1, 0.5 * (i / 5 % 5) - 1, 0.5 * (i / 25) - 1}, 0.125, {0, 0, 0}, 0, 0});

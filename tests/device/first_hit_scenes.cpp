@@ -14,9 +14,9 @@ Given coursework() {
 }
 
 std::vector<pt_material> some_materials() {
-    return {{{0.8F, 0.4F, 0.2F}, {0.1F, 0.2F, 0.3F}, {0, 0, 0}, 7},
-            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0}, // more than 1 in red
-            {{0.25F, 0.5F, 0.75F}, {0, 0, 0}, {30, 20, 10}, 0}};
+    return {{{0.8F, 0.4F, 0.2F}, {0.1F, 0.2F, 0.3F}, {0, 0, 0}, 7, 0},
+            {{0.9F, 0.1F, 0}, {0.3F, 0, 0}, {0, 0, 0}, 0, 0}, // more than 1 in red
+            {{0.25F, 0.5F, 0.75F}, {0, 0, 0}, {30, 20, 10}, 0, 0}};
 }
 
 namespace {
@@ -154,8 +154,7 @@ namespace {
 
 // Without what is made of one of the materials, for the camera.
 Given hiding(Given given, std::uint32_t material) {
-    given.flags.assign(given.materials.size(), 0);
-    given.flags[material] = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+    given.materials[material].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
     return given;
 }
 

@@ -16,22 +16,9 @@ struct Given {
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
     pt_camera camera = CourseworkScene::camera();
-    double start_distance = 0.0;           // how far ahead of the camera float32 numbers begin, at the least
-    std::vector<std::uint32_t> flags = {}; // of the materials; none: 0
+    double start_distance = 0.0; // how far ahead of the camera float32 numbers begin, at the least
 
-    pt_scene scene() const {
-        pt_scene scene = scene_of(materials, spheres, planes);
-        scene.material_flags = flags.empty() ? nullptr : flags.data();
-        return scene;
-    }
-
-    // With every default written out, as the reference takes it.
-    pt_camera full_camera() const {
-        pt_camera full = camera;
-        if (full.shutter_open == 0.0 && full.shutter_close == 0.0)
-            full.shutter_close = 1.0;
-        return full;
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
 // A glossy one, one that gives off more red than it receives, and a lamp.

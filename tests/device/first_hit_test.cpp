@@ -43,13 +43,6 @@ protected:
         return values;
     }
 
-    static pt_stats stats_of(pt_context *of) {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(of, &stats), PT_OK) << pt_last_error(of);
-        return stats;
-    }
-
     static pt_image object_target(std::span<std::uint32_t> objects) {
         pt_image target{};
         target.struct_size = sizeof target;
@@ -111,7 +104,7 @@ TEST_F(FirstHit, IsWhatLongDoubleFinds) {
         const std::vector<float> normal = read(context(), PT_QUANTITY_NORMAL);
         const std::vector<float> albedo = read(context(), PT_QUANTITY_ALBEDO);
         const std::vector<std::uint32_t> object = objects(context());
-        View view(given.full_camera(), picture());
+        View view(given.camera, picture());
         view.start_distance = given.start_distance;
         std::size_t certain = 0;
         std::size_t certain_means = 0;
@@ -286,7 +279,7 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
 // Spheres by columns are counted after those of structs, and have their colours: in a tree held to a thousandth.
 TEST_F(FirstHit, ColumnsHaveNumbersAndColours) {
     Given given;
-    given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}};
+    given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
     given.spheres = {{{0, 0, -500}, 100, {0, 0, 0}, 0, 0}};
     for (const std::uint32_t side : {3U, 7U}) {
         const std::uint32_t count = side * side;

@@ -28,24 +28,21 @@ struct Hiding {
     std::vector<pt_material> materials;
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes;
-    std::vector<std::uint32_t> flags = {};
     pt_camera camera = CourseworkScene::camera();
 
     Hiding(std::string of, std::array<pt_material, 3> kinds) :
         name(std::move(of)),
         materials(kinds.begin(), kinds.end()) {
-        materials.insert(materials.end(), kinds.begin(), kinds.end());
-        flags = {0, 0, 0, 1, 1, 1};
+        for (pt_material &hidden : kinds) {
+            hidden.flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+            materials.push_back(hidden);
+        }
         camera.position[0] = camera.position[1] = camera.position[2] = 0;
         camera.target[0] = camera.target[1] = 0;
         camera.target[2] = -1;
     }
 
-    pt_scene scene() const {
-        pt_scene scene = scene_of(materials, spheres, planes);
-        scene.material_flags = flags.data();
-        return scene;
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
 class HiddenFromCamera : public BatchFixture {
@@ -74,7 +71,7 @@ pt_sphere ball(double x, double y, double z, double radius, std::uint32_t materi
 constexpr std::uint32_t shining = 0;
 
 Hiding closed(const std::string &name) {
-    const pt_material material{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0};
+    const pt_material material{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0, 0};
     return {name, {material, material, material}};
 }
 
@@ -191,8 +188,8 @@ constexpr std::uint32_t black = 2;
 
 Hiding with_lamps(const std::string &name) {
     return {name,
-            {pt_material{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0},
-             pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0}}};
+            {pt_material{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+             pt_material{{0, 0, 0}, {0, 0, 0}, {5, 5, 5}, 0, 0}, pt_material{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0}}};
 }
 
 // What black surfaces keep from the lamp is black to the last bit, though the camera looks through them.
@@ -257,11 +254,11 @@ TEST_F(HiddenFromCamera, ALampLightsAsIfItWereSeen) {
 
 TEST_F(HiddenFromCamera, FlagsThatThereAreNotAreRefused) {
     Hiding given = with_lamps("");
-    given.flags[4] = 6;
+    given.materials[4].flags = 6;
     const pt_scene scene = given.scene();
     EXPECT_EQ(pt_set_scene(context(), &scene), PT_ERROR_INVALID_SCENE);
     EXPECT_EQ(std::string(pt_last_error(context())),
-              "material_flags[4] = 6: must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");
+              "materials[4].flags = 6: must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");
 }
 
 } // namespace

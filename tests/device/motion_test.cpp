@@ -24,9 +24,9 @@ class Motion : public BatchFixture {
 protected:
     // One sphere, and a floor if it is not black.
     void set_up_sphere(const pt_sphere &sphere, float radiance, float floor_albedo, double shutter_open = 0,
-                       double shutter_close = 0) {
-        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0},
-                                         {{floor_albedo, floor_albedo, floor_albedo}, {0, 0, 0}, {0, 0, 0}, 0}};
+                       double shutter_close = 1) {
+        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {radiance, radiance, radiance}, 0, 0},
+                                         {{floor_albedo, floor_albedo, floor_albedo}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
         const pt_plane plane{{0, 1, 0}, 1, 1, 0};
         const pt_scene scene = scene_of(materials, {&sphere, 1}, {&plane, floor_albedo > 0 ? 1U : 0U});
         pt_camera camera = CourseworkScene::camera();
@@ -164,15 +164,16 @@ struct FloorBall {
 
 class HugeMotion : public Motion {
 protected:
-    void set_up_floor(const FloorBall &floor, double shutter_open = 0, double shutter_close = 0) {
-        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {10, 10, 10}, 0},
-                                         {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}};
+    void set_up_floor(const FloorBall &floor, double shutter_open = 0, double shutter_close = 1) {
+        const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {10, 10, 10}, 0, 0},
+                                         {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
         const pt_sphere spheres[] = {
             {{3, 2, 0}, 1, {0, 0, 0}, 0, 0},
             {{0, -1 - floor.radius, 0}, floor.radius, {floor.motion[0], floor.motion[1], floor.motion[2]}, 1, 0}};
         const pt_scene scene = scene_of(materials, spheres, {});
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.target[0] = 0.3;
         camera.target[1] = -1;
         camera.target[2] = -0.4;
@@ -208,12 +209,13 @@ TEST_F(HugeMotion, InTheLimitOfNoneIsRest) {
 // A lamp is held like a plane from a radius of 65536 distances on, whatever it moves: its inside is not seen.
 TEST_F(HugeMotion, OfALampTheOutsideIsSeen) {
     constexpr double radius = 1e6;
-    const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0}};
+    const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {4, 4, 4}, 0, 0}};
     // Overhead another lamp fills the view; from within the floor none of it would be seen.
     const pt_sphere spheres[] = {{{0, -1e-3 - radius, 0}, radius, {1e3, 0, 0}, 0, 0}, {{0, 50, 0}, 5, {0, 0, 0}, 1, 0}};
     const pt_scene scene = scene_of(materials, spheres, {});
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[1] = 1;
     camera.up[2] = 1;
     camera.vertical_fov = 0.1;

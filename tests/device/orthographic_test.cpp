@@ -20,14 +20,15 @@ constexpr std::uint32_t picture_height = 24;
 constexpr std::uint32_t sample_count = 256;
 constexpr double extent = 6.0; // of the view's height, so that its width is 8
 
-const std::vector<pt_material> materials = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0},
-                                            {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                            {{0, 0, 0}, {0, 0, 0}, {64, 64, 64}, 0}};
+const std::vector<pt_material> materials = {{{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0},
+                                            {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                            {{0, 0, 0}, {0, 0, 0}, {64, 64, 64}, 0, 0}};
 
 // Towards the origin, from as far away.
 pt_camera camera_from(double distance) {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.position[0] = 0.48 * distance;
     camera.position[1] = 0.6 * distance;
     camera.position[2] = 0.64 * distance;
@@ -91,6 +92,7 @@ TEST_F(Orthographic, ABallIsADiscOfItsRadiusAtAnyDepth) {
 TEST_F(Orthographic, RaysStartOnThePlaneThroughThePosition) {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[2] = -1;
     camera.projection = PT_PROJECTION_ORTHOGRAPHIC;
     camera.vertical_extent = extent;
@@ -138,6 +140,7 @@ TEST_F(Orthographic, AGlobeThatMovesHasToBeSeenFromAfar) {
     for (const double height : {1.0, 1e3, 1e6}) {
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.position[1] = height;
         camera.target[0] = 1e-3 * height;
         camera.up[2] = 1;

@@ -121,9 +121,7 @@ TEST_F(OwnVulkanTest, WhatEndsBetweenPollsIsNotTakenForSlow) {
     double fraction = 0.0;
     ASSERT_EQ(pt_poll(context, 0, &fraction), PT_OK) << pt_last_error(context);
     EXPECT_EQ(fraction, 1.0);
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    ASSERT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
+    const pt_stats stats = stats_of(context);
     EXPECT_EQ(stats.submit_count, 1U);
     EXPECT_LE(stats.device_seconds, 0.05);
 }
@@ -189,9 +187,7 @@ TEST_F(OwnVulkanTest, TheQueueIsFreeWhileTheContextCallsBack) {
     const std::uint64_t locks = observer.mutex.locks;
     const pt_accumulate_info more{sizeof more, samples, &Observer::progress, &observer, 0, 0, 0, nullptr, 0, 0};
     EXPECT_EQ(pt_accumulate(context.get(), &more), PT_OK);
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    EXPECT_EQ(pt_get_stats(context.get(), &stats), PT_OK);
+    const pt_stats stats = stats_of(context.get());
     EXPECT_GT(observer.calls, 0);
     EXPECT_GE(observer.mutex.locks, locks + static_cast<std::uint64_t>(observer.calls));
     EXPECT_GE(observer.mutex.locks, stats.submit_count);
@@ -223,24 +219,18 @@ TEST_F(OwnVulkanTest, LooksAtATargetAreNoSubmissions) {
     const Context context(created);
     const CourseworkScene coursework;
     render_image(created, coursework.scene(), CourseworkScene::camera(), render_of(own_width, own_height, 3), samples);
-    const auto stats = [&] {
-        pt_stats found{};
-        found.struct_size = sizeof found;
-        EXPECT_EQ(pt_get_stats(created, &found), PT_OK) << pt_last_error(created);
-        return found;
-    };
-    const std::uint64_t submissions = stats().submit_count;
+    const std::uint64_t submissions = stats_of(created).submit_count;
     const std::uint64_t locks = mutex.locks;
     const pt_accumulate_info to_a_target{sizeof to_a_target, 4096, nullptr, nullptr, 0.1, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(created, &to_a_target), PT_TARGET_REACHED) << pt_last_error(created);
     const std::uint64_t reached = mutex.locks;
-    EXPECT_GT(stats().sample_count, 20U) << "several looks";
-    EXPECT_EQ(reached - locks, stats().submit_count - submissions);
+    EXPECT_GT(stats_of(created).sample_count, 20U) << "several looks";
+    EXPECT_EQ(reached - locks, stats_of(created).submit_count - submissions);
     EXPECT_EQ(mutex.locks, reached) << "it is known";
     const pt_accumulate_info eight{sizeof eight, 8, nullptr, nullptr, 0, 0, 0, nullptr, 0, 0};
     ASSERT_EQ(pt_accumulate(created, &eight), PT_OK) << pt_last_error(created);
     const std::uint64_t before = mutex.locks;
-    EXPECT_GT(stats().relative_rmse, 0.0);
+    EXPECT_GT(error_of(created).relative_rmse, 0.0);
     EXPECT_EQ(mutex.locks, before + 1);
 }
 

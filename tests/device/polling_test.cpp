@@ -91,13 +91,6 @@ protected:
         return pixels;
     }
 
-    static pt_stats stats_of(pt_context *on) {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
-        return stats;
-    }
-
     // Of the fixture's context, by pt_accumulate.
     Pixels accumulated(uint32_t count) {
         set_up(context());

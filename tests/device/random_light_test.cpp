@@ -88,10 +88,11 @@ private:
     // Lobes that an estimator without lamps or without lobes hardly finds are left to the others.
     void set_materials(Given &given, Kind kind) {
         const double exponent = kind == weak_estimators ? decades(0, 1.3) : decades(0, kind == spots ? 4 : 3);
-        given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent)});
-        const std::vector<pt_material> seen = given.materials;
-        given.materials.insert(given.materials.end(), seen.begin(), seen.end());
-        given.flags = {0, 0, 0, 0, 1, 1, 1, 1};
+        given.materials.push_back({{0.2F, 0.1F, 0.1F}, {0.5F, 0.6F, 0.7F}, {0, 0, 0}, static_cast<float>(exponent), 0});
+        for (pt_material material : std::vector(given.materials)) {
+            material.flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
+            given.materials.push_back(material);
+        }
     }
 
     // Balls that cut each other, one of them a lamp at least.

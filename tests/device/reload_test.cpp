@@ -52,12 +52,7 @@ protected:
         ASSERT_EQ(pt_accumulate(on, &info), PT_OK) << pt_last_error(on);
     }
 
-    static uint32_t sample_count_of(pt_context *on) {
-        pt_stats stats{};
-        stats.struct_size = offsetof(pt_stats, rmse);
-        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK);
-        return stats.sample_count;
-    }
+    static uint32_t sample_count_of(pt_context *on) { return stats_of(on).sample_count; }
 
     // That the context holds so many samples of the fixture's scene, which is uniform, times a factor.
     static void expect_samples(pt_context *on, uint32_t count, float factor) {
@@ -263,9 +258,9 @@ TEST_F(ReloadTest, KernelsThatTheDriverRefusesAreNotTaken) {
         renderer.set_code(bad);
     });
     EXPECT_EQ(pt::result_name(error.code()), std::string("PT_ERROR_SHADER")) << error.what();
-    EXPECT_EQ(renderer.stats(false).sample_count, 1U);
+    EXPECT_EQ(renderer.stats().sample_count, 1U);
     take_a_sample();
-    EXPECT_EQ(renderer.stats(false).sample_count, 2U);
+    EXPECT_EQ(renderer.stats().sample_count, 2U);
 }
 
 } // namespace

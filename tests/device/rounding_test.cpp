@@ -39,10 +39,7 @@ protected:
         Outcome outcome{std::vector<float>(60 * 33 * 3), 0.0};
         const pt_image image = image_target(outcome.image);
         EXPECT_EQ(pt_readback(on, &image), PT_OK) << pt_last_error(on);
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
-        outcome.rmse = stats.rmse;
+        outcome.rmse = error_of(on).rmse;
         EXPECT_EQ(std::fegetround(), rounding);
         return outcome;
     }

@@ -27,12 +27,13 @@ constexpr uint32_t film_height = 14;
 struct Picture {
     std::vector<float> radiance, standard_error;
     pt_stats stats;
+    pt_error_estimate error;
     Bytes film;
 
     bool operator==(const Picture &other) const {
         return radiance == other.radiance && standard_error == other.standard_error &&
-               stats.sample_count == other.stats.sample_count && stats.rmse == other.stats.rmse &&
-               stats.relative_rmse_high == other.stats.relative_rmse_high && film == other.film;
+               stats.sample_count == other.stats.sample_count && error.rmse == other.error.rmse &&
+               error.relative_rmse_high == other.error.relative_rmse_high && film == other.film;
     }
 };
 
@@ -88,9 +89,8 @@ protected:
         };
         read(picture.radiance, PT_QUANTITY_RADIANCE);
         read(picture.standard_error, PT_QUANTITY_STANDARD_ERROR);
-        picture.stats = {};
-        picture.stats.struct_size = sizeof picture.stats;
-        EXPECT_EQ(pt_get_stats(context, &picture.stats), PT_OK) << pt_last_error(context);
+        picture.stats = stats_of(context);
+        picture.error = error_of(context);
         picture.film = film_of(context);
         return picture;
     }

@@ -21,8 +21,8 @@ constexpr std::uint32_t picture_height = 12;
 
 // Balls in [-1, 1]^3 by columns, and a lamp above them.
 struct Cloud {
-    std::vector<pt_material> materials = {{{0.8F, 0.7F, 0.6F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                          {{0, 0, 0}, {0, 0, 0}, {30, 30, 30}, 0}};
+    std::vector<pt_material> materials = {{{0.8F, 0.7F, 0.6F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                          {{0, 0, 0}, {0, 0, 0}, {30, 30, 30}, 0, 0}};
     pt_sphere lamp{{1, 3, 2}, 0.5, {0, 0, 0}, 1, 0};
     std::vector<float> centers;
     float radius;
@@ -82,6 +82,7 @@ protected:
     static void set_view(pt_context *on) {
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.position[1] = 0.5;
         camera.position[2] = 4;
         const pt_render render = render_of(picture_width, picture_height, 3);

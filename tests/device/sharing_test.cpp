@@ -51,18 +51,11 @@ protected:
         return image;
     }
 
-    pt_stats stats_of_one_gpu(uint32_t samples) {
+    pt_error_estimate error_of_one_gpu(uint32_t samples) {
         const Context alone = context_on(1, 50, true);
         set_up(alone.get());
         EXPECT_EQ(accumulate_on(alone.get(), samples), PT_OK);
-        return stats_of(alone.get());
-    }
-
-    static pt_stats stats_of(pt_context *on) {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(on, &stats), PT_OK) << pt_last_error(on);
-        return stats;
+        return error_of(alone.get());
     }
 };
 
@@ -74,7 +67,7 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
     ASSERT_EQ(accumulate_on(alone.get(), 77), PT_OK);
     const Image expected = image_of(alone.get());
     const Image expected_error = image_of(alone.get(), shared_height, PT_QUANTITY_STANDARD_ERROR);
-    const pt_stats expected_stats[] = {stats_of(alone.get()), stats_of_one_gpu(77)};
+    const pt_error_estimate expected_errors[] = {error_of(alone.get()), error_of_one_gpu(77)};
     for (const auto &[submit_milliseconds, like_gpus] : {std::pair{1U, false}, {50U, false}, {5U, true}}) {
         const Context shared = context_on(3, submit_milliseconds, like_gpus);
         set_up(shared.get());
@@ -86,8 +79,8 @@ TEST_F(SharingTest, SeveralDevicesGiveTheBitsOfOne) {
         const pt_stats stats = stats_of(shared.get());
         EXPECT_EQ(stats.device_count, 3U);
         EXPECT_EQ(stats.sample_count, 77U);
-        EXPECT_EQ(stats.relative_rmse, expected_stats[like_gpus ? 1 : 0].relative_rmse);
-        EXPECT_EQ(stats.rmse_high, expected_stats[like_gpus ? 1 : 0].rmse_high);
+        EXPECT_EQ(error_of(shared.get()).relative_rmse, expected_errors[like_gpus ? 1 : 0].relative_rmse);
+        EXPECT_EQ(error_of(shared.get()).rmse_high, expected_errors[like_gpus ? 1 : 0].rmse_high);
         EXPECT_GE(stats.device_bytes, uint64_t{3} * 112 * shared_width * shared_height) << "each has a film";
     }
 }
@@ -146,16 +139,18 @@ TEST_F(SharingTest, RowsAreThoseOfTheWholeImage) {
 // On the host, and on a device with what several have taken.
 TEST_F(SharingTest, ATargetIsReachedAtTheSameCountByAnyNumberOfDevices) {
     for (const bool like_gpus : {false, true}) {
-        pt_stats found[2];
+        std::uint32_t sample_counts[2];
+        pt_error_estimate errors[2];
         for (const uint32_t devices : {1U, 2U}) {
             const Context shared = context_on(devices, 5, like_gpus);
             set_up(shared.get());
             const pt_accumulate_info info{sizeof info, 4096, nullptr, nullptr, 0.2, 0, 0, nullptr, 0, 0};
             ASSERT_EQ(pt_accumulate(shared.get(), &info), PT_TARGET_REACHED) << pt_last_error(shared.get());
-            found[devices - 1] = stats_of(shared.get());
+            sample_counts[devices - 1] = stats_of(shared.get()).sample_count;
+            errors[devices - 1] = error_of(shared.get());
         }
-        EXPECT_EQ(found[0].sample_count, found[1].sample_count);
-        EXPECT_EQ(found[0].relative_rmse_high, found[1].relative_rmse_high);
+        EXPECT_EQ(sample_counts[0], sample_counts[1]);
+        EXPECT_EQ(errors[0].relative_rmse_high, errors[1].relative_rmse_high);
     }
 }
 
@@ -165,14 +160,14 @@ TEST_F(SharingTest, LargeFilmsMeetInBands) {
     constexpr uint32_t height = 500;
     Image images[2];
     Image parts[2];
-    pt_stats stats[2];
+    pt_error_estimate errors[2];
     for (const uint32_t devices : {1U, 2U}) {
         const Context shared = context_on(devices, 50, true);
         set_up(shared.get());
         const pt_render render = render_of(width, height, 1);
         ASSERT_EQ(pt_set_render(shared.get(), &render), PT_OK) << pt_last_error(shared.get());
         ASSERT_EQ(accumulate_on(shared.get(), 17), PT_OK);
-        stats[devices - 1] = stats_of(shared.get());
+        errors[devices - 1] = error_of(shared.get());
         Image &image = images[devices - 1];
         image.resize(std::size_t{width} * height * 3);
         const pt_image target = image_target(image);
@@ -189,8 +184,8 @@ TEST_F(SharingTest, LargeFilmsMeetInBands) {
     EXPECT_EQ(images[0], images[1]);
     EXPECT_EQ(parts[0], parts[1]);
     EXPECT_NE(parts[0], Image(parts[0].size()));
-    EXPECT_EQ(stats[0].relative_rmse, stats[1].relative_rmse);
-    EXPECT_EQ(stats[0].rmse_high, stats[1].rmse_high);
+    EXPECT_EQ(errors[0].relative_rmse, errors[1].relative_rmse);
+    EXPECT_EQ(errors[0].rmse_high, errors[1].rmse_high);
 }
 
 // Images and errors that kernels make of the film are those that the host makes.
@@ -205,8 +200,8 @@ TEST_F(SharingTest, GpusReadTheImageOfTheHost) {
     EXPECT_EQ(image_of(by_device.get()), image_of(by_host.get()));
     EXPECT_EQ(image_of(by_device.get(), shared_height, PT_QUANTITY_STANDARD_ERROR),
               image_of(by_host.get(), shared_height, PT_QUANTITY_STANDARD_ERROR));
-    const pt_stats found = stats_of(by_device.get());
-    const pt_stats expected = stats_of(by_host.get());
+    const pt_error_estimate found = error_of(by_device.get());
+    const pt_error_estimate expected = error_of(by_host.get());
     EXPECT_NEAR(found.relative_rmse_high / expected.relative_rmse_high, 1.0, 1e-5);
     EXPECT_EQ(found.uncertain, expected.uncertain);
     set_up(by_device.get(), 5, 1);

@@ -27,9 +27,9 @@ constexpr std::uint32_t picture_height = 24;
 struct Heap {
     static constexpr std::uint32_t ball_count = 300;
 
-    std::vector<pt_material> materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                          {{0.5F, 0.5F, 0.5F}, {0.3F, 0.3F, 0.3F}, {0, 0, 0}, 30},
-                                          {{0, 0, 0}, {0, 0, 0}, {30, 30, 25}, 0}};
+    std::vector<pt_material> materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                          {{0.5F, 0.5F, 0.5F}, {0.3F, 0.3F, 0.3F}, {0, 0, 0}, 30, 0},
+                                          {{0, 0, 0}, {0, 0, 0}, {30, 30, 25}, 0, 0}};
     pt_sphere lamp{{2, 6, 3}, 1, {0, 0, 0}, 2, 0};
     pt_plane floor{{0, 1, 0}, 0, 0, 0};
     std::vector<float> center, radius, motion;
@@ -113,6 +113,7 @@ protected:
     void set_view() {
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.position[1] = 2;
         camera.position[2] = 6;
         camera.target[1] = 0.8;

@@ -23,8 +23,8 @@ constexpr std::uint32_t picture_height = 24;
 struct Balls {
     static constexpr std::uint32_t count = 80;
 
-    std::vector<pt_material> materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                          {{0, 0, 0}, {0, 0, 0}, {40, 40, 40}, 0}};
+    std::vector<pt_material> materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                          {{0, 0, 0}, {0, 0, 0}, {40, 40, 40}, 0, 0}};
     std::vector<pt_sphere> spheres;
     std::vector<float> colors;
     pt_plane floor{{0, 1, 0}, 2.5, 0, 0};
@@ -66,6 +66,7 @@ struct Balls {
 pt_camera camera_at(double x, double y, double z, double fov = 0.8) {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.position[0] = x;
     camera.position[1] = y;
     camera.position[2] = z;
@@ -156,7 +157,7 @@ TEST_F(TreeRender, IsSeenFromWithinASphereAndFromFarAway) {
 // but the sky.
 TEST_F(TreeRender, IsLitByASkyAndByALampBesideTheTree) {
     Balls balls;
-    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0});
+    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0});
     balls.spheres[30] = {{0, 0, 0}, 500, {0, 0, 0}, 2, 0};
     balls.spheres[60].material = 0;
     for (const bool has_lamp : {false, true}) {
@@ -173,7 +174,7 @@ TEST_F(TreeRender, IsLitByASkyAndByALampBesideTheTree) {
 // Rays towards the lamp meet both surfaces at equal distances, as float32 has them, one time in some hundred.
 TEST_F(TreeRender, ADarkBallWithinALampTakesNoLight) {
     Balls balls;
-    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0});
+    balls.materials.push_back({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0, 0});
     balls.spheres[60].material = 0;
     for (const double distance : {3.0, 10.0}) {
         const auto light_with = [&](std::size_t lamp, std::size_t other, std::uint32_t material) {

@@ -59,7 +59,7 @@ enum Named { lamp, floor_plane, oblique_plane, room };
 
 InvarianceScene scene_of_named(std::initializer_list<Named> surfaces) {
     InvarianceScene scene;
-    scene.materials = {{{0, 0, 0}, {0, 0, 0}, {10, 10, 10}, 0}, {{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0}};
+    scene.materials = {{{0, 0, 0}, {0, 0, 0}, {10, 10, 10}, 0, 0}, {{0.7F, 0.7F, 0.7F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
     for (const Named surface : surfaces) {
         if (surface == lamp)
             scene.spheres.push_back({{1, 3, 0}, 0.5, {0, 0, 0}, 0, 0});
@@ -154,12 +154,12 @@ public:
     InvarianceScene scene() {
         InvarianceScene scene;
         for (int i = 0; i < 4; ++i)
-            scene.materials.push_back({{random_float(), random_float(), random_float()}, {0, 0, 0}, {0, 0, 0}, 0});
+            scene.materials.push_back({{random_float(), random_float(), random_float()}, {0, 0, 0}, {0, 0, 0}, 0, 0});
         for (float &component : scene.materials[3].specular)
             component = 0.3F;
         scene.materials[3].glossiness = 20;
         for (int i = 0; i < 2; ++i)
-            scene.materials.push_back({{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {20 * random_float(), 10, 10}, 0});
+            scene.materials.push_back({{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {20 * random_float(), 10, 10}, 0, 0});
         for (int i = 0; i < 3; ++i)
             scene.spheres.push_back(ball(std::pow(10.0, uniform(-1.3, 0)), index(4)));
         for (int i = 0; i < 2; ++i)

@@ -1,4 +1,4 @@
-// Where the error of an image cannot be known, it is called uncertain (pt_stats.uncertain), and why.
+// Where the error of an image cannot be known, it is called uncertain (pt_error_estimate.uncertain), and why.
 #include "tests/support/context_fixture.h"
 #include "tests/support/scene_of.h"
 
@@ -21,13 +21,14 @@ protected:
     void set_up(double lamp_radius, uint32_t estimator, uint32_t max_path_length = 2,
                 const std::array<double, 3> &place = {0.0, 100.0, 0.0}, double depth = 1.0, float glossiness = 0.0F) {
         const float specular = glossiness > 0.0F ? 0.5F : 0.0F;
-        const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {specular, specular, specular}, {}, glossiness},
-                                         {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F}};
+        const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {specular, specular, specular}, {}, glossiness, 0},
+                                         {{}, {}, {100.0F, 100.0F, 100.0F}, 0.0F, 0}};
         const pt_sphere lamp[] = {{{place[0], place[1], place[2]}, lamp_radius, {}, 1, 0}};
         const pt_plane floor[] = {{{0.0, 1.0, 0.0}, depth, 0, 0}};
         const pt_scene scene = scene_of(materials, lamp, floor);
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         camera.target[1] = -1.0;
         camera.up[2] = 1.0;
         camera.vertical_fov = 1.0;
@@ -40,7 +41,7 @@ protected:
 
     uint32_t after(uint32_t sample_count) {
         accumulate(sample_count);
-        return stats().uncertain;
+        return error().uncertain;
     }
 };
 
@@ -84,10 +85,10 @@ TEST_F(UncertainTest, WhileSamplesHardlyMeetALampInView) {
 TEST_F(UncertainTest, NothingIsKnownOfAPictureThatIsBlackByChance) {
     set_up(0.01, PT_ESTIMATOR_BSDF);
     EXPECT_EQ(after(16), unmet);
-    EXPECT_EQ(stats().relative_rmse_high, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(error().relative_rmse_high, std::numeric_limits<double>::infinity());
     set_up(0.01, PT_ESTIMATOR_MIS);
     EXPECT_EQ(after(16) & unmet, 0U);
-    EXPECT_TRUE(std::isfinite(stats().relative_rmse_high));
+    EXPECT_TRUE(std::isfinite(error().relative_rmse_high));
 }
 
 } // namespace

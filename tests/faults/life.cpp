@@ -27,9 +27,9 @@ constexpr uint32_t other_film_end = 12; // of its samples: some of them are in e
 
 // A lamp, a glossy ball that moves, and a floor: long paths, so that a millisecond does not suffice for all pixels.
 struct Scene {
-    std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0},
-                                             {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40},
-                                             {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0}}};
+    std::array<pt_material, 3> materials = {{{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
+                                             {{0.2F, 0.5F, 0.8F}, {0.8F, 0.8F, 0.8F}, {0, 0, 0}, 40, 0},
+                                             {{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}}};
     std::array<pt_sphere, 2> spheres = {{{{3, 2, -8}, 1, {0, 0, 0}, 0, 0}, {{-1, 0, -6}, 1, {1, 0, 0}, 1, 0}}};
     std::array<pt_plane, 1> planes = {{{{0, 1, 0}, 1, 2, 0}}};
 
@@ -39,6 +39,7 @@ struct Scene {
 pt_camera camera() {
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[2] = -1;
     return camera;
 }
@@ -98,7 +99,7 @@ Steps Life::all_steps() {
             "pt_readback, objects",
             "pt_readback, coverage",
             "pt_accumulate, to a target",
-            "pt_get_stats",
+            "pt_get_error_estimate",
             "pt_get_accuracy",
             "pt_save_film",
             "pt_set_scene, again",
@@ -161,10 +162,10 @@ void Life::tell() {
     read_of_scene("pt_readback, coverage", PT_QUANTITY_COVERAGE);
     accumulate_to("", 16, 0.0);
     accumulate_to("pt_accumulate, to a target", 18, 1e-6);
-    look("pt_get_stats", [&] {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        return pt_get_stats(context_, &stats);
+    look("pt_get_error_estimate", [&] {
+        pt_error_estimate error{};
+        error.struct_size = sizeof error;
+        return pt_get_error_estimate(context_, &error);
     });
     look("pt_get_accuracy", [&] {
         std::array<pt_function_accuracy, 16> rows{};
@@ -344,7 +345,7 @@ Life::State Life::state() {
     if (!context_)
         return {};
     pt_stats stats{};
-    stats.struct_size = offsetof(pt_stats, rmse);
+    stats.struct_size = sizeof stats;
     EXPECT_EQ(pt_get_stats(context_, &stats), PT_OK) << pt_last_error(context_);
     return {stats.sample_count, stats.rejected_samples};
 }

@@ -40,7 +40,7 @@ constexpr uint32_t polled_size = 48;
 // A floor, a ball on it and a ball within that, which all but coincide, a lamp.
 struct PolledScene {
     std::array<pt_material, 2> materials = {
-        {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0}}};
+        {{{0.5F, 0.5F, 0.5F}, {0.2F, 0.2F, 0.2F}, {0, 0, 0}, 20, 0}, {{0, 0, 0}, {0, 0, 0}, {9, 9, 9}, 0, 0}}};
     std::array<pt_sphere, 3> spheres = {{{{0, 1, -4}, 1, {0, 0, 0}, 0, 0},
                                          {{0, 1, -4}, 1 - 1e-5, {0, 0, 0}, 0, 0},
                                          {{2, 4, -3}, 0.5, {0, 0, 0}, 1, 0}}};
@@ -76,6 +76,7 @@ void expect_nothing_built_by_polls(const Way &way) {
     for (const auto &place : places) {
         pt_camera camera{};
         camera.struct_size = sizeof camera;
+        camera.shutter_close = 1;
         std::copy(std::begin(place), std::end(place), camera.position);
         camera.target[1] = 1;
         camera.target[2] = -6;

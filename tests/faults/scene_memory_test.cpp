@@ -17,8 +17,8 @@ constexpr std::uint32_t sphere_count = 200'000;
 
 // In [0, 1]^3 by columns of floats. Refers to this object.
 struct ManySpheres {
-    std::vector<pt_material> materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0}};
+    std::vector<pt_material> materials = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                          {{0, 0, 0}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
     std::vector<float> centers;
     std::vector<float> motions = std::vector<float>(3 * sphere_count, 1e-4F);
     std::vector<unsigned char> colors = std::vector<unsigned char>(3 * sphere_count, 77);

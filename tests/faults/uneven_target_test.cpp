@@ -60,13 +60,6 @@ FilmBytes film_bytes(pt_context *context) {
     return bytes;
 }
 
-pt_stats stats_of(pt_context *context) {
-    pt_stats stats{};
-    stats.struct_size = sizeof stats;
-    EXPECT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
-    return stats;
-}
-
 // Every place at first, then every eighth: what repeats itself from round to round is met several times all the same.
 std::size_t place_after(std::size_t place) {
     return place + 1 + place / 8;

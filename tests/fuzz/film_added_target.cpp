@@ -38,7 +38,7 @@ public:
         info.device = std::getenv("PT_TEST_DEVICE");
         info.log = complain;
         fuzz::require(pt_create(&info, &context_) == PT_OK, pt_last_error(nullptr));
-        const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0}};
+        const pt_material material[] = {{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {1, 1, 1}, 0, 0}};
         const pt_sphere sphere[] = {{{0, 0, -3}, 1, {0, 0, 0}, 0, 0}};
         const pt_scene scene = scene_of(material, sphere, {});
         pt_camera camera{};

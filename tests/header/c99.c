@@ -19,7 +19,7 @@ static int32_t count_calls(void *user, double fraction) {
 
 /* A sphere around the camera that shines in red. */
 static int render(pt_context *context, float *pixels, uint64_t size_bytes) {
-    const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, 0.0f};
+    const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 0.0f, 0.0f}, 0.0f, 0};
     const pt_sphere sphere = {{0.0, 0.0, 0.0}, 5.0, {0.0, 0.0, 0.0}, 0, 0};
     pt_scene scene = {0};
     pt_camera camera = {0};

@@ -132,7 +132,7 @@ TEST(Camera, HasTheDefaultsOfTheHeader) {
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
     EXPECT_EQ(camera.tan_half_fov, std::tan(std::numbers::pi / 8));
     EXPECT_EQ(camera.shutter_open, 0.0);
-    EXPECT_EQ(camera.shutter_close, 1.0);
+    EXPECT_EQ(camera.shutter_close, 0.0) << "the instant 0, in which nothing moves";
 }
 
 TEST(Camera, TakesWhatIsSet) {

@@ -191,9 +191,11 @@ TEST(FilmCalls, ReadImages) {
 TEST(FilmCalls, TheErrorIsKnownOfEnoughSamplesAlone) {
     film_maker::Samples samples = two_tiles();
     auto stats = sized_struct<pt_stats>();
+    auto error = sized_struct<pt_error_estimate>();
     ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
+    ASSERT_EQ(pt_get_film_error_estimate(opened(bytes_of(samples)).get(), &error), PT_OK);
     EXPECT_EQ(stats.sample_count, 3U);
-    EXPECT_TRUE(std::isinf(stats.rmse));
+    EXPECT_TRUE(std::isinf(error.rmse));
     std::uint64_t rejected = 0;
     for (auto &[pixel, indices] : samples) {
         for (std::uint32_t i = 0; i < 18; ++i)
@@ -204,7 +206,8 @@ TEST(FilmCalls, TheErrorIsKnownOfEnoughSamplesAlone) {
     ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
     EXPECT_EQ(stats.sample_count, 18U);
     EXPECT_EQ(stats.rejected_samples, rejected);
-    EXPECT_TRUE(std::isinf(stats.rmse)) << "so many were rejected";
+    ASSERT_EQ(pt_get_film_error_estimate(opened(bytes_of(samples)).get(), &error), PT_OK);
+    EXPECT_TRUE(std::isinf(error.rmse)) << "so many were rejected";
     samples.erase({2, 1});
     ASSERT_EQ(pt_get_film_stats(opened(bytes_of(samples)).get(), &stats), PT_OK);
     EXPECT_EQ(stats.sample_count, 0U);
@@ -251,6 +254,7 @@ TEST(FilmCalls, RefuseWhatIsNotThere) {
     auto info = sized_struct<pt_film_info>();
     auto tile = sized_struct<pt_film_tile>();
     auto stats = sized_struct<pt_stats>();
+    auto error = sized_struct<pt_error_estimate>();
     auto image = sized_struct<pt_image>();
     const pt_result results[] = {pt_merge_film(nullptr, bytes.data(), bytes.size()),
                                  pt_write_film(nullptr, nullptr, &size),
@@ -258,7 +262,8 @@ TEST(FilmCalls, RefuseWhatIsNotThere) {
                                  pt_get_film_info(nullptr, &info),
                                  pt_get_film_tile(nullptr, 0, &tile),
                                  pt_get_film_ranges(nullptr, 0, nullptr, &count),
-                                 pt_get_film_stats(nullptr, &stats)};
+                                 pt_get_film_stats(nullptr, &stats),
+                                 pt_get_film_error_estimate(nullptr, &error)};
     for (const pt_result result : results)
         expect_refusal(result, PT_ERROR_INVALID_ARGUMENT, null_film);
     expect_refusal(pt_get_film_info(film.get(), nullptr), PT_ERROR_INVALID_ARGUMENT, "info = NULL: must not be NULL");

@@ -128,8 +128,8 @@ TEST(HiddenSurfaces, ALampAtTheCameraIsSampledUnlessPathsAreInIt) {
 }
 
 TEST(HiddenSurfaces, AreNotInTheTree) {
-    std::vector<pt_material> materials(2, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0});
-    const std::vector<std::uint32_t> flags = {0, PT_MATERIAL_HIDDEN_FROM_CAMERA};
+    std::vector<pt_material> materials(2, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0});
+    materials[1].flags = PT_MATERIAL_HIDDEN_FROM_CAMERA;
     std::vector<pt_sphere> spheres;
     for (std::uint32_t i = 0; i < 100; ++i)
         spheres.push_back({{3.0 * i, 0, -9}, 1, {0, 0, 0}, i % 10 == 3 ? 1U : 0U, 0});
@@ -137,7 +137,6 @@ TEST(HiddenSurfaces, AreNotInTheTree) {
     scene.struct_size = sizeof scene;
     scene.material_count = 2;
     scene.materials = materials.data();
-    scene.material_flags = flags.data();
     scene.sphere_count = 100;
     scene.spheres = spheres.data();
     const pt::PreparedScene prepared(pt::checked_scene(scene), 90);

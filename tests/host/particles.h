@@ -15,9 +15,9 @@
 
 namespace sphere_arrays {
 
-inline const std::vector<pt_material> three_materials = {{{0.5F, 0.25F, 1.0F}, {0.25F, 0.5F, 0}, {0, 0, 0}, 10},
-                                                         {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0},
-                                                         {{0, 0, 0}, {0, 0, 0}, {2, 3, 4}, 0}};
+inline const std::vector<pt_material> three_materials = {{{0.5F, 0.25F, 1.0F}, {0.25F, 0.5F, 0}, {0, 0, 0}, 10, 0},
+                                                         {{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                                         {{0, 0, 0}, {0, 0, 0}, {2, 3, 4}, 0, 0}};
 
 // Four spheres in columns of floats, which a test spoils.
 struct Particles {

@@ -146,7 +146,7 @@ TEST(RayStart, NothingInViewIsBeforeIt) {
 TEST(RayStart, OfATreeIsThatOfItsSpheres) {
     std::mt19937 engine(7);
     const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(engine); };
-    const pt_material grey{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0};
+    const pt_material grey{{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0};
     int ahead = 0;
     for (int round = 0; round < 300; ++round) {
         pt::Camera camera = looking_along({uniform(-1, 1), uniform(-1, 1), -1.5}, std::pow(10.0, uniform(-6, -2.5)));

@@ -20,8 +20,8 @@ constexpr float infinity_float = std::numeric_limits<float>::infinity();
 
 // A valid scene that a test spoils.
 struct Draft {
-    std::vector<pt_material> materials =
-        std::vector<pt_material>(5, pt_material{{0.5F, 0.5F, 0.5F}, {0.25F, 0.25F, 0.25F}, {0.0F, 1.0F, 2.0F}, 10.0F});
+    std::vector<pt_material> materials = std::vector<pt_material>(
+        5, pt_material{{0.5F, 0.5F, 0.5F}, {0.25F, 0.25F, 0.25F}, {0.0F, 1.0F, 2.0F}, 10.0F, 0});
     std::vector<pt_sphere> spheres = std::vector<pt_sphere>(4, pt_sphere{{1, 2, 3}, 4, {5, 6, 7}, 1, 0});
     std::vector<pt_plane> planes = std::vector<pt_plane>(2, pt_plane{{0, 1, 0}, 2, 2, 0});
     std::function<void(pt_scene &)> spoil = [](pt_scene &) {};
@@ -229,7 +229,7 @@ TEST(Scene, SurfacesNeedMaterials) {
 
 TEST(Scene, AcceptsExtremes) {
     Draft draft;
-    draft.materials[0] = {{0, 1e18F, 1e-45F}, {1e18F, 0, 0}, {0, -0.0F, 1e18F}, 1e9F};
+    draft.materials[0] = {{0, 1e18F, 1e-45F}, {1e18F, 0, 0}, {0, -0.0F, 1e18F}, 1e9F, 0};
     draft.materials[1].glossiness = 0;
     draft.spheres[0] = {{1e18, -1e18, 1e-18}, 1e-18, {-1e-18, 0, 1e18}, 4, 0};
     draft.spheres[1] = {{0, -0.0, 0}, 1e18, {0, 0, 0}, 0, 0};
@@ -240,7 +240,7 @@ TEST(Scene, AcceptsExtremes) {
 
 TEST(Scene, CopiesEverything) {
     Draft draft;
-    draft.materials[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10};
+    draft.materials[3] = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, 10, 0};
     draft.spheres[2] = {{1, 2, 3}, 4, {5, 6, 7}, 3, 0};
     draft.planes[1] = {{0, 0, -2}, 6, 4, 0};
     const pt::Scene scene = draft.validated();

@@ -37,11 +37,10 @@ pt_sphere sphere_at(double x, double y, double depth, double radius, std::uint32
 // Of a list, or of a tree.
 std::vector<pt::LampPiece> pieces_of(const std::vector<pt_sphere> &spheres, const std::vector<pt_plane> &planes = {},
                                      const pt::Camera &seen_by = camera, bool has_tree = false) {
-    const pt_material materials[] = {
-        {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}, {{}, {}, {1.0F, 2.0F, 40.0F}, 0.0F}, {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F}};
-    const std::uint32_t flags[] = {0, 0, PT_MATERIAL_HIDDEN_FROM_CAMERA};
-    pt_scene scene = scene_of(materials, spheres, planes);
-    scene.material_flags = flags;
+    const pt_material materials[] = {{{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, 0},
+                                     {{}, {}, {1.0F, 2.0F, 40.0F}, 0.0F, 0},
+                                     {{0.5F, 0.5F, 0.5F}, {}, {}, 0.0F, PT_MATERIAL_HIDDEN_FROM_CAMERA}};
+    const pt_scene scene = scene_of(materials, spheres, planes);
     const pt::PreparedScene prepared(pt::checked_scene(scene), has_tree ? 1 : 1000);
     EXPECT_EQ(prepared.tree != nullptr, has_tree);
     return pt::small_lamps_in_view(prepared, seen_by, 400, 200, 0, 200);

@@ -36,8 +36,8 @@ TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     EXPECT_EQ(fourth.glossiness, 10.0F);
 
     std::vector<pt_material> by_hand = three_materials;
-    by_hand.insert(by_hand.begin(), {{0, 0.25F, 0.5F}, {0.25F, 0.5F, 0}, {0, 0, 0}, 10});
-    by_hand.push_back({{0.1F, 0.2F, 0.3F}, {0, 0, 0}, {0, 0, 0}, 0});
+    by_hand.insert(by_hand.begin(), {{0, 0.25F, 0.5F}, {0.25F, 0.5F, 0}, {0, 0, 0}, 10, 0});
+    by_hand.push_back({{0.1F, 0.2F, 0.3F}, {0, 0, 0}, {0, 0, 0}, 0, 0});
     std::vector<pt_sphere> spheres = particles.spheres();
     spheres[0].material = 1;
     spheres[1].material = 3;
@@ -51,8 +51,8 @@ TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
 TEST(SphereArrays, EqualColorsShareAMaterial) {
     constexpr std::uint32_t count = 60000;
     std::vector<std::uint8_t> bytes;
-    std::vector<pt_material> by_hand{{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0},
-                                     {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 5}};
+    std::vector<pt_material> by_hand{{{1, 1, 1}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                     {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 5, 0}};
     std::mt19937 random(1);
     Particles particles;
     particles.materials = by_hand;

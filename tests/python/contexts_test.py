@@ -138,7 +138,7 @@ class Threads(unittest.TestCase):
         interval = sys.getswitchinterval()
         self.addCleanup(sys.setswitchinterval, interval)
         start, ran = threading.Event(), []
-        thread = threading.Thread(target=lambda: (start.wait(), ran.append(True)))
+        thread = threading.Thread(target=lambda: (start.wait(), ran.append(True)), daemon=True)
         thread.start()
         with ready(pt.Context(submit_milliseconds=1)) as context:
             shares = []
@@ -187,8 +187,8 @@ class Libraries(unittest.TestCase):
             self.assertEqual(_library.library_path(), "/some/where")
         with mock.patch.dict(os.environ):
             os.environ.pop("PT_LIBRARY", None)
-            beside = pathlib.Path(pt.__file__).with_name("libpt.so.0.2")
-            for exists, found in (False, "libpt.so.0.2"), (True, str(beside)):
+            beside = pathlib.Path(pt.__file__).with_name("libpt.so.0.3")
+            for exists, found in (False, "libpt.so.0.3"), (True, str(beside)):
                 with mock.patch.object(pathlib.Path, "exists", return_value=exists):
                     self.assertEqual(_library.library_path(), found)
 
@@ -196,12 +196,12 @@ class Libraries(unittest.TestCase):
         for path in "/no/such/library", "libc.so.6":
             with self.assertRaisesRegex(ImportError, f"{path} is no libpt"):
                 _library.load_library(path)
-        with mock.patch.object(_library, "version_text", return_value="0.3.1"):
-            with self.assertRaisesRegex(ImportError, "is libpt 0.3.1; this package is for libpt.so.0.2"):
+        with mock.patch.object(_library, "version_text", return_value="0.2.9"):
+            with self.assertRaisesRegex(ImportError, "is libpt 0.2.9; this package is for libpt.so.0.3"):
                 _library.load_library(_library.library_path())
 
     def test_version_and_devices(self):
-        self.assertRegex(pt.version(), r"^0\.2\.\d+$")
+        self.assertRegex(pt.version(), r"^0\.3\.\d+$")
         found = pt.devices()
         suitable = [device for device in found if device.suitable]
         self.assertTrue(suitable)

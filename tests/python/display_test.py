@@ -125,7 +125,7 @@ class Pictures(unittest.TestCase):
     def test_how_good_it_is(self):
         low, high = self.image.error_bounds
         self.assertTrue(0 < low < self.image.error < high < 1)
-        self.assertEqual(self.image.error, self.image.stats.relative_rmse)
+        self.assertEqual(self.image.error, self.image.error_estimate.relative_rmse)
         self.assertIn("24x16, 16 samples", repr(self.image))
         positions, _ = cloud(3)
         few = pt.render(positions, 0.1, size=(4, 4), samples=1)

@@ -30,7 +30,7 @@ class Render(unittest.TestCase):
             for quantity, found in ((pt.Quantity.RADIANCE, self.image.radiance),
                                     (pt.Quantity.STANDARD_ERROR, self.image.standard_error)):
                 np.testing.assert_array_equal(found, context.readback(quantity))
-            self.assertEqual(self.image.stats.relative_rmse, context.stats().relative_rmse)
+            self.assertEqual(self.image.error_estimate, context.error_estimate())
         self.assertTrue((self.image.sample_count == 16).all())
         self.assertEqual(self.image.sample_count.shape, (HEIGHT, WIDTH))
 

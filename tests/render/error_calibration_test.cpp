@@ -105,10 +105,10 @@ TEST_P(StatedError, IsThatByTheReference) {
     set_up(test_case.diffuse, test_case.max_path_length, test_case.sampler, 0, test_case.estimator);
     for (const uint32_t more : {16U, 48U}) {
         accumulate(more);
-        const pt_stats stated = stats();
+        const pt_error_estimate stated = error();
         const double ratio = stated.relative_rmse / relative_rmse(image(), reference);
-        std::printf("%u samples: stated / true error %.3f\n", stated.sample_count, ratio);
-        EXPECT_TRUE(test_case.judgement.accepts(ratio)) << stated.sample_count << " samples: " << ratio;
+        std::printf("%u samples: stated / true error %.3f\n", stats().sample_count, ratio);
+        EXPECT_TRUE(test_case.judgement.accepts(ratio)) << stats().sample_count << " samples: " << ratio;
         // One truth in twenty lies outside of bounds of 95%, but not by much.
         EXPECT_GE(stated.relative_rmse_high, 0.9 * stated.relative_rmse / ratio);
         if (test_case.estimator == PT_ESTIMATOR_BEST) {
@@ -152,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(ErrorCalibration, OfLampsBelowAPixelIsThatByManySamples) {
     constexpr uint32_t width = 64;
     constexpr uint32_t height = 32;
-    const pt_material lamp[] = {{{}, {}, {2000.0F, 2000.0F, 2000.0F}, 0.0F}};
+    const pt_material lamp[] = {{{}, {}, {2000.0F, 2000.0F, 2000.0F}, 0.0F, 0}};
     constexpr double fov = 0.7;
     const double pixel = 2.0 * std::tan(0.5 * fov) / height; // at the distance 1
     std::vector<pt_sphere> lamps;
@@ -164,6 +164,7 @@ TEST_F(ErrorCalibration, OfLampsBelowAPixelIsThatByManySamples) {
     const pt_scene scene = scene_of(lamp, lamps, {});
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[2] = -1.0;
     camera.vertical_fov = fov;
     ASSERT_EQ(pt_set_scene(context(), &scene), PT_OK) << pt_last_error(context());
@@ -180,7 +181,7 @@ TEST_F(ErrorCalibration, OfLampsBelowAPixelIsThatByManySamples) {
     const Image reference = image_of(99, 4096);
     for (const uint32_t seed : {1U, 2U, 3U}) {
         const double truth = relative_rmse(image_of(seed, 64), reference);
-        const pt_stats stated = stats();
+        const pt_error_estimate stated = error();
         std::printf("stated / true error %.3f\n", stated.relative_rmse / truth);
         EXPECT_TRUE((Judgement{0.5, 2.0}).accepts(stated.relative_rmse / truth))
             << stated.relative_rmse << " " << truth;
@@ -221,7 +222,7 @@ TEST_P(StatedErrorOfRanges, IsThatByTheReference) {
     set_up(false, test_case.max_path_length, test_case.sampler);
     for (const std::vector<char> &film : films)
         ASSERT_EQ(pt_add_film(context(), film.data(), film.size()), PT_OK) << pt_last_error(context());
-    const double ratio = stats().relative_rmse / relative_rmse(image(), reference);
+    const double ratio = error().relative_rmse / relative_rmse(image(), reference);
     std::printf("stated / true error %.3f\n", ratio);
     EXPECT_TRUE(test_case.judgement.accepts(ratio)) << ratio;
     EXPECT_FALSE(test_case.judgement.accepts(0.25 * ratio)) << "the judgement does not see an error stated too small";
@@ -277,7 +278,7 @@ TEST_F(ErrorCalibration, OfSobolFailsForEvenAndOddSamples) {
     const double by_film = error_from_parts(samples, [&](uint32_t i) { return i < older ? 0 : 1; });
     const double by_parity = error_from_parts(samples, [](uint32_t i) { return i % 2; });
     // Roundings of images to float32 are far below 1e-4 of the error.
-    EXPECT_NEAR(by_film, stats().relative_rmse, 1e-4 * by_film);
+    EXPECT_NEAR(by_film, error().relative_rmse, 1e-4 * by_film);
     EXPECT_TRUE(of_sequence.accepts(by_film / truth)) << by_film / truth;
     EXPECT_FALSE(of_sequence.accepts(by_parity / truth)) << by_parity / truth;
 }

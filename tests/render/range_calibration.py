@@ -51,7 +51,7 @@ class Renderer(SceneRenderer):
             self.call("pt_add_film", film, len(film))
 
     def stated_error(self):
-        return self.stats().relative_rmse
+        return self.error_estimate().relative_rmse
 
     def true_error(self, truth):
         return math.sqrt(relative_square(self.image(), truth))

@@ -111,7 +111,8 @@ uint64_t make_and_destroy_vulkan_device(int /*round*/) {
     return 0;
 }
 
-const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0}, {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0}};
+const pt_material materials[] = {{{0, 0, 0}, {0, 0, 0}, {8, 4, 2}, 0, 0},
+                                 {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
 
 void set_scene(pt_context *context, int round) {
     const pt_sphere spheres[] = {{{3, 2, -8}, 1, {0, 0, 0}, 0, 0},
@@ -131,6 +132,7 @@ pt_context *create(int round) {
     set_scene(context, round);
     pt_camera camera{};
     camera.struct_size = sizeof camera;
+    camera.shutter_close = 1;
     camera.target[2] = -1;
     require_ok(pt_set_camera(context, &camera), context);
     pt_render render{};

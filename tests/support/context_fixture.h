@@ -23,6 +23,20 @@ struct DestroyContext {
 };
 using Context = std::unique_ptr<pt_context, DestroyContext>;
 
+inline pt_stats stats_of(pt_context *context) {
+    pt_stats stats{};
+    stats.struct_size = sizeof stats;
+    EXPECT_EQ(pt_get_stats(context, &stats), PT_OK) << pt_last_error(context);
+    return stats;
+}
+
+inline pt_error_estimate error_of(pt_context *context) {
+    pt_error_estimate error{};
+    error.struct_size = sizeof error;
+    EXPECT_EQ(pt_get_error_estimate(context, &error), PT_OK) << pt_last_error(context);
+    return error;
+}
+
 class ContextFixture : public testing::Test {
 protected:
     void SetUp() override {
@@ -70,12 +84,8 @@ protected:
         ASSERT_EQ(pt_readback(context(), &target), PT_OK) << pt_last_error(context());
     }
 
-    pt_stats stats() {
-        pt_stats stats{};
-        stats.struct_size = sizeof stats;
-        EXPECT_EQ(pt_get_stats(context(), &stats), PT_OK) << pt_last_error(context());
-        return stats;
-    }
+    pt_stats stats() { return stats_of(context()); }
+    pt_error_estimate error() { return error_of(context()); }
 
     // Where a few samples are several submissions; to GPUs they may be one.
     static bool is_on_cpu(pt_context *on) {

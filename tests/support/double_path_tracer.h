@@ -173,7 +173,7 @@ private:
     glm::dvec3 cosine_direction(const glm::dvec3 &normal) { return around(normal, 1.0 - std::sqrt(1.0 - share())); }
 
     bool is_hidden(std::uint32_t material) const {
-        return scene_.material_flags && scene_.material_flags[material] == PT_MATERIAL_HIDDEN_FROM_CAMERA;
+        return scene_.materials[material].flags == PT_MATERIAL_HIDDEN_FROM_CAMERA;
     }
 
     Hit first_hit(const glm::dvec3 &origin, const glm::dvec3 &direction, double time, bool is_of_camera) const {

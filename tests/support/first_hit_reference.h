@@ -175,7 +175,7 @@ inline bool is_held_as_plane(const pt_sphere &sphere, const pt_material &materia
 }
 
 inline bool is_seen(const pt_scene &scene, std::uint32_t material) {
-    return scene.material_flags == nullptr || scene.material_flags[material] != PT_MATERIAL_HIDDEN_FROM_CAMERA;
+    return scene.materials[material].flags != PT_MATERIAL_HIDDEN_FROM_CAMERA;
 }
 
 // The first surface; nothing where float32 may meet another one, or none.

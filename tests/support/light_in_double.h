@@ -23,19 +23,14 @@ inline constexpr std::uint32_t samples_of_image = 32;
 inline constexpr double most_errors = 6.5;
 
 struct Given {
-    std::vector<pt_material> materials{{{0.8F, 0.6F, 0.4F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                       {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0},
-                                       {{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {3, 4, 5}, 0}};
-    std::vector<std::uint32_t> flags = {0, 0, 0};
+    std::vector<pt_material> materials{{{0.8F, 0.6F, 0.4F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                       {{0.5F, 0.5F, 0.5F}, {0, 0, 0}, {0, 0, 0}, 0, 0},
+                                       {{0.2F, 0.2F, 0.2F}, {0, 0, 0}, {3, 4, 5}, 0, 0}};
     std::vector<pt_sphere> spheres;
     std::vector<pt_plane> planes{{{0, 1, 0}, 1.5, 1, 0}};
     pt_camera camera{};
 
-    pt_scene scene() const {
-        pt_scene scene = scene_of(materials, spheres, planes);
-        scene.material_flags = flags.data();
-        return scene;
-    }
+    pt_scene scene() const { return scene_of(materials, spheres, planes); }
 };
 
 using Blocks = std::vector<DoublePathTracer::Estimate>;

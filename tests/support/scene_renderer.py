@@ -83,6 +83,11 @@ class Renderer:
         self.call("pt_get_stats", stats)
         return stats
 
+    def error_estimate(self):
+        error = structs.pt_error_estimate()
+        self.call("pt_get_error_estimate", error)
+        return error
+
 
 class SceneRenderer(Renderer):
     """Of the JSON of a scene file, which has a camera."""

@@ -145,16 +145,20 @@ PT_API pt_result pt_get_film_tile(const pt_film *film, uint32_t index, pt_film_t
  * receives how many. One thread at a time per film. PT_ERROR_INVALID_ARGUMENT: there is no such tile. */
 PT_API pt_result pt_get_film_ranges(const pt_film *film, uint32_t tile, pt_sample_range *ranges, uint32_t *count);
 
-/** Writes how many samples a film has, and how good its image is. stats->struct_size must be set; no more than that is
- * written.
- *
- * sample_count: in every pixel of the rectangle that pt_film_info tells, the fewest if they differ; 0 if a pixel there
- * has none. rejected_samples, rmse and relative_rmse with their bounds, and uncertain: as of a context, but for last
- * bits that depend on the order of additions. The error is unknown if sample_count is below 16; where counts differ,
- * light that no sample has met is told from the least. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET
- * stands wherever the estimator finds lamps by chance (uniform, cosine, bsdf) and max_path_length is above 1. All other
- * fields are 0. One thread at a time per film. */
+/** Writes how many samples a film has: sample_count, in every pixel of the rectangle that pt_film_info tells, the
+ * fewest if they differ, 0 if a pixel there has none; max_sample_count, mean_sample_count and rejected_samples as of a
+ * context. All other fields are 0. stats->struct_size must be set; no more than that is written. One thread at a time
+ * per film. */
 PT_API pt_result pt_get_film_stats(const pt_film *film, pt_stats *stats);
+
+/** Writes how good a film's image is, as pt_get_error_estimate says it of a context, but for last bits that depend on
+ * the order of additions.
+ *
+ * Nothing is known if pt_stats.sample_count is below 16; where counts differ, light that no sample has met is told from
+ * the least. A film does not know the scene's lamps, so PT_UNCERTAIN_UNMET stands wherever the estimator finds lamps by
+ * chance (uniform, cosine, bsdf) and max_path_length is above 1. error->struct_size must be set; no more than that is
+ * written. One thread at a time per film. */
+PT_API pt_result pt_get_film_error_estimate(const pt_film *film, pt_error_estimate *error);
 
 /** Says what a film takes next on its way to a target error, as pt_accumulate decides it with PT_SAMPLING_ADAPTIVE: so
  * one machine can decide, and others take the samples (pt_accumulate_info.tile_samples), however they share them.

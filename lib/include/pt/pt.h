@@ -42,7 +42,7 @@
 #endif
 
 /** Version of this header: major * 1000000 + minor * 1000 + patch. */
-#define PT_VERSION 2000u
+#define PT_VERSION 3000u
 
 #ifdef __cplusplus
 extern "C" {
@@ -97,9 +97,10 @@ typedef struct pt_material {
     float specular[3]; /**< weight of the lobe about the mirror direction */
     float emission[3]; /**< radiance, the same in every direction and on both sides */
     float glossiness;  /**< n in [0, 1e9] */
+    uint32_t flags;    /**< PT_MATERIAL_* */
 } pt_material;
 
-/** Bits of pt_scene.material_flags. */
+/** Bits of pt_material.flags. */
 enum {
     /** Rays from the camera pass through surfaces of the material; all other rays meet them as if the bit were not set.
      * So a lamp is out of the picture but lights it, and is in its reflections; a wall lets the camera look into a
@@ -188,8 +189,6 @@ typedef struct pt_scene {
      * about as time passes, and leaps if a tree is kept (PT_FEATURE_TREE). */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
-    /** PT_MATERIAL_* bits of each of materials, as many; NULL: 0 for all. The caller's, like the arrays. */
-    const uint32_t *material_flags;
 } pt_scene;
 
 /** Values of pt_camera.projection. */
@@ -209,8 +208,9 @@ typedef struct pt_camera {
     double target[3];     /**< the point in the middle of the image; must differ from position */
     double up[3];         /**< not parallel to the viewing direction; default (0, 1, 0) */
     double vertical_fov;  /**< of a perspective: full vertical angle in [1e-8, pi); default pi / 4. Otherwise 0 */
-    double shutter_open;  /**< 0 <= open <= close <= 1; both 0 means the default, the whole of [0, 1] */
-    double shutter_close; /**< light is gathered evenly from shutter_open to here */
+    double shutter_open;  /**< when the shutter opens, in the time of pt_sphere.motion: 0 <= open <= close <= 1 */
+    double
+        shutter_close; /**< light is gathered evenly from shutter_open to here; 0, too: the instant 0, nothing moves */
     /** Of an orthographic projection: full height of the view, in [1e-18, 1e18], and so its width, which is the height
      * times width / height of the image (pt_accumulate: PT_ERROR_UNSUPPORTED). There is no default. Otherwise 0. */
     double vertical_extent;
@@ -285,7 +285,7 @@ typedef struct pt_accumulate_info {
      * if one sample of all pixels takes several submissions, with those that complete it. */
     pt_progress_fn progress;
     void *progress_user; /**< handed to progress; the library does not look at it */
-    /** 0: none. Else add no more samples once pt_stats.relative_rmse_high is at or below it: the call returns
+    /** 0: none. Else add no more samples once pt_error_estimate.relative_rmse_high is at or below it: the call returns
      * PT_TARGET_REACHED, or PT_OK if sample_count allows no more. The error is checked only when all pixels have as
      * many samples as pt_next_check says or, where tiles differ (PT_SAMPLING_ADAPTIVE), when no tile wants more for the
      * present bound. So where a sequence ends, and with which samples in which pixels, does not depend on how it is
@@ -418,8 +418,8 @@ typedef struct pt_create_info {
     /** Either may be NULL. What drivers make of kernels is kept by the caller, so that contexts of later processes
      * start sooner: load_kernels is called by pt_create, for each device; store_kernels at the end of calls that have
      * built kernels, even if they fail (pt_prepare, pt_accumulate, pt_reload_shaders, pt_readback of what camera rays
-     * meet first; on GPUs any pt_readback, and pt_get_stats). Drivers with a cache of their own, such as Mesa's
-     * lavapipe, give next to nothing. */
+     * meet first; on GPUs any pt_readback, and pt_get_error_estimate). Drivers with a cache of their own, such as
+     * Mesa's lavapipe, give next to nothing. */
     pt_load_kernels_fn load_kernels;
     pt_store_kernels_fn store_kernels; /**< see load_kernels */
     void *kernels_user;                /**< handed to both; the library does not look at it */

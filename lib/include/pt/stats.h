@@ -23,8 +23,23 @@ enum {
     PT_FEATURE_HIDDEN = 64        /**< surfaces that the camera does not see */
 };
 
-/** Bits of pt_stats.uncertain: why an error that is stated may be far off. Its bounds are then wider by a further
- * factor of two, but for small lamps in view. More samples make an error certain. */
+/** What has been done, and what it took. */
+typedef struct pt_stats {
+    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
+    uint32_t sample_count;     /**< whole samples in every pixel; the fewest that one has */
+    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
+    uint64_t device_bytes;     /**< memory allocated on all its devices now */
+    uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
+    double device_seconds;     /**< time spent in them, summed; with pt_poll as far as it saw them end */
+    uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
+    uint32_t device_count;     /**< devices that share the samples */
+    uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
+    uint32_t reserved;         /**< 0 */
+    double mean_sample_count;  /**< of all pixels */
+} pt_stats;
+
+/** Bits of pt_error_estimate.uncertain: why an error that is stated may be far off. Its bounds are then wider by a
+ * further factor of two, but for small lamps in view. More samples make an error certain. */
 enum {
     PT_UNCERTAIN_RMSE = 1,          /**< rmse comes from fewer than 8 pixels: rare bright samples, or a small lamp */
     PT_UNCERTAIN_RELATIVE_RMSE = 2, /**< relative_rmse comes from fewer than 8 pixels */
@@ -37,34 +52,23 @@ enum {
     PT_UNCERTAIN_UNMET = 8
 };
 
-/** What has been done, what it took, and how good the image is.
+/** How good the image is, estimated without a reference (shaders/README.md, section 11).
  *
- * Its error is estimated without a reference (shaders/README.md, section 11): the root of the mean of (x - r)^2 over
- * pixels and channels, for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds
- * of 95% confidence. Light that no sample has met yet is not in it, but that of small lamps in view: a target error
- * leaves these out. Nothing is known with fewer than 16 samples, nor
+ * rmse is the root of the mean of (x - r)^2 over pixels and channels, for the image x and its limit r; relative_rmse
+ * the same of (x - r)^2 / (r^2 + 0.01). Bounds are of 95% confidence. Light that no sample has met yet is not in it,
+ * but that of small lamps in view: a target error leaves these out. Nothing is known with fewer than 16 samples, nor
  * where more than one sample in 2^20 was left out, which may have carried as much light as all others: then the lower
- * bounds are 0, the others INFINITY. These fields take a read-out of the image, which a struct_size that ends before
- * them avoids. */
-typedef struct pt_stats {
-    uint32_t struct_size;      /**< sizeof(pt_stats); must be set by the caller */
-    uint32_t sample_count;     /**< whole samples in every pixel; the fewest that one has */
-    uint64_t rejected_samples; /**< left out of all pixels: NaN, infinite, negative or too bright */
-    uint64_t device_bytes;     /**< memory allocated on all its devices now */
-    uint64_t submit_count;     /**< submissions that took samples since pt_create, to all devices */
-    double device_seconds;     /**< time spent in them, summed; with pt_poll as far as it saw them end */
-    uint32_t features;         /**< PT_FEATURE_*; 0 before the first pt_accumulate */
-    uint32_t device_count;     /**< devices that share the samples */
+ * bounds are 0, the others INFINITY. */
+typedef struct pt_error_estimate {
+    uint32_t struct_size;      /**< sizeof(pt_error_estimate); must be set by the caller */
+    uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
     double rmse;               /**< root mean square error, a radiance */
     double rmse_low;           /**< lower bound of rmse */
     double rmse_high;          /**< upper bound of rmse */
     double relative_rmse;      /**< relative root mean square error, a number */
     double relative_rmse_low;  /**< lower bound of relative_rmse */
     double relative_rmse_high; /**< upper bound of relative_rmse */
-    uint32_t uncertain;        /**< PT_UNCERTAIN_*: how far the error can be known; 0 with fewer than 16 samples */
-    uint32_t max_sample_count; /**< the most that a pixel has (PT_SAMPLING_ADAPTIVE) */
-    double mean_sample_count;  /**< of all pixels */
-} pt_stats;
+} pt_error_estimate;
 
 /** The next number of samples at which a target error is checked while all pixels have equally many: 16,
  * 20, 24, 28, 32, 40, 48, 56, 64, 80, ..., quarters of a power of two; the largest number there is if there is none.
@@ -76,6 +80,14 @@ PT_API uint32_t pt_next_check(uint32_t sample_count);
  * stats->struct_size must be set; as many bytes are written, but none beyond the fields that this library knows. One
  * thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost while its samples were read. */
 PT_API pt_result pt_get_stats(pt_context *context, pt_stats *stats);
+
+/** Writes how good the image is. The first call after samples were taken looks at all of the image, which takes about
+ * as long as reading it; further ones repeat what that found.
+ *
+ * error->struct_size must be set, as for pt_get_stats; not while samples are under way. Without render settings, or
+ * with a lost device, nothing is known. One thread at a time per context. PT_ERROR_DEVICE_LOST: the device was lost
+ * while its samples were read. */
+PT_API pt_result pt_get_error_estimate(pt_context *context, pt_error_estimate *error);
 
 #ifdef __cplusplus
 }

@@ -8,7 +8,7 @@ For everything else: a Context, which is given a Scene, a Camera and RenderSetti
 image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Colour is linear RGB
 radiance, unclamped. Row 0 of an image is the top row.
 
-The library is libpt.so.0.2: that which PT_LIBRARY names, else the one installed with the package, else the system's.
+The library is libpt.so.0.3: that which PT_LIBRARY names, else the one installed with the package, else the system's.
 """
 
 import importlib
@@ -27,7 +27,7 @@ from pt._film import Film, FilmInfo, FilmTile
 from pt._image import Image
 from pt._library import library, version_text
 from pt._scene import Material, Plane, Scene, Sphere, SphereArray
-from pt._stats import DeviceInfo, Stats, devices
+from pt._stats import DeviceInfo, ErrorEstimate, Stats, devices
 
 if TYPE_CHECKING:  # __getattr__ imports them when they are first asked for: figures take as long as all else
     from pt._render import render
@@ -46,7 +46,7 @@ __version__: str  # that of the library
 
 
 def version() -> str:
-    """Of the library: "0.2.0"."""
+    """Of the library: "0.3.0"."""
     return version_text(library())
 
 

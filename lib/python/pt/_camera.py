@@ -23,7 +23,7 @@ class Camera:
     target            the point in the middle of the image; must differ from position
     up                not parallel to the viewing direction; of it the perpendicular part is the image's vertical
     vertical_fov      full vertical angle, radians, in [1e-8, pi); default pi / 4. None with parallel rays
-    shutter           light is gathered evenly between these times, 0 <= open <= close <= 1; (0, 0) stands for (0, 1)
+    shutter           light is gathered evenly between these times, 0 <= open <= close <= 1
     vertical_extent   None: a pinhole. Else full height of the view of parallel rays, scene units, in [1e-18, 1e18]: an
                       orthographic projection
     """

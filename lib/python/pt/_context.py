@@ -20,7 +20,7 @@ from pt._image import Image
 from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
 from pt._scene import Scene, SceneStruct
-from pt._stats import DeviceInfo, Stats, device_of, stats_of
+from pt._stats import DeviceInfo, ErrorEstimate, Stats, device_of, error_estimate_of, stats_of
 
 MOST_SAMPLES = 2**32 - 1
 
@@ -139,7 +139,7 @@ class Context:
         """Adds samples to every pixel.
 
         sample_count   >= 1; with a target error the most that it adds
-        target_error   0: none. Else it ends once Stats.relative_rmse_high is at or below it, with
+        target_error   0: none. Else it ends once ErrorEstimate.relative_rmse_high is at or below it, with
                        Result.TARGET_REACHED; 0.01 is 1%
         sampling       where samples go; with a target error adaptive, else uniform
         progress       called after each submission, a twentieth of a second; returning True ends the call with
@@ -185,10 +185,16 @@ class Context:
         return pixels
 
     def stats(self) -> Stats:
-        """What has been done, and how good the image is."""
+        """What has been done, and what it took."""
         struct = structs.pt_stats()
         self._call("pt_get_stats", struct)
         return stats_of(struct)
+
+    def error_estimate(self) -> ErrorEstimate:
+        """How good the image is. The first call after samples were taken looks at all of the image."""
+        struct = structs.pt_error_estimate()
+        self._call("pt_get_error_estimate", struct)
+        return error_estimate_of(struct)
 
     def film(self) -> Film:
         """The exact sums of the samples so far. InvalidStateError: there is no sample."""
@@ -204,7 +210,7 @@ class Context:
         """Radiance, standard error and sample counts as they are now, with the error. InvalidStateError: there is no
         sample."""
         return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
-                     self.readback(Quantity.SAMPLE_COUNT), self.stats())
+                     self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def render(self, scene: Scene, camera: Camera, settings: RenderSettings, samples: int, *,
                target_error: float = 0.0, progress: Progress | None = None) -> Image:

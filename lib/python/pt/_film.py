@@ -21,7 +21,7 @@ from pt._files import Path, write_atomically
 from pt._image import Image
 from pt._library import checked, library
 from pt._pixels import Rectangle, image_struct, new_pixels
-from pt._stats import Stats, stats_of
+from pt._stats import ErrorEstimate, Stats, error_estimate_of, stats_of
 
 TILE_SIDE = 8  # pixels
 
@@ -176,17 +176,23 @@ class Film:
         return pixels
 
     def stats(self) -> Stats:
-        """How many samples it has, and how good its image is. A film does not know the scene's lamps, so
-        Uncertain.UNMET is set whenever they are found by chance."""
+        """How many samples it has."""
         struct = structs.pt_stats()
         self._call("pt_get_film_stats", struct)
         return stats_of(struct)
+
+    def error_estimate(self) -> ErrorEstimate:
+        """How good its image is. A film does not know the scene's lamps, so Uncertain.UNMET is set whenever they are
+        found by chance."""
+        struct = structs.pt_error_estimate()
+        self._call("pt_get_film_error_estimate", struct)
+        return error_estimate_of(struct)
 
     def image(self) -> Image:
         """Radiance, standard error and sample counts, with the error."""
         with self._lock:
             return Image(self.readback(Quantity.RADIANCE), self.readback(Quantity.STANDARD_ERROR),
-                         self.readback(Quantity.SAMPLE_COUNT), self.stats())
+                         self.readback(Quantity.SAMPLE_COUNT), self.error_estimate(), self.stats())
 
     def plan(self, target_error: float, most: int) -> tuple[Result, npt.NDArray[np.uint32]]:
         """What the film takes next on its way to a target error, as Context.accumulate decides it: so that one machine

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from pt._display import automatic_exposure, encode_png, to_srgb8
 from pt._files import Path, format_of, write_atomically
-from pt._stats import Stats
+from pt._stats import ErrorEstimate, Stats
 
 
 class Image:
@@ -20,15 +20,18 @@ class Image:
     standard_error   of the same shape: the standard error of each number, no more than a hint in a single pixel.
                      Infinite up to 8 samples
     sample_count     shape (height, width), uint32: samples that each pixel has
-    stats            how good the image is as a whole, and what it took
+    error_estimate   how good the image is as a whole
+    stats            what it took
     exposure         stops, of the picture that _repr_png_ and save make; None: automatic
     """
 
     def __init__(self, radiance: npt.NDArray[np.float32], standard_error: npt.NDArray[np.float32],
-                 sample_count: npt.NDArray[Any], stats: Stats, exposure: float | None = None) -> None:
+                 sample_count: npt.NDArray[Any], error_estimate: ErrorEstimate, stats: Stats,
+                 exposure: float | None = None) -> None:
         self.radiance = radiance
         self.standard_error = standard_error
         self.sample_count: npt.NDArray[np.uint32] = sample_count[:, :, 0].astype(np.uint32)
+        self.error_estimate = error_estimate
         self.stats = stats
         self.exposure = exposure
 
@@ -39,12 +42,12 @@ class Image:
     @property
     def error(self) -> float:
         """The relative root mean square error: 0.01 is 1%. Infinite with fewer than 16 samples."""
-        return self.stats.relative_rmse
+        return self.error_estimate.relative_rmse
 
     @property
     def error_bounds(self) -> tuple[float, float]:
         """Bounds of the error with 95% confidence."""
-        return self.stats.relative_rmse_low, self.stats.relative_rmse_high
+        return self.error_estimate.relative_rmse_low, self.error_estimate.relative_rmse_high
 
     def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> npt.NDArray[Any]:
         array = self.radiance if dtype is None else self.radiance.astype(dtype, copy=False)

@@ -13,7 +13,7 @@ from pt import _structs as structs
 from pt._enums import Result
 from pt._errors import ERROR_OF_RESULT, BrokenRule, Error
 
-SONAME: Final = "libpt.so.0.2"
+SONAME: Final = "libpt.so.0.3"
 BROKEN_RULES_KEPT: Final = 8  # by the library
 
 # A function that is missing here has no types, and ctypes would cut its pointers to 32 bits. All that are not in
@@ -34,6 +34,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_accumulate": [c_void_p, POINTER(structs.pt_accumulate_info)],
     "pt_readback": [c_void_p, POINTER(structs.pt_image)],
     "pt_get_stats": [c_void_p, POINTER(structs.pt_stats)],
+    "pt_get_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
     "pt_next_check": [c_uint32],
     "pt_save_film": [c_void_p, c_void_p, POINTER(c_uint64)],
     "pt_add_film": [c_void_p, c_char_p, c_uint64],
@@ -48,6 +49,7 @@ PARAMETERS: Final[dict[str, list[Any]]] = {
     "pt_get_film_ranges": [c_void_p, c_uint32, POINTER(structs.pt_sample_range), POINTER(c_uint32)],
     "pt_plan_film": [c_void_p, c_double, c_uint32, POINTER(c_uint32), POINTER(c_uint32)],
     "pt_get_film_stats": [c_void_p, POINTER(structs.pt_stats)],
+    "pt_get_film_error_estimate": [c_void_p, POINTER(structs.pt_error_estimate)],
 }
 NOT_RESULTS: Final[dict[str, Any]] = {
     "pt_version": c_uint32, "pt_result_name": c_char_p, "pt_last_error": c_char_p, "pt_get_broken_rule": c_uint64,

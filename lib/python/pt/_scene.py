@@ -43,10 +43,8 @@ class Material:
         object.__setattr__(self, "glossiness", float(self.glossiness))
 
     def _struct(self) -> structs.pt_material:
-        return structs.pt_material(self.diffuse, self.specular, self.emission, self.glossiness)
-
-    def _flags(self) -> int:
-        return MaterialFlag.HIDDEN_FROM_CAMERA if self.hidden_from_camera else 0
+        return structs.pt_material(self.diffuse, self.specular, self.emission, self.glossiness,
+                                   MaterialFlag.HIDDEN_FROM_CAMERA if self.hidden_from_camera else 0)
 
 
 MaterialOrIndex: TypeAlias = "Material | int"
@@ -183,7 +181,6 @@ class SceneStruct:
         arrays = [self._sphere_array(array, materials) for array in scene.sphere_arrays]
         self.struct = structs.pt_scene(
             material_count=len(materials.all),
-            material_flags=_pointer(c_uint32, [material._flags() for material in materials.all]),
             materials=_pointer(structs.pt_material, [material._struct() for material in materials.all]),
             sphere_count=len(spheres), spheres=_pointer(structs.pt_sphere, spheres), plane_count=len(planes),
             planes=_pointer(structs.pt_plane, planes), sphere_array_count=len(arrays),

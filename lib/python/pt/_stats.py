@@ -14,25 +14,12 @@ from pt._library import checked, library
 
 @dataclass(frozen=True)
 class Stats:
-    """What has been done, what it took, and how good the image is.
-
-    The error is estimated without a reference: the root of the mean of (x - r)^2 over pixels and channels, for the
-    image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence. Nothing is
-    known with fewer than 16 samples: then the lower bounds are 0, the others infinite. Of a film, what the context
-    alone knows is 0.
-    """
+    """What has been done, and what it took. Of a film, what the context alone knows is 0."""
 
     sample_count: int  # whole samples that every pixel has
     max_sample_count: int  # the most that a pixel has (Sampling.ADAPTIVE)
     mean_sample_count: float  # of all pixels
     rejected_samples: int  # left out of all pixels: NaN, infinite, negative or too bright
-    rmse: float  # root mean square error, a radiance
-    rmse_low: float
-    rmse_high: float
-    relative_rmse: float  # relative root mean square error, a number
-    relative_rmse_low: float
-    relative_rmse_high: float
-    uncertain: Uncertain  # why the error may be far off
     features: Feature  # of the kernel
     device_bytes: int  # memory allocated on all its devices now
     device_count: int  # devices that share the samples
@@ -42,8 +29,30 @@ class Stats:
 
 def stats_of(struct: structs.pt_stats) -> Stats:
     values: dict[str, Any] = {name: getattr(struct, name) for name in Stats.__dataclass_fields__}
-    values.update(uncertain=Uncertain(struct.uncertain), features=Feature(struct.features))
+    values.update(features=Feature(struct.features))
     return Stats(**values)
+
+
+@dataclass(frozen=True)
+class ErrorEstimate:
+    """How good an image is, estimated without a reference: the root of the mean of (x - r)^2 over pixels and channels,
+    for the image x and its limit r, and the same of (x - r)^2 / (r^2 + 0.01), each with bounds of 95% confidence.
+    Nothing is known with fewer than 16 samples: then the lower bounds are 0, the others infinite.
+    """
+
+    rmse: float  # root mean square error, a radiance
+    rmse_low: float
+    rmse_high: float
+    relative_rmse: float  # relative root mean square error, a number
+    relative_rmse_low: float
+    relative_rmse_high: float
+    uncertain: Uncertain  # why the error may be far off
+
+
+def error_estimate_of(struct: structs.pt_error_estimate) -> ErrorEstimate:
+    values: dict[str, Any] = {name: getattr(struct, name) for name in ErrorEstimate.__dataclass_fields__}
+    values.update(uncertain=Uncertain(struct.uncertain))
+    return ErrorEstimate(**values)
 
 
 @dataclass(frozen=True)

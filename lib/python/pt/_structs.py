@@ -20,7 +20,8 @@ class Sized(ctypes.Structure):
 
 
 class pt_material(ctypes.Structure):
-    _fields_ = [("diffuse", c_float * 3), ("specular", c_float * 3), ("emission", c_float * 3), ("glossiness", c_float)]
+    _fields_ = [("diffuse", c_float * 3), ("specular", c_float * 3), ("emission", c_float * 3), ("glossiness", c_float),
+                ("flags", c_uint32)]
 
 
 class pt_sphere(ctypes.Structure):
@@ -46,7 +47,7 @@ class pt_scene(Sized):
                 ("plane_count", c_uint32), ("materials", POINTER(pt_material)), ("spheres", POINTER(pt_sphere)),
                 ("planes", POINTER(pt_plane)), ("sphere_arrays", POINTER(pt_sphere_array)),
                 ("sphere_array_count", c_uint32), ("reserved", c_uint32), ("progress", pt_progress_fn),
-                ("progress_user", c_void_p), ("material_flags", POINTER(c_uint32))]
+                ("progress_user", c_void_p)]
 
 
 class pt_camera(Sized):
@@ -113,7 +114,11 @@ class pt_sample_range(ctypes.Structure):
 class pt_stats(Sized):
     _fields_ = [("struct_size", c_uint32), ("sample_count", c_uint32), ("rejected_samples", c_uint64),
                 ("device_bytes", c_uint64), ("submit_count", c_uint64), ("device_seconds", c_double),
-                ("features", c_uint32), ("device_count", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
+                ("features", c_uint32), ("device_count", c_uint32), ("max_sample_count", c_uint32),
+                ("reserved", c_uint32), ("mean_sample_count", c_double)]
+
+
+class pt_error_estimate(Sized):
+    _fields_ = [("struct_size", c_uint32), ("uncertain", c_uint32), ("rmse", c_double), ("rmse_low", c_double),
                 ("rmse_high", c_double), ("relative_rmse", c_double), ("relative_rmse_low", c_double),
-                ("relative_rmse_high", c_double), ("uncertain", c_uint32), ("max_sample_count", c_uint32),
-                ("mean_sample_count", c_double)]
+                ("relative_rmse_high", c_double)]

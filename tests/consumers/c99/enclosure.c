@@ -1,5 +1,5 @@
-/* A program of somebody else, in C99: inside a ball that shines, every pixel has the ball's radiance, exactly. Exit status 0
- * if so. An argument takes the place of the red that is expected, so that the check can be seen to fail. */
+/* A program of somebody else, in C99: inside a ball that shines, every pixel has the ball's radiance, exactly. Exit
+ * status 0 if so. An argument takes the place of the red that is expected, so that the check can be seen to fail. */
 #include <pt/pt.h>
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 enum { WIDTH = 8, HEIGHT = 4 };
 
 static pt_result render(pt_context *context, float *pixels, uint64_t size_bytes) {
-    const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 1.0f, 0.5f}, 0.0f};
+    const pt_material material = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {2.0f, 1.0f, 0.5f}, 0.0f, 0};
     const pt_sphere ball = {{0.0, 0.0, 0.0}, 3.0, {0.0, 0.0, 0.0}, 0, 0};
     pt_scene scene = {0};
     pt_camera camera = {0};

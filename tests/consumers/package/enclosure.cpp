@@ -46,7 +46,7 @@ Context create() {
 }
 
 std::vector<float> render(pt_context *context) {
-    const pt_material material = {{0, 0, 0}, {0, 0, 0}, {2, 1, 0.5F}, 0};
+    const pt_material material = {{0, 0, 0}, {0, 0, 0}, {2, 1, 0.5F}, 0, 0};
     const pt_sphere ball = {{0, 0, 0}, 3, {0, 0, 0}, 0, 0};
     pt_scene scene{};
     scene.struct_size = sizeof scene;

@@ -13,7 +13,7 @@ import numpy as np
 
 from pt._errors import IncompatibleError
 from pt._film import TILE_SIDE, Film
-from pt._stats import Stats
+from pt._stats import ErrorEstimate
 from pt.farm import _task
 from pt.farm._crew import Crew
 from pt.farm._identity import Identity, identity_of
@@ -150,14 +150,14 @@ class Coordinator:
             raise FarmError("stopped before the first part came back")
         return self._sum.film
 
-    def look(self) -> Stats:
+    def look(self) -> ErrorEstimate:
         """Looks at the film's error."""
         start = now()
-        stats = self.film.stats()
+        error = self.film.error_estimate()
         self._look_end, self._look_cost = now(), now() - start
-        self._progress.samples = stats.mean_sample_count
-        self._progress.error, self._progress.error_high = stats.relative_rmse, stats.relative_rmse_high
-        return stats
+        self._progress.samples = self.film.stats().mean_sample_count
+        self._progress.error, self._progress.error_high = error.relative_rmse, error.relative_rmse_high
+        return error
 
     def _glance(self) -> None:
         """Looks at the error for those who watch, if that takes less than LOOK_SHARE of the time."""

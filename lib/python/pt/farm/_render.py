@@ -78,9 +78,9 @@ def _to_error(coordinator: Coordinator, job: AnyJob, samples: int, target_error:
     ended = coordinator.run(goals)
     while ended:
         if sampling == Sampling.UNIFORM:
-            stats = coordinator.look()
+            error = coordinator.look()
             count = int(goals.max())
-            if stats.relative_rmse_high <= target_error:
+            if error.relative_rmse_high <= target_error:
                 return coordinator.finish("error")
             if count >= samples:
                 return coordinator.finish("limit")
