@@ -18,7 +18,7 @@ using FilmWords = KernelRender::FilmWords;
 
 std::size_t scene_count() {
     const char *const wanted = std::getenv("PT_TEST_TREE_SCENES");
-    return wanted ? std::stoul(wanted) : 24;
+    return wanted ? std::stoul(wanted) : 12;
 }
 
 std::size_t most_spheres() {
