@@ -140,6 +140,21 @@ bool is_black(std::span<const float> radiance) {
            std::all_of(radiance.begin(), radiance.end(), [](float value) { return value == 0.0F; });
 }
 
+// In the relative error light far below 0.1 counts as none (pt_error_estimate), so a picture that is dark all over is
+// on target with any noise. Pictures of the units that light meters have may be, where emission is some hundredths of a
+// unit; scaling all emission scales the picture, and its noise, to the bit.
+std::optional<std::string> picture_below_its_target(const RenderReport &report, std::span<const float> radiance) {
+    constexpr double most_stops = 4.5; // the average is below a twelfth of 0.1
+    if (report.target_error <= 0.0 || is_black(radiance))
+        return std::nullopt;
+    const double stops = automatic_exposure(radiance);
+    if (stops <= most_stops)
+        return std::nullopt;
+    return "--error: the picture is darker than what the relative error tells apart, so the target says little of it: "
+           "multiply all emission by 2^" +
+           formatted("%.0f", stops) + ", or ask for much less";
+}
+
 // Whether a warning before has said so.
 bool is_known_to_be_black(const RenderReport &report) {
     return std::any_of(report.warnings.begin(), report.warnings.end(),
@@ -178,6 +193,8 @@ std::vector<std::string> image_warnings(const RenderReport &report, std::span<co
     }
     if (auto burnt_out = burnt_out_picture(report, radiance))
         warnings.push_back(std::move(*burnt_out));
+    if (auto below = picture_below_its_target(report, radiance))
+        warnings.push_back(std::move(*below));
     if (is_black(radiance) && !is_known_to_be_black(report))
         warnings.emplace_back("no sample met light: the picture is black, and the stated error of 0 says nothing");
     return warnings;
