@@ -80,13 +80,13 @@ class Calibration:
                 done = count
                 squares[count].append(self.square())
                 if len(stated[count]) < STATED_SEEDS:
-                    stated[count].append(self.renderer.stats())
+                    stated[count].append(self.renderer.error_estimate())
         for count in COUNTS:
             error = math.sqrt(statistics.fmean(squares[count]))
-            for stats in stated[count]:
-                yield Case(self.name, self.size, estimator, sampler, count, stats.relative_rmse / error,
-                           stats.uncertain & RELATIVE_BITS != 0,
-                           stats.relative_rmse_low <= error <= stats.relative_rmse_high)
+            for each in stated[count]:
+                yield Case(self.name, self.size, estimator, sampler, count, each.relative_rmse / error,
+                           each.uncertain & RELATIVE_BITS != 0,
+                           each.relative_rmse_low <= error <= each.relative_rmse_high)
 
     def stopped(self, target):
         """Error / target of images that were taken until the target was reached; None where it was not."""
