@@ -28,9 +28,10 @@ struct SelftestCheck {
 struct SelftestScene {
     std::string name;
     SceneFile scene;
-    double expected;     // radiance of the whole image, grey
-    double relative_std; // of one sample, at most; 0: every sample of every pixel has the same value
+    double expected;     // radiance of the whole image, grey, to this power
+    double relative_std; // of that of one sample, at most; 0: every sample of every pixel has the same value
     double rounding;     // largest relative error of a sample that float32 may make
+    int power = 1;       // 0: expected is the share of pixels that are not black
 
     // How far the image may be off, as a multiple of what is expected.
     double bound() const;
@@ -45,22 +46,8 @@ std::vector<SelftestScene> selftest_scenes();
 // The one of them with the longest paths.
 SelftestScene lamp_in_a_ball();
 
-// A floor under a sky of radiance 1, seen from straight above by parallel rays, one sample to a pixel. A direction of
-// cosine c has density proportional to c^power about the normal, and its sample is scale * c. A wall is
-// a black plane that stands upright beside the camera's rays and takes half of all directions.
-struct DirectionScene {
-    std::string name;
-    SceneFile scene;
-    double power;
-    double scale;
-    bool has_wall;
-
-    // Against exact values, in standard errors that follow from them: of open skies the means of c and c^2, behind a
-    // wall the share of directions that meet none.
-    std::vector<SelftestCheck> judge(std::span<const float> radiance) const;
-};
-
-std::vector<DirectionScene> direction_scenes();
+// Scenes whose samples are cosines of the directions that kernels sample, in means, second moments and sides.
+std::vector<SelftestScene> direction_scenes();
 
 struct SelftestReport {
     pt_device_info device;

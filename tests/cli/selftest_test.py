@@ -75,7 +75,7 @@ class RealDevice(CommandLineTest):
         code = self.run_pt("selftest", "--directions", "--shader-dir", "shaders", "--json", "s.json")
         self.assertEqual(code, 1 if faults else 0, self.errors)
         checks = json.loads(self.read("s.json"))["checks"]
-        self.assertEqual(len(checks), 18)
+        self.assertEqual(len(checks), 19)
         return sorted(check["name"] for check in checks if not check["passed"])
 
     def test_directions(self):
