@@ -15,6 +15,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace cli {
@@ -98,38 +99,24 @@ public:
         return error;
     }
 
-    // Three components to a pixel.
-    std::vector<float> read_image(const pt_render &render) const {
-        std::vector<float> values(std::size_t{3} * render.width * render.height);
-        read_columns(0, render.width, render.height, PT_QUANTITY_RADIANCE, values.data());
-        return values;
-    }
-
-    // The same of some columns of the rows that are rendered. quantity: PT_QUANTITY_*.
-    void read_columns(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
-                      float *values) const {
-        read(first, count, rows, quantity, PT_FORMAT_RGB32F, values, 3 * sizeof(float));
-    }
-
-    // The numbers of the objects in them.
-    void read_objects(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t *numbers) const {
-        read(first, count, rows, PT_QUANTITY_OBJECT, PT_FORMAT_R32UI, numbers, sizeof(std::uint32_t));
-    }
-
-private:
+    // Some columns of the rows that are rendered: of floats three components to a pixel, of whole numbers one, that of
+    // its object. quantity: PT_QUANTITY_*.
+    template <typename Number>
     void read(std::uint32_t first, std::uint32_t count, std::uint32_t rows, std::uint32_t quantity,
-              std::uint32_t format, void *data, std::size_t pixel_bytes) const {
+              Number *values) const {
+        constexpr bool is_color = std::is_same_v<Number, float>;
         auto image = sized<pt_image>();
         image.quantity = quantity;
-        image.format = format;
-        image.data = data;
-        image.size_bytes = pixel_bytes * count * rows;
+        image.format = is_color ? PT_FORMAT_RGB32F : PT_FORMAT_R32UI;
+        image.data = values;
+        image.size_bytes = (is_color ? 3 : 1) * sizeof(Number) * count * rows;
         image.x = first;
         image.width = count;
         image.height = rows;
         require(pt_readback(context_, &image));
     }
 
+private:
     [[noreturn]] void fail(pt_result result, const LibraryError &error) const {
         const bool loses_work = result == PT_ERROR_INTERNAL || result == PT_ERROR_DEVICE_LOST;
         throw Failure(code_of(result, error), error.in_words(&in_words_of_options) +

@@ -81,8 +81,7 @@ int run_devices(bool as_json) {
         print_json(devices);
     else
         print_table(devices);
-    const bool any_suitable =
-        std::any_of(devices.begin(), devices.end(), [](const pt_device_info &device) { return device.suitable != 0; });
+    const bool any_suitable = std::ranges::any_of(devices, [](const auto &device) { return device.suitable != 0; });
     return static_cast<int>(any_suitable ? ExitCode::done : ExitCode::no_device);
 }
 

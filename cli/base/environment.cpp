@@ -2,6 +2,7 @@
 
 #include "cli/base/exit_code.h"
 #include "cli/base/number.h"
+#include "cli/base/text.h"
 
 #include <array>
 #include <cstdint>
@@ -67,10 +68,9 @@ std::string source_date() {
     if (variable == nullptr)
         return "";
     const auto seconds = parse_number<std::uint64_t>(variable);
-    if (!seconds || *seconds > last_second) {
-        throw Failure(ExitCode::usage, "SOURCE_DATE_EPOCH: must be a whole number of seconds from 0 to " +
-                                           std::to_string(last_second) + ", is \"" + variable + "\"");
-    }
+    refuse_if(!seconds || *seconds > last_second,
+              concat("SOURCE_DATE_EPOCH: must be a whole number of seconds from 0 to ", last_second, ", is \"",
+                     variable, "\""));
     const auto time = static_cast<std::time_t>(*seconds);
     std::tm utc{};
     gmtime_r(&time, &utc);

@@ -49,6 +49,11 @@ private:
     ExitCode code_;
 };
 
+inline void refuse_if(bool is_refused, const std::string &message, ExitCode code = ExitCode::usage) {
+    if (is_refused)
+        throw Failure(code, message);
+}
+
 // Of a program that a signal ended.
 constexpr int exit_code_of_signal(int signal) {
     return static_cast<int>(ExitCode::signal) + signal;

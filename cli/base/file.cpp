@@ -134,12 +134,11 @@ std::filesystem::path AtomicFile::target_of(const std::string &path) {
     std::filesystem::path target = path;
     struct stat status {};
     for (int i = 0; i < most_links && lstat(target.c_str(), &status) == 0 && S_ISLNK(status.st_mode); ++i) {
-        if (!may_follow(target, status)) {
-            throw Failure(ExitCode::file,
-                          "cannot write " + path + ": the link " + target.string() +
-                              " is another user's, in a folder where everybody may write; only your own "
-                              "links and those of the folder's owner are followed there");
-        }
+        refuse_if(!may_follow(target, status),
+                  "cannot write " + path + ": the link " + target.string() +
+                      " is another user's, in a folder where everybody may write; only your own links and those of "
+                      "the folder's owner are followed there",
+                  ExitCode::file);
         std::error_code error;
         target = target.parent_path() / std::filesystem::read_symlink(target, error);
     }
@@ -208,10 +207,8 @@ void AtomicFile::commit() {
 void require_distinct_files(const std::vector<NamedFile> &inputs, const std::vector<NamedFile> &outputs) {
     for (auto output = outputs.begin(); output != outputs.end(); ++output) {
         const auto refuse_same = [&](const NamedFile &file, bool is_input) {
-            if (is_same(target_of(*output, false), target_of(file, is_input))) {
-                throw Failure(ExitCode::usage, output->role + " " + output->path + ": is the same file as " +
-                                                   file.role + " " + file.path);
-            }
+            refuse_if(is_same(target_of(*output, false), target_of(file, is_input)),
+                      concat(output->role, " ", output->path, ": is the same file as ", file.role, " ", file.path));
         };
         for (const NamedFile &input : inputs)
             refuse_same(input, true);
@@ -224,10 +221,9 @@ void require_outside(const NamedFile &folder, const std::vector<NamedFile> &outp
     std::error_code ignored;
     for (const NamedFile &output : outputs) {
         const bool is_file = !output.path.empty() && output.path != standard_stream;
-        if (is_file && fs::equivalent(folder_of(AtomicFile::target_of(output.path)), folder.path, ignored)) {
-            throw Failure(ExitCode::usage, output.role + " " + output.path + ": is in the folder of " + folder.role +
-                                               " " + folder.path + ", whose files are read");
-        }
+        refuse_if(is_file && fs::equivalent(folder_of(AtomicFile::target_of(output.path)), folder.path, ignored),
+                  concat(output.role, " ", output.path, ": is in the folder of ", folder.role, " ", folder.path,
+                         ", whose files are read"));
     }
 }
 

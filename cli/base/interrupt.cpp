@@ -10,12 +10,11 @@ namespace cli {
 namespace {
 
 std::atomic<int> noted_signal = 0;
-std::atomic<bool> noted_picture_request = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-static_assert(std::atomic<int>::is_always_lock_free, "only lock-free atomics are safe in a signal handler");
-
 std::atomic<std::int64_t> noted_at = 0; // nanoseconds
-static_assert(std::atomic<std::int64_t>::is_always_lock_free);
+std::atomic<bool> noted_picture_request = false;
+static_assert(decltype(noted_signal)::is_always_lock_free && decltype(noted_at)::is_always_lock_free &&
+                  decltype(noted_picture_request)::is_always_lock_free,
+              "only lock-free atomics are safe in a signal handler");
 
 std::int64_t nanoseconds_now() {
     timespec now{};

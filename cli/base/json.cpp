@@ -43,7 +43,6 @@ std::optional<std::size_t> bracketed_length(std::string_view text) {
     return std::nullopt;
 }
 
-using nlohmann::json;
 using Form = ValueRule::Form;
 
 std::string range_text(const ValueRule &rule) {

@@ -1,5 +1,7 @@
 #include "cli/base/names.h"
 
+#include "cli/base/text.h"
+
 #include <cctype>
 #include <vector>
 
@@ -54,16 +56,13 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t longest_list = 12;
-    std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
+    const std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
     const std::string_view nearest = nearest_name(name, known);
     if (!nearest.empty())
         return message + ", did you mean \"" + std::string(nearest) + "\"?";
     if (known.empty() || known.size() > longest_list)
         return message;
-    message += ", known: ";
-    for (std::size_t i = 0; i < known.size(); ++i)
-        message += (i == 0 ? "" : ", ") + std::string(known[i]);
-    return message;
+    return message + ", known: " + listed(known);
 }
 
 } // namespace cli

@@ -1,6 +1,8 @@
 // Reads numbers and sizes from the text of options: the whole text or nothing, no octal, no wrap-around.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -30,21 +32,19 @@ inline std::optional<double> parse_share(std::string_view text) {
     return number && percent ? std::optional(*number / 100.0) : number;
 }
 
-struct ImageSize {
-    std::uint32_t width;
-    std::uint32_t height;
-};
-
-// "1920x1080"; nothing unless both are whole numbers. Which sizes are possible is the library's to say.
-inline std::optional<ImageSize> parse_size(std::string_view text) {
-    const std::size_t cross = text.find('x');
-    if (cross == std::string_view::npos)
-        return std::nullopt;
-    const auto width = parse_number<std::uint32_t>(text.substr(0, cross));
-    const auto height = parse_number<std::uint32_t>(text.substr(cross + 1));
-    if (!width || !height)
-        return std::nullopt;
-    return ImageSize{*width, *height};
+// "1920x1080": so many whole numbers, with a mark between them.
+template <std::size_t Count>
+std::optional<std::array<std::uint32_t, Count>> parse_numbers(std::string_view text, char mark) {
+    std::array<std::uint32_t, Count> numbers{};
+    for (std::size_t i = 0; i < Count; ++i) {
+        const std::size_t end = i + 1 < Count ? text.find(mark) : text.size();
+        const auto number = parse_number<std::uint32_t>(text.substr(0, end));
+        if (!number || end == std::string_view::npos)
+            return std::nullopt;
+        numbers[i] = *number;
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return numbers;
 }
 
 } // namespace cli

@@ -27,29 +27,27 @@ std::string type_name(const ValueRule &rule) {
     }
 }
 
-// Words behind a head, the lines after the first one indented.
-std::string wrapped(std::string head, const std::string &text, std::size_t indentation) {
+// Words in lines of 100 characters, which begin in that column.
+std::string wrapped(const std::string &text, std::size_t first_column) {
     constexpr std::size_t width = 100;
-    std::size_t column = head.size();
+    std::string lines;
+    std::size_t column = first_column;
     std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        const std::string gap = column < indentation ? std::string(indentation - column, ' ') : " ";
-        const bool is_first = column <= indentation;
-        if (!is_first && column + 1 + word.size() > width) {
-            head += "\n" + std::string(indentation, ' ') + word;
-            column = indentation + word.size();
-        } else {
-            head += (column == indentation ? "" : gap) + word;
-            column = std::max(column + (column == indentation ? 0 : gap.size()), indentation) + word.size();
+    for (std::string word; words >> word; column += word.size()) {
+        const bool fits = column + 1 + word.size() <= width;
+        if (!lines.empty()) {
+            lines += fits ? " " : "\n" + std::string(first_column, ' ');
+            column = fits ? column + 1 : first_column;
         }
+        lines += word;
     }
-    return head + "\n";
+    return lines + "\n";
 }
 
 std::string entry(const std::string &name, const std::string &text, std::size_t column) {
     const std::string head = "  " + name;
-    return head.size() + 1 < column ? wrapped(head, text, column)
-                                    : head + "\n" + wrapped(std::string(column, ' '), text, column);
+    const bool fits = head.size() + 1 < column;
+    return head + (fits ? "" : "\n") + std::string(fits ? column - head.size() : column, ' ') + wrapped(text, column);
 }
 
 std::string related(const std::string &relation, const std::set<CLI::Option *> &options) {

@@ -8,10 +8,10 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace cli {
 
@@ -22,6 +22,15 @@ using Run = std::function<int()>;
 // options.
 CLI::App &add_command(CLI::App &program, Run &chosen, const std::string &name, const std::string &description,
                       const std::string &notes, Run run);
+
+// The same of a command that is run with its options, into which the command line is read.
+template <typename Options>
+std::pair<CLI::App &, Options &> add_command(CLI::App &program, Run &chosen, const std::string &name,
+                                             const std::string &description, const std::string &notes,
+                                             int (*run)(const Options &)) {
+    const auto options = std::make_shared<Options>();
+    return {add_command(program, chosen, name, description, notes, [options, run] { return run(*options); }), *options};
+}
 
 [[noreturn]] void refuse_option(const std::string &option, const std::string &rule, const std::string &text);
 

@@ -15,7 +15,7 @@ namespace cli {
 namespace {
 
 constexpr std::chrono::milliseconds update_interval{100};
-constexpr const char *erase_line = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
+constexpr const char *line_eraser = "\r\x1b[K"; // ECMA-48: back to the left margin, erase to the end of the line
 
 std::string duration_text(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -48,9 +48,21 @@ Progress::Progress(std::ostream &output, ProgressStyle style, std::uint64_t pixe
     start_(start),
     next_update_(start) {}
 
-Progress::~Progress() {
-    if (style_ == ProgressStyle::line)
-        output_ << erase_line << std::flush;
+void Progress::erase_line() {
+    if (std::exchange(has_line_, false))
+        output_ << line_eraser << std::flush;
+}
+
+void Progress::overwrite_line(const std::string &text) {
+    output_ << line_eraser << text << std::flush;
+    has_line_ = true;
+}
+
+void Progress::update_scene(double share, Clock::time_point now) {
+    if (style_ != ProgressStyle::line || now < std::max(next_update_, start_ + update_interval))
+        return;
+    next_update_ = now + update_interval;
+    overwrite_line(formatted("scene %3.0f %%", 100.0 * share));
 }
 
 void Progress::update_samples(double samples_of_part, Clock::time_point now) {
@@ -80,8 +92,7 @@ std::string Progress::error_text() const {
 }
 
 void Progress::say(const std::string &message) {
-    if (style_ == ProgressStyle::line)
-        output_ << erase_line << std::flush;
+    erase_line();
     print_message(message);
 }
 
@@ -102,7 +113,7 @@ void Progress::print_line(double samples, double seconds) {
             break;
         line += part;
     }
-    output_ << erase_line << line << std::flush;
+    overwrite_line(line);
 }
 
 void Progress::print_json(double samples, double seconds) {
@@ -113,24 +124,6 @@ void Progress::print_json(double samples, double seconds) {
                                       {"seconds", seconds},
                                       {"eta_seconds", remaining_seconds(samples, seconds)}};
     output_ << line.dump() << std::endl;
-}
-
-SceneProgress::SceneProgress(std::ostream &output, ProgressStyle style, Clock::time_point start) :
-    output_(output),
-    style_(style),
-    next_update_(start + update_interval) {}
-
-SceneProgress::~SceneProgress() {
-    if (is_shown_)
-        output_ << erase_line << std::flush;
-}
-
-void SceneProgress::update(double fraction, Clock::time_point now) {
-    if (style_ != ProgressStyle::line || now < next_update_)
-        return;
-    next_update_ = now + update_interval;
-    is_shown_ = true;
-    output_ << erase_line << formatted("scene %3.0f %%", 100.0 * fraction) << std::flush;
 }
 
 } // namespace cli

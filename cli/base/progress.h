@@ -25,13 +25,17 @@ public:
              Clock::time_point start, std::function<std::size_t()> columns = &terminal_columns);
     Progress(const Progress &) = delete;
     Progress &operator=(const Progress &) = delete;
-    ~Progress(); // leaves the terminal's line empty for what is printed next
+    ~Progress() { erase_line(); } // leaves the terminal's line empty for what is printed next
 
     // From now on the samples are those of one part of the work, which is [begin, end] of the whole, [0, 1].
     void enter_part(double begin, double end) {
         part_begin_ = begin;
         part_end_ = end;
     }
+
+    // The share of the scene that is taken over, before there are samples. A line on a terminal, where that takes
+    // longer than a tenth of a second.
+    void update_scene(double share, Clock::time_point now);
 
     // The samples that are done. Prints at most ten times a second, and at the end. The share that is shown never
     // falls, even if expect() raises the total.
@@ -58,6 +62,8 @@ public:
 private:
     double remaining_seconds(double samples, double seconds) const;
     std::string error_text() const;
+    void erase_line();
+    void overwrite_line(const std::string &text);
     void print_line(double samples, double seconds);
     void print_json(double samples, double seconds);
 
@@ -74,26 +80,7 @@ private:
     double relative_error_ = std::numeric_limits<double>::infinity();
     Clock::time_point start_;
     Clock::time_point next_update_;
-};
-
-// The line that a terminal shows until the scene is taken over, where that takes long.
-class SceneProgress {
-public:
-    using Clock = Progress::Clock;
-
-    SceneProgress(std::ostream &output, ProgressStyle style, Clock::time_point start);
-    SceneProgress(const SceneProgress &) = delete;
-    SceneProgress &operator=(const SceneProgress &) = delete;
-    ~SceneProgress(); // leaves the line empty
-
-    // The share that is done, in [0, 1]. Prints at most ten times a second, and nothing in the first tenth.
-    void update(double fraction, Clock::time_point now);
-
-private:
-    std::ostream &output_;
-    ProgressStyle style_;
-    Clock::time_point next_update_;
-    bool is_shown_ = false;
+    bool has_line_ = false; // whether there is something to be erased
 };
 
 // name: "auto", "json" or "none". Only auto depends on the terminal.

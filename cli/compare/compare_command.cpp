@@ -34,8 +34,8 @@ struct CompareOptions {
 };
 
 void check_outputs(const CompareOptions &options) {
-    if (!options.difference.empty() && image_format(options.difference) != ImageFormat::png)
-        throw Failure(ExitCode::usage, "--difference " + options.difference + ": the name must end in .png");
+    refuse_if(!options.difference.empty() && image_format(options.difference) != ImageFormat::png,
+              "--difference " + options.difference + ": the name must end in .png");
     require_distinct_files({{"the image", options.image}, {"the reference", options.reference}},
                            {{"--difference", options.difference}, {"--json", options.json}});
     if (!options.difference.empty())
@@ -53,14 +53,12 @@ const char *kind_text(const DecodedImage &image) {
 }
 
 void require_comparable(const DecodedImage &image, const DecodedImage &reference) {
-    if (size_text(image) != size_text(reference)) {
-        throw Failure(ExitCode::usage, image.path + " is " + size_text(image) + ", " + reference.path + " is " +
-                                           size_text(reference) + ": they must be equally large");
-    }
-    if (image.is_float != reference.is_float) {
-        throw Failure(ExitCode::usage, image.path + " holds " + kind_text(image) + ", " + reference.path + " " +
-                                           kind_text(reference) + ": they must be of one kind");
-    }
+    refuse_if(size_text(image) != size_text(reference),
+              concat(image.path, " is ", size_text(image), ", ", reference.path, " is ", size_text(reference),
+                     ": they must be equally large"));
+    refuse_if(image.is_float != reference.is_float,
+              concat(image.path, " holds ", kind_text(image), ", ", reference.path, " ", kind_text(reference),
+                     ": they must be of one kind"));
 }
 
 // Dark is no difference, bright the largest, white what is not finite.
@@ -171,24 +169,23 @@ constexpr const char *compare_help =
 } // namespace
 
 void add_compare_command(CLI::App &program, Run &chosen) {
-    const auto options = std::make_shared<CompareOptions>();
-    CLI::App &command = add_command(program, chosen, "compare", "Compare an image with a reference", compare_help,
-                                    [options] { return run_compare(*options); });
+    const auto [command, options] =
+        add_command(program, chosen, "compare", "Compare an image with a reference", compare_help, &run_compare);
     constexpr ValueRule limit{.least = 0.0, .largest = 1e18};
-    add_text(command, "IMAGE", options->image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
-    add_text(command, "REFERENCE", options->reference, "REFERENCE",
+    add_text(command, "IMAGE", options.image, "IMAGE", "Image (.exr, .png, .jpg)")->required();
+    add_text(command, "REFERENCE", options.reference, "REFERENCE",
              "What it is compared with, of the same size and kind")
         ->required();
-    add_text(command, "--layer", options->layer, "NAME",
+    add_text(command, "--layer", options.layer, "NAME",
              "Compare this layer of both files (default: the channels R, G and B)");
-    add_text(command, "--difference", options->difference, "PNG", "Write a picture of where they differ (.png)");
-    add_text(command, "--json", options->json, "JSON", "Write the figures as JSON; - is standard output");
-    add_quiet(command, options->quiet);
+    add_text(command, "--difference", options.difference, "PNG", "Write a picture of where they differ (.png)");
+    add_text(command, "--json", options.json, "JSON", "Write the figures as JSON; - is standard output");
+    add_quiet(command, options.quiet);
     command.option_defaults()->group("Limits");
-    add_number<double>(command, "--max-mse", limit, options->mse, "Exit with 8 if mse is above X");
-    add_number<double>(command, "--max-relative-mse", limit, options->relative_mse,
+    add_number<double>(command, "--max-mse", limit, options.mse, "Exit with 8 if mse is above X");
+    add_number<double>(command, "--max-relative-mse", limit, options.relative_mse,
                        "Exit with 8 if relative_mse is above X");
-    add_number<double>(command, "--max-difference", limit, options->maximum, "Exit with 8 if maximum is above X");
+    add_number<double>(command, "--max-difference", limit, options.maximum, "Exit with 8 if maximum is above X");
 }
 
 } // namespace cli

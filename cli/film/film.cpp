@@ -37,6 +37,19 @@ std::string without_subject(const std::string &message) {
     return message.starts_with(subject) ? message.substr(subject.size()) : message;
 }
 
+// "part.ptfilm: seed = 7: must be 8, as in this context", a line for each difference.
+std::string film_words(const std::string &path, const LibraryError &error) {
+    if (error.rules.empty())
+        return path + ": " + without_subject(error.message);
+    return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
+}
+
+// Of calls whose film is the user's.
+void require_film(pt_result result, const std::string &path, const pt_context *context = nullptr) {
+    if (result < 0)
+        throw Failure(exit_code_of(result), film_words(path, last_error(context)));
+}
+
 // Of the lowest levels the sums of 1920x1080 pixels take a seventh of their size at 1.2 GB/s a processor with 1, at 2.9
 // GB/s with -1, which makes files 6% larger: cli/README.md says how that was measured.
 constexpr int compression_level = -1;
@@ -71,15 +84,11 @@ std::vector<std::byte> unpacked(const std::string &path, std::span<const std::by
 } // namespace
 
 FilmHandle::FilmHandle(const std::string &path, std::span<const std::byte> bytes) {
-    const pt_result result = pt_open_film(bytes.data(), bytes.size(), &film_);
-    if (result < 0)
-        throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
+    require_film(pt_open_film(bytes.data(), bytes.size(), &film_), path);
 }
 
 void FilmHandle::merge(const std::string &path, std::span<const std::byte> bytes) {
-    const pt_result result = pt_merge_film(film_, bytes.data(), bytes.size());
-    if (result < 0)
-        throw Failure(exit_code_of(result), film_words(path, last_error(nullptr)));
+    require_film(pt_merge_film(film_, bytes.data(), bytes.size()), path);
 }
 
 pt_film_info FilmHandle::info() const {
@@ -134,22 +143,8 @@ void save_film(const Context &context, std::vector<std::byte> &bytes) {
     context.require(pt_save_film(context.get(), bytes.data(), &size));
 }
 
-std::vector<std::byte> saved_film(const Context &context) {
-    std::vector<std::byte> bytes;
-    save_film(context, bytes);
-    return bytes;
-}
-
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes) {
-    const pt_result result = pt_add_film(context.get(), bytes.data(), bytes.size());
-    if (result < 0)
-        throw Failure(exit_code_of(result), film_words(path, context.last_error()));
-}
-
-std::string film_words(const std::string &path, const LibraryError &error) {
-    if (error.rules.empty())
-        return path + ": " + without_subject(error.message);
-    return error.in_words([&](const BrokenRule &rule) { return words_of(path, rule); });
+    require_film(pt_add_film(context.get(), bytes.data(), bytes.size()), path, context.get());
 }
 
 std::string ranges_text(const std::vector<pt_sample_range> &ranges) {

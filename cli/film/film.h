@@ -41,14 +41,9 @@ private:
 // The samples so far, of which there is one at least; bytes: memory to be used again.
 void save_film(const Context &context, std::vector<std::byte> &bytes);
 
-std::vector<std::byte> saved_film(const Context &context);
-
 // Adds a film to the samples of the context. path: what it is called in messages. Throws Failure(ExitCode::usage) with
 // a line for each way in which it does not belong.
 void add_film(const Context &context, const std::string &path, std::span<const std::byte> bytes);
-
-// "part.ptfilm: seed = 7: must be 8, as in this context", a line for each difference.
-std::string film_words(const std::string &path, const LibraryError &error);
 
 // "[0, 64), [128, 256)"; "none" of none.
 std::string ranges_text(const std::vector<pt_sample_range> &ranges);

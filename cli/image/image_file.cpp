@@ -12,26 +12,20 @@
 namespace cli {
 namespace {
 
-std::optional<std::size_t> find_channel(const DecodedImage &image, const std::string &name) {
-    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
-    return found == image.channels.end() ? std::nullopt
-                                         : std::optional(static_cast<std::size_t>(found - image.channels.begin()));
-}
-
 std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::string &layer) {
     std::array<std::size_t, 3> channels{};
-    const std::string prefix = layer.empty() ? "" : layer + ".";
     for (std::size_t i = 0; i < 3; ++i) {
-        auto found = find_channel(image, prefix + "RGB"[i]);
-        found = found || layer.empty() ? found : find_channel(image, prefix + "XYZ"[i]);
-        found = found || layer.empty() ? found : find_channel(image, layer);
-        if (!found) {
-            throw Failure(ExitCode::file,
-                          "cannot read " + image.path + ": must have the channels R, G and B" +
-                              (layer.empty() ? "" : " of the layer " + layer + ", or a channel of that name") +
-                              ", has " + listed(image.channels));
-        }
-        channels[i] = *found;
+        const std::string color{"RGB"[i]};
+        const std::string component{"XYZ"[i]};
+        const auto names =
+            layer.empty() ? std::vector{color} : std::vector{layer + "." + color, layer + "." + component, layer};
+        const auto name = std::ranges::find_first_of(names, image.channels);
+        refuse_if(name == names.end(),
+                  "cannot read " + image.path + ": must have the channels R, G and B" +
+                      (layer.empty() ? "" : " of the layer " + layer + ", or a channel of that name") + ", has " +
+                      listed(image.channels),
+                  ExitCode::file);
+        channels[i] = static_cast<std::size_t>(std::ranges::find(image.channels, *name) - image.channels.begin());
     }
     return channels;
 }
@@ -62,10 +56,6 @@ std::uint32_t longest_side(ImageFormat format) {
 }
 
 void check_image_names(std::span<const std::string> paths, std::optional<ImageFormat> format) {
-    const auto refuse_if = [](bool is_refused, const std::string &message) {
-        if (is_refused)
-            throw Failure(ExitCode::usage, message);
-    };
     const bool to_standard_output = std::ranges::find(paths, standard_stream) != paths.end();
     refuse_if(to_standard_output && !format, "-o -: standard output needs --format exr, png or jpg");
     refuse_if(to_standard_output && isatty(STDOUT_FILENO) == 1,
@@ -83,10 +73,8 @@ ImageTarget image_target(const std::string &path, std::optional<ImageFormat> for
 void check_image_target(const ImageTarget &target, const ImageWindow &window) {
     const std::uint32_t side = std::max(window.part.width, window.part.height);
     const std::uint32_t longest = longest_side(target.format);
-    if (side > longest) {
-        throw Failure(ExitCode::usage, concat("-o ", target.path, ": this format holds at most ", longest,
-                                              " pixels a side, not ", side));
-    }
+    refuse_if(side > longest,
+              concat("-o ", target.path, ": this format holds at most ", longest, " pixels a side, not ", side));
     if (target.path != standard_stream)
         AtomicFile::check_writable(target.path);
 }
@@ -96,11 +84,10 @@ std::filesystem::path module_path() {
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
     std::filesystem::path path = program.parent_path() / PT_MODULE_DIRECTORY / "libpt-image-file.so";
     path = path.lexically_normal();
-    if (access(path.c_str(), R_OK) != 0) {
-        throw Failure(ExitCode::file, "EXR and JPEG need the image module, and there is no " + path.string() +
-                                          ": install the package pt-image-formats, or libopenimageio-dev before "
-                                          "building pt; PNG needs neither");
-    }
+    refuse_if(access(path.c_str(), R_OK) != 0,
+              "EXR and JPEG need the image module, and there is no " + path.string() +
+                  ": install the package pt-image-formats, or libopenimageio-dev before building pt; PNG needs neither",
+              ExitCode::file);
     return path;
 }
 

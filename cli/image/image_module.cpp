@@ -3,15 +3,11 @@
 #include "cli/image/image_module.h"
 
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include <array>
 #include <bit>
 #include <memory>
 #include <stdexcept>
-#include <string_view>
 
 namespace {
 

@@ -33,16 +33,9 @@ struct Rectangle {
 
 // "10,20,640,480": x, y, width and height. Nothing unless all four are whole numbers.
 inline std::optional<Rectangle> parse_rectangle(std::string_view text) {
-    std::array<std::uint32_t, 4> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const std::size_t comma = i + 1 < numbers.size() ? text.find(',') : text.size();
-        const auto number = parse_number<std::uint32_t>(text.substr(0, comma));
-        if (!number || comma == std::string_view::npos)
-            return std::nullopt;
-        numbers[i] = *number;
-        text.remove_prefix(std::min(comma + 1, text.size()));
-    }
-    return Rectangle{numbers[0], numbers[1], numbers[2], numbers[3]};
+    const auto numbers = parse_numbers<4>(text, ',');
+    return numbers ? std::optional(Rectangle{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]})
+                   : std::nullopt;
 }
 
 struct ImageWindow {

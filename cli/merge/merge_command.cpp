@@ -46,8 +46,8 @@ struct MergeReport {
 
 void check(const MergeOptions &options) {
     const OutputOptions &output = options.output;
-    if (output.images.empty() && output.film.empty() && output.standard_error.empty() && output.stats.empty())
-        throw Failure(ExitCode::usage, "-o, --film, --standard-error or --stats is missing: there is nothing to write");
+    refuse_if(output.images.empty() && output.film.empty() && output.standard_error.empty() && output.stats.empty(),
+              "-o, --film, --standard-error or --stats is missing: there is nothing to write");
     std::vector<NamedFile> parts;
     for (const std::string &part : options.parts)
         parts.push_back({"the part", part});
@@ -185,16 +185,16 @@ std::string missing_text(const MergeReport &report) {
 // Whether all files could be written.
 bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeReport &report) {
     const OutputOptions &output = options.output;
-    const std::vector<float> radiance = film.read_image(PT_QUANTITY_RADIANCE);
-    const std::vector<float> standard_error =
-        output.standard_error.empty() ? std::vector<float>() : film.read_image(PT_QUANTITY_STANDARD_ERROR);
+    RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
+    if (!output.standard_error.empty())
+        image.standard_error = film.read_image(PT_QUANTITY_STANDARD_ERROR);
     const Display display = display_of(options.display);
     if (needs_tone_map(output))
-        report.picture.tone_map = display.tone_map(radiance);
+        report.picture.tone_map = display.tone_map(image.radiance);
     report.picture.automatic_exposure = report.picture.tone_map && !display.exposure;
     ImageWriter writer;
-    const std::size_t written = write_images(writer, output, report.picture, {radiance, standard_error, {}}).size();
-    const bool has_film = output.film.empty() || write_film([&] { return film.bytes(); }, output.film);
+    const std::size_t written = write_images(writer, output, report.picture, image).size();
+    const bool has_film = output.film.empty() || write_film(output.film, film.bytes());
     write_report_file(output.stats, json_text(stats_json(report)));
     return has_film && written == output_count(output);
 }
@@ -225,24 +225,23 @@ constexpr const char *merge_help =
 } // namespace
 
 void add_merge_command(CLI::App &program, Run &chosen) {
-    const auto options = std::make_shared<MergeOptions>();
-    CLI::App &command = add_command(program, chosen, "merge", "Add films of one picture that were rendered apart",
-                                    merge_help, [options] { return run_merge(*options); });
-    command.add_option("PART", options->parts, "Films of one picture (pt render --film or --checkpoint), in any order")
+    const auto [command, options] = add_command(
+        program, chosen, "merge", "Add films of one picture that were rendered apart", merge_help, &run_merge);
+    command.add_option("PART", options.parts, "Films of one picture (pt render --film or --checkpoint), in any order")
         ->required()
         ->type_name("PART");
-    add_output_options(command, options->output);
+    add_output_options(command, options.output);
     command.option_defaults()->group("Samples");
-    add_number<std::uint32_t>(command, "--first-sample", natural_number, options->first_sample,
+    add_number<std::uint32_t>(command, "--first-sample", natural_number, options.first_sample,
                               "First of the samples that there should be (default: the first there is)");
     add_number<std::uint32_t>(
-        command, "--spp", positive_number, options->sample_count,
+        command, "--spp", positive_number, options.sample_count,
         "How many there should be from there on; those missing are told, with exit code 7 (default: up to the "
         "last there is)");
-    add_scene_options(command, options->display, false);
-    add_png_bits(command, options->output.png_bits);
+    add_scene_options(command, options.display, false);
+    add_png_bits(command, options.output.png_bits);
     command.option_defaults()->group("Messages");
-    add_quiet(command, options->output.quiet);
+    add_quiet(command, options.output.quiet);
 }
 
 } // namespace cli

@@ -15,13 +15,9 @@ void require_first_samples(const std::string &path, const std::vector<pt_sample_
                            const RenderTask &task) {
     const std::uint64_t first = task.render.first_sample;
     const pt_sample_range wanted{first, first + task.sample_count};
-    const bool are_first =
-        ranges.size() == 1 && ranges.front().first == wanted.first && ranges.front().end <= wanted.end;
-    if (!are_first) {
-        throw Failure(ExitCode::usage, path + ": has the samples " + ranges_text(ranges) +
-                                           ", which are not the first ones of " + ranges_text({wanted}) +
-                                           ", those of --first-sample and --spp");
-    }
+    refuse_if(ranges.size() != 1 || ranges.front().first != wanted.first || ranges.front().end > wanted.end,
+              path + ": has the samples " + ranges_text(ranges) + ", which are not the first ones of " +
+                  ranges_text({wanted}) + ", those of --first-sample and --spp");
 }
 
 } // namespace
@@ -39,13 +35,13 @@ void Checkpoint::step(std::uint32_t sample_count) {
         save(sample_count);
 }
 
-void Checkpoint::finish(std::uint32_t sample_count) {
+bool Checkpoint::finish(std::uint32_t sample_count) {
     take_in();
     if (sample_count > 0 && sample_count != written_count_) {
         save(sample_count);
         take_in();
     }
-    is_valid_ = sample_count > 0 && sample_count == written_count_;
+    return sample_count > 0 && sample_count == written_count_;
 }
 
 // The device waits while the film is copied, and no longer. The next checkpoint begins early enough to be there one

@@ -24,11 +24,9 @@ public:
     // Writes one if it is due. sample_count: of a pixel on the average.
     void step(std::uint32_t sample_count);
 
-    // Writes what the file does not have yet of these samples. Afterwards nothing is under way.
-    void finish(std::uint32_t sample_count);
-
-    // Whether the file has all the samples that finish() was told of.
-    bool is_valid() const { return is_valid_; }
+    // Writes what the file does not have yet of these samples, if there are any. Afterwards nothing is under way.
+    // Returns whether the file has all of them.
+    bool finish(std::uint32_t sample_count);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -47,7 +45,6 @@ private:
     std::chrono::duration<double> write_time_{0}; // of the last one
     std::uint32_t saved_count_ = 0;               // samples of the film that was written last, or is being written
     std::uint32_t written_count_ = 0;             // samples in the file, as far as this run has written it
-    bool is_valid_ = false;
     bool has_told_failure_ = false;
     std::vector<std::byte> film_;
     BackgroundTask task_; // destroyed first: it uses the others

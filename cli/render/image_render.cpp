@@ -64,7 +64,7 @@ bool add_piece(const Context &context, std::uint32_t rows, RenderedImage &image)
     join(image, stats, context.error_estimate(), rows);
     const auto read = [&](std::uint32_t quantity, std::vector<float> &values) {
         const std::size_t first = std::size_t{3} * image.part.width * image.rows_done;
-        context.read_columns(image.part.x, image.part.width, rows, quantity, &values[first]);
+        context.read(image.part.x, image.part.width, rows, quantity, &values[first]);
     };
     read(PT_QUANTITY_RADIANCE, image.radiance);
     if (!image.standard_error.empty())
@@ -129,9 +129,9 @@ ImageRender::Result ImageRender::run() {
     if (image_.rows_done == 0)
         image_.stats = context_.stats();
     preview_task_.finish();
-    if (checkpoint_)
-        checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
-    return {std::move(image_), has_timed_out_, checkpoint_ && checkpoint_->is_valid()};
+    const bool has_checkpoint =
+        checkpoint_ && checkpoint_->finish(static_cast<std::uint32_t>(std::lround(image_.stats.mean_sample_count)));
+    return {std::move(image_), has_timed_out_, has_checkpoint};
 }
 
 void ImageRender::enter_piece() {

@@ -47,16 +47,6 @@ inline std::uint32_t forecast_sample_count(std::uint32_t sample_count, double er
 // Says that no more samples are to be taken: a signal has come, or nothing would become of them. True for good then.
 using Stop = std::function<bool()>;
 
-struct RenderedImage {
-    Rectangle part;                    // of the picture: the task's window
-    std::vector<float> radiance;       // of this part; black below rows_done
-    std::vector<float> standard_error; // empty if it was not asked for
-    std::vector<PictureLayer> layers;  // likewise
-    std::uint32_t rows_done;           // of it, with samples
-    pt_stats stats;                    // of these rows; sample_count is the least of the pieces
-    pt_error_estimate error;           // likewise
-};
-
 // Hands the render settings over for the first piece, and returns how many rows a piece has: as many as the options say
 // or all of the window's, halved until the device has the memory. Throws Failure.
 std::uint32_t fit_pieces(const Context &context, const RenderTask &task);

@@ -44,12 +44,12 @@ PictureLayer::PictureLayer(std::uint32_t of_quantity, std::size_t pixel_count) :
 void PictureLayer::read(const Context &context, const Rectangle &part, std::uint32_t first_row, std::uint32_t rows) {
     const std::size_t first = std::size_t{part.width} * first_row;
     if (!numbers.empty()) {
-        context.read_objects(part.x, part.width, rows, &numbers[first]);
+        context.read(part.x, part.width, rows, quantity, &numbers[first]);
     } else if (file_layer(quantity).channel_count == 3) {
-        context.read_columns(part.x, part.width, rows, quantity, &values[3 * first]);
+        context.read(part.x, part.width, rows, quantity, &values[3 * first]);
     } else {
         std::vector<float> alike(std::size_t{3} * part.width * rows);
-        context.read_columns(part.x, part.width, rows, quantity, alike.data());
+        context.read(part.x, part.width, rows, quantity, alike.data());
         for (std::size_t pixel = 0; pixel < alike.size() / 3; ++pixel)
             values[first + pixel] = alike[3 * pixel];
     }

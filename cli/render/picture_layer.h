@@ -1,5 +1,5 @@
-// What the options --layers and --alpha add to an image beside the radiance: read from the library, and named by the
-// customs of OpenEXR.
+// The layers of a picture: what the options --layers and --alpha add to an image beside the radiance, read from the
+// library and named by the customs of OpenEXR.
 #pragma once
 
 #include "cli/base/context.h"
@@ -36,6 +36,17 @@ struct PictureLayer {
 
     // As it is in a file; refers to this.
     ImageLayer in_file() const;
+};
+
+// What is rendered of a picture, from which its files are made.
+struct RenderedImage {
+    Rectangle part;                     // of the picture
+    std::vector<float> radiance;        // of this part; black below rows_done
+    std::vector<float> standard_error;  // empty if it was not asked for
+    std::vector<PictureLayer> layers{}; // likewise; each .exr of the radiance has them, .png the alpha
+    std::uint32_t rows_done = 0;        // of it, with samples
+    pt_stats stats{};                   // of these rows; sample_count is the least of the pieces
+    pt_error_estimate error{};          // likewise
 };
 
 } // namespace cli

@@ -15,8 +15,7 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     RenderTimes times;
     if (!options.parts)
         check_names(options);
-    SceneText text = read_scene_text(options.scene);
-    RenderTask task(options, parse_scene(std::move(text.text), text.path, options.overrides));
+    RenderTask task(options, read_scene_file(options.scene, options.overrides));
     task.load();
     if (options.parts)
         return render_parts(task, log);
@@ -29,23 +28,15 @@ int render_once(const RenderOptions &options, ValidationLog &log) {
     return exit_code_of(outcome, interrupt_signal());
 }
 
-void number_name(const std::string &option, std::string &path, std::uint32_t frame) {
-    const std::optional<std::string> name = numbered_name(path, frame);
-    if (!name && !path.empty()) {
-        throw Failure(ExitCode::usage,
-                      option + " " + path + ": with --frames the name must have # signs, for the number of the frame");
-    }
-    path = name.value_or("");
-}
-
 RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame) {
     RenderOptions numbered = options;
-    OutputOptions &output = numbered.output;
-    for (std::string &path : output.images)
-        number_name("-o", path, frame);
-    number_name("--standard-error", output.standard_error, frame);
-    number_name("--film", output.film, frame);
-    number_name("--stats", output.stats, frame);
+    for_each_output(numbered.output, [&](const char *option, std::string &path) {
+        const std::optional<std::string> name = numbered_name(path, frame);
+        refuse_if(!name && !path.empty(), concat(option, " ", path,
+                                                 ": with --frames the name must have # signs, for "
+                                                 "the number of the frame"));
+        path = name.value_or("");
+    });
     return numbered;
 }
 
@@ -66,10 +57,9 @@ public:
     FramesRender(const RenderOptions &options, ValidationLog &log) :
         options_(options),
         log_(log),
-        text_(read_scene_text(options.scene)),
-        scene_(parse_scene(text_.text, text_.path, options.overrides)) {
-        if (scene_.animation.empty())
-            throw Failure(ExitCode::scene, scene_.path + ": has no animation, of which --frames are rendered");
+        scene_(read_scene_file(options.scene, options.overrides)) {
+        refuse_if(scene_.animation.empty(), scene_.path + ": has no animation, of which --frames are rendered",
+                  ExitCode::scene);
     }
 
     int run() {
@@ -93,8 +83,7 @@ public:
 
     int parts() const {
         const FrameRange frames = options_.frames.value();
-        if (frames.first != frames.last)
-            throw Failure(ExitCode::usage, "--parts: takes --frames of one frame at a time");
+        refuse_if(frames.first != frames.last, "--parts: takes --frames of one frame at a time");
         return render_parts(task_of(options_, frames.first), log_);
     }
 
@@ -104,7 +93,7 @@ private:
     RenderTask task_of(const RenderOptions &options, std::uint32_t frame) const {
         std::vector<SceneOverride> overrides = overrides_of_frame(scene_, frame);
         overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
-        RenderTask task(options, parse_scene(text_.text, text_.path, std::move(overrides)));
+        RenderTask task(options, parse_scene(scene_.text, scene_.path, std::move(overrides)));
         task.load();
         task.render.seed += frame;
         return task;
@@ -125,8 +114,7 @@ private:
 
     const RenderOptions &options_;
     ValidationLog &log_;
-    SceneText text_; // read once, so that all frames are of one scene
-    SceneFile scene_;
+    SceneFile scene_;                // read once, so that all frames are of one scene
     std::optional<Context> context_; // for all frames: kernels are kept
     bool is_target_missed_ = false;
 };

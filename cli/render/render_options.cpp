@@ -34,12 +34,13 @@ std::vector<std::uint32_t> parse_layers(const std::string &text) {
 
 // An option whose text parse() turns into an optional value; rule: what is said if it cannot.
 template <typename Target, typename Parse>
-CLI::Option *add_parsed(CLI::App &command, const std::string &name, std::optional<Target> &target, Parse parse,
+CLI::Option *add_parsed(CLI::App &command, const std::string &name, Target &target, Parse parse,
                         const std::string &rule, const std::string &help) {
     const auto read = [&target, name, parse, rule](const std::string &text) {
-        target = parse(text);
-        if (!target)
+        const auto value = parse(text);
+        if (!value)
             refuse_option(name, rule, text);
+        target = *value;
     };
     return command.add_option_function<std::string>(name, read, help);
 }
@@ -66,15 +67,12 @@ void add_picture_options(CLI::App &command, RenderOptions &options) {
 
 void add_sampling_options(CLI::App &command, RenderOptions &options) {
     command.option_defaults()->group("Samples");
-    const auto read_error = [&options](const std::string &text) {
-        options.target_error = parse_share(text).value_or(0.0);
-        if (options.target_error <= 0.0)
-            refuse_option("--error", "must be a number above 0 like 0.005 or 0.5%", text);
+    const auto parse_error = [](std::string_view text) {
+        const std::optional<double> share = parse_share(text);
+        return share > 0.0 ? share : std::nullopt;
     };
-    command
-        .add_option_function<std::string>(
-            "--error", read_error,
-            "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take all samples)")
+    add_parsed(command, "--error", options.target_error, parse_error, "must be a number above 0 like 0.005 or 0.5%",
+               "Stop at this relative error, like 0.5% or 0.005; 2 means 200% (default: take all samples)")
         ->type_name("E");
     add_name(
         command, "--sampling", options.sampling, [](std::string_view name) { return samplings.find(name); },
@@ -189,12 +187,10 @@ void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span
 }
 
 void add_png_bits(CLI::App &command, std::uint32_t &bits) {
-    const auto read = [&bits](const std::string &text) {
-        if (text != "8" && text != "16")
-            refuse_option("--png-bits", "must be 8 or 16", text);
-        bits = text == "8" ? 8 : 16;
+    const auto parse = [](std::string_view text) {
+        return text == "8" ? std::optional(8U) : text == "16" ? std::optional(16U) : std::nullopt;
     };
-    command.add_option_function<std::string>("--png-bits", read, "Bits of a channel in .png (default: 8)")
+    add_parsed(command, "--png-bits", bits, parse, "must be 8 or 16", "Bits of a channel in .png (default: 8)")
         ->type_name("8|16")
         ->group("Display (.png and .jpg only)");
 }
@@ -225,10 +221,8 @@ std::vector<std::uint32_t> RenderOptions::wanted_layers() const {
 }
 
 void add_render_command(CLI::App &program, Run &chosen) {
-    const auto shared = std::make_shared<RenderOptions>();
-    RenderOptions &options = *shared;
-    CLI::App &command = add_command(program, chosen, "render", "Render a scene file to images", render_help,
-                                    [shared] { return run_render(*shared); });
+    const auto [command, options] =
+        add_command(program, chosen, "render", "Render a scene file to images", render_help, &run_render);
     add_text(command, "SCENE", options.scene, "SCENE", "Scene file (JSON); - is standard input")->required();
     add_output_options(command, options.output);
     add_scene_options(command, options.overrides, true);

@@ -62,6 +62,16 @@ struct OutputOptions {
     bool takes_standard_output() const;
 };
 
+// All files that are written, as use(option, path).
+template <typename Options, typename Use>
+void for_each_output(Options &options, Use use) {
+    for (auto &path : options.images)
+        use("-o", path);
+    use("--standard-error", options.standard_error);
+    use("--film", options.film);
+    use("--stats", options.stats);
+}
+
 // The options write into `options` when the command line is parsed. All but those of quiet and png_bits.
 void add_output_options(CLI::App &command, OutputOptions &options);
 

@@ -30,14 +30,20 @@ void write_image(ImageWriter &writer, const ImageTarget &target, const OutputOpt
     }
 }
 
+// False, and said on stderr, if that is not possible.
+bool succeeds(const std::function<void()> &write) {
+    try {
+        write();
+        return true;
+    } catch (const Failure &failure) {
+        print_message(failure.what());
+        return false;
+    }
+}
+
 bool has_format(const OutputOptions &options, ImageFormat format) {
     const std::vector<ImageTarget> targets = options.targets();
     return std::ranges::any_of(targets, [&](const ImageTarget &target) { return target.format == format; });
-}
-
-void refuse_if(bool is_refused, const std::string &message) {
-    if (is_refused)
-        throw Failure(ExitCode::usage, message);
 }
 
 // What only makes sense with something else, or without it.
@@ -84,13 +90,8 @@ void check_checkpoint(const RenderOptions &options) {
 } // namespace
 
 std::vector<NamedFile> outputs_of(const OutputOptions &options, const std::string &checkpoint) {
-    std::vector<NamedFile> outputs;
-    for (const std::string &path : options.images)
-        outputs.push_back({"-o", path});
-    outputs.insert(outputs.end(), {{"--standard-error", options.standard_error},
-                                   {"--film", options.film},
-                                   {"--checkpoint", checkpoint},
-                                   {"--stats", options.stats}});
+    std::vector<NamedFile> outputs{{"--checkpoint", checkpoint}};
+    for_each_output(options, [&](const char *option, const std::string &path) { outputs.push_back({option, path}); });
     return outputs;
 }
 
@@ -141,34 +142,22 @@ OutputOptions without_standard_output(OutputOptions options) {
     return options;
 }
 
-bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path) {
-    try {
-        write_film_file(path, film());
-        return true;
-    } catch (const Failure &failure) {
-        if (failure.code() != ExitCode::file)
-            throw;
-        print_message(failure.what());
-        return false;
-    }
+bool write_film(const std::string &path, std::span<const std::byte> film) {
+    return succeeds([&] { write_film_file(path, film); });
 }
 
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
-                                      const PictureImages &images) {
+                                      const RenderedImage &image) {
     std::vector<std::string> written;
     const auto write = [&](const ImageTarget &target, std::span<const float> values, std::uint32_t quantity,
                            std::span<const PictureLayer> layers) {
-        try {
-            write_image(writer, target, options, report, values, quantity, layers);
+        if (succeeds([&] { write_image(writer, target, options, report, values, quantity, layers); }))
             written.push_back(target.path == standard_stream ? "standard output" : target.path);
-        } catch (const Failure &failure) {
-            print_message(failure.what());
-        }
     };
     for (const ImageTarget &target : options.targets())
-        write(target, images.radiance, PT_QUANTITY_RADIANCE, images.layers);
+        write(target, image.radiance, PT_QUANTITY_RADIANCE, image.layers);
     if (!options.standard_error.empty())
-        write({options.standard_error, ImageFormat::exr}, images.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
+        write({options.standard_error, ImageFormat::exr}, image.standard_error, PT_QUANTITY_STANDARD_ERROR, {});
     return written;
 }
 

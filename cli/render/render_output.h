@@ -9,7 +9,6 @@
 #include "cli/render/render_task.h"
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,20 +32,13 @@ void check_files(const OutputOptions &options, const ImageWindow &window);
 // These files, and all else that can go wrong with the outputs and can be known before an hour of rendering.
 void check_outputs(const RenderTask &task);
 
-// What the files are made of.
-struct PictureImages {
-    std::span<const float> radiance;
-    std::span<const float> standard_error; // may be empty if no file of it is wanted
-    std::span<const PictureLayer> layers;  // that each .exr of radiance has too; .png takes the alpha of them
-};
-
 // Writes every image that can be written even if another cannot, and says on stderr which could not. Returns the paths
 // of those written, output_count() if all were.
 std::vector<std::string> write_images(ImageWriter &writer, const OutputOptions &options, const RenderReport &report,
-                                      const PictureImages &images);
+                                      const RenderedImage &image);
 
 // Writes a film. False if that is not possible, which is said on stderr.
-bool write_film(const std::function<std::vector<std::byte>()> &film, const std::string &path);
+bool write_film(const std::string &path, std::span<const std::byte> film);
 
 // Whether any output is in a format that the image module encodes; whether any is for a display.
 bool needs_module(const OutputOptions &options);

@@ -53,12 +53,11 @@ std::optional<Part> read_part(std::size_t all_tiles) {
     const auto [first, end, count] = header;
     std::vector<std::uint32_t> tiles(std::min<std::size_t>(count, all_tiles));
     const bool is_whole = read_words(tiles);
-    if (end <= first || count == 0 || count > all_tiles || !is_whole ||
-        std::any_of(tiles.begin(), tiles.end(), [&](std::uint32_t tile) { return tile >= all_tiles; })) {
-        throw Failure(ExitCode::usage, concat("--parts: a request must be of at least one sample and of 1 to ",
-                                              all_tiles, " tiles with indices below that, is of the samples from ",
-                                              first, " to ", end, " of ", count, " tiles"));
-    }
+    const bool has_tile = !tiles.empty() && *std::ranges::max_element(tiles) < all_tiles;
+    refuse_if(end <= first || !has_tile || count > all_tiles || !is_whole,
+              concat("--parts: a request must be of at least one sample and of 1 to ", all_tiles,
+                     " tiles with indices below that, is of the samples from ", first, " to ", end, " of ", count,
+                     " tiles"));
     Part part{first, std::vector<std::uint32_t>(all_tiles)};
     for (const std::uint32_t tile : tiles)
         part.tile_samples[tile] = end - first;
@@ -68,8 +67,8 @@ std::optional<Part> read_part(std::size_t all_tiles) {
 void write_answer(std::uint32_t device_kind, std::span<const std::byte> film) {
     std::cout << device_kind << ' ' << film.size() << '\n';
     std::cout.write(reinterpret_cast<const char *>(film.data()), static_cast<std::streamsize>(film.size()));
-    if (!std::cout.flush())
-        throw Failure(ExitCode::file, "--parts: the film of a part could not be written to standard output");
+    refuse_if(!std::cout.flush(), "--parts: the film of a part could not be written to standard output",
+              ExitCode::file);
 }
 
 class PartsRender {
@@ -111,9 +110,8 @@ int render_parts(const RenderTask &task, ValidationLog &log) {
     const std::size_t all_tiles = tiles(task.render.width) * tiles(task.render.height);
     std::optional<PartsRender> renderer;
     while (const std::optional<Part> part = read_part(all_tiles)) {
-        if (!renderer) {
+        if (!renderer)
             renderer.emplace(task, log);
-        }
         renderer->answer(*part);
     }
     return static_cast<int>(ExitCode::done);

@@ -28,9 +28,9 @@ double seconds_since(Clock::time_point start) {
 
 // False if that was stopped.
 bool take_scene(const Context &context, const RenderTask &task, const Stop &superseded) {
-    SceneProgress progress(std::cerr, progress_style(task.options), Clock::now());
+    Progress progress(std::cerr, progress_style(task.options), 0, 0, Clock::now());
     return describe_scene(context, task.scene, [&](double share) {
-        progress.update(share, Clock::now());
+        progress.update_scene(share, Clock::now());
         return interrupt_signal() == 0 && !superseded();
     });
 }
@@ -40,11 +40,10 @@ void require_one_piece(const RenderTask &task, std::uint32_t rows) {
     const RenderOptions &options = task.options;
     const std::string option = !options.checkpoint.empty() ? "--checkpoint" : "--film";
     const bool is_asked = !options.checkpoint.empty() || !options.output.film.empty();
-    if (is_asked && rows < task.window.part.height) {
-        throw Failure(ExitCode::usage, option + ": needs the whole image on the device, which " +
-                                           (options.piece_rows > 0 ? concat("--piece-rows ", rows, " forbids")
-                                                                   : concat("has room for ", rows, " rows at a time")));
-    }
+    refuse_if(is_asked && rows < task.window.part.height,
+              option + ": needs the whole image on the device, which " +
+                  (options.piece_rows > 0 ? concat("--piece-rows ", rows, " forbids")
+                                          : concat("has room for ", rows, " rows at a time")));
 }
 
 // Takes over what the checkpoint has.
@@ -82,10 +81,6 @@ void print_summary(const OutputOptions &output, const RenderReport &report, cons
                      output.takes_standard_output());
 }
 
-PictureImages images_of(const RenderedImage &image) {
-    return {image.radiance, image.standard_error, image.layers};
-}
-
 // Whether all images, and the film, could be written.
 bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask &task, RenderReport &report,
                    const RenderedImage &image, Clock::time_point start) {
@@ -94,8 +89,11 @@ bool write_outputs(ImageWriter &writer, const Context &context, const RenderTask
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     if (!output.quiet)
         print_warnings(warnings);
-    std::vector<std::string> written = write_images(writer, output, report, images_of(image));
-    if (!output.film.empty() && write_film([&] { return saved_film(context); }, output.film))
+    std::vector<std::string> written = write_images(writer, output, report, image);
+    std::vector<std::byte> film;
+    if (!output.film.empty())
+        save_film(context, film);
+    if (!output.film.empty() && write_film(output.film, film))
         written.push_back(output.film);
     report.total_seconds = seconds_since(start);
     write_report_file(output.stats, json_text(stats_json(report)));
@@ -164,7 +162,7 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         so_far.tone_map = tone_map_of(task, image.radiance);
         writer.wait();
         const OutputOptions files = without_standard_output(options.output); // a stream takes one image
-        return write_images(writer, files, so_far, images_of(image)).size() == output_count(files);
+        return write_images(writer, files, so_far, image).size() == output_count(files);
     };
     const Stop stop = [&] { return interrupt_signal() != 0 || writer.failed() || superseded(); };
     const Clock::time_point accumulate_start = Clock::now();

@@ -17,10 +17,9 @@ namespace {
 // Indices of samples end at 2^32 - 1.
 std::uint32_t limited_samples(std::uint32_t count, std::uint32_t first, bool is_upper_limit) {
     const std::uint64_t left = (std::uint64_t{1} << 32) - first;
-    if (count > left && !is_upper_limit) {
-        throw Failure(ExitCode::usage, concat("--first-sample ", first, ": ", count,
-                                              " samples from there on would pass the last index, 4294967295"));
-    }
+    refuse_if(count > left && !is_upper_limit,
+              concat("--first-sample ", first, ": ", count, " samples from there on would pass the last index, ",
+                     std::numeric_limits<std::uint32_t>::max()));
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(count, left));
 }
 
@@ -30,11 +29,9 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
         return window;
     const bool is_inside = crop->x < render.width && crop->width <= render.width - crop->x && crop->y < render.height &&
                            crop->height <= render.height - crop->y;
-    if (!is_inside || crop->pixel_count() == 0) {
-        throw Failure(ExitCode::usage, concat("--crop ", crop->x, ",", crop->y, ",", crop->width, ",", crop->height,
-                                              ": must be a part of the picture, of ", window_text(window),
-                                              " pixels, with at least one"));
-    }
+    refuse_if(!is_inside || crop->pixel_count() == 0,
+              concat("--crop ", crop->x, ",", crop->y, ",", crop->width, ",", crop->height,
+                     ": must be a part of the picture, of ", window_text(window), " pixels, with at least one"));
     window.part = *crop;
     return window;
 }

@@ -25,15 +25,15 @@ constexpr std::chrono::milliseconds patience{200};
 
 // A pipe can be read once, and its reader waits for its writer.
 void require_files(const RenderOptions &options) {
-    if (options.frames)
-        throw Failure(ExitCode::usage, "--watch: shows one picture, not --frames");
-    if (std::ranges::find(options.output.images, standard_stream) != options.output.images.end())
-        throw Failure(ExitCode::usage, "-o -: --watch needs a file, not standard output");
-    if (options.scene == standard_stream)
-        throw Failure(ExitCode::usage, "the scene -: --watch needs a file, not standard input");
+    const std::vector<std::string> &images = options.output.images;
+    refuse_if(options.frames.has_value(), "--watch: shows one picture, not --frames");
+    refuse_if(std::ranges::find(images, standard_stream) != images.end(),
+              "-o -: --watch needs a file, not standard output");
+    refuse_if(options.scene == standard_stream, "the scene -: --watch needs a file, not standard input");
     std::error_code ignored;
-    if (std::filesystem::exists(options.scene, ignored) && !std::filesystem::is_regular_file(options.scene, ignored))
-        throw Failure(ExitCode::usage, options.scene + ": not a regular file, which --watch needs");
+    refuse_if(std::filesystem::exists(options.scene, ignored) &&
+                  !std::filesystem::is_regular_file(options.scene, ignored),
+              options.scene + ": not a regular file, which --watch needs");
 }
 
 class WatchedRender {
@@ -84,8 +84,7 @@ private:
     void render() {
         RenderTimes times;
         check_names(options_);
-        SceneText text = read_scene_text(options_.scene);
-        RenderTask task(options_, parse_scene(std::move(text.text), text.path, options_.overrides));
+        RenderTask task(options_, read_scene_file(options_.scene, options_.overrides));
         const std::vector<std::string> columns = column_paths(task.scene);
         sources_.follow({columns.begin(), columns.end()}); // before they are read
         task.load();

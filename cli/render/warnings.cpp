@@ -85,24 +85,21 @@ std::optional<std::string> brightening_materials(const SceneFile &scene) {
     constexpr float tolerance = 1e-6F; // 0.1 + 0.9 in float32 may pass 1
     constexpr std::size_t most_names = 3;
     const std::vector<bool> used = used_materials(scene);
-    std::string names;
+    std::vector<std::string> names;
     std::size_t count = 0;
     float largest = 0.0F;
     for (std::size_t i = 0; i < used.size(); ++i) {
         const float share = reflected_share(scene.materials[i]);
         if (!used[i] || !(share > 1.0F + tolerance))
             continue;
-        if (++count <= most_names) {
-            names.append(count == 1 ? "" : ", ");
-            names.append(path_text({{"materials"}, {scene.material_names[i]}}));
-        }
+        if (++count <= most_names)
+            names.push_back(path_text({{"materials"}, {scene.material_names[i]}}));
         largest = std::max(largest, share);
     }
     if (count == 0)
         return std::nullopt;
-    if (count > most_names)
-        names.append(" and ").append(std::to_string(count - most_names)).append(" more");
-    return names + ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at the most") +
+    return listed(names) + (count > most_names ? concat(" and ", count - most_names, " more") : "") +
+           ": diffuse + specular = " + formatted("%.3g", largest) + (count == 1 ? "" : " at the most") +
            ": more light is reflected than received";
 }
 
@@ -136,8 +133,7 @@ std::optional<std::string> burnt_out_picture(const RenderReport &report, std::sp
 }
 
 bool is_black(std::span<const float> radiance) {
-    return !radiance.empty() &&
-           std::all_of(radiance.begin(), radiance.end(), [](float value) { return value == 0.0F; });
+    return !radiance.empty() && std::ranges::all_of(radiance, [](float value) { return value == 0.0F; });
 }
 
 // In the relative error light far below 0.1 counts as none (pt_error_estimate), so a picture that is dark all over is
@@ -157,8 +153,8 @@ std::optional<std::string> picture_below_its_target(const RenderReport &report, 
 
 // Whether a warning before has said so.
 bool is_known_to_be_black(const RenderReport &report) {
-    return std::any_of(report.warnings.begin(), report.warnings.end(),
-                       [](const std::string &warning) { return warning.ends_with("the picture is black"); });
+    return std::ranges::any_of(report.warnings,
+                               [](const auto &warning) { return warning.ends_with("the picture is black"); });
 }
 
 } // namespace

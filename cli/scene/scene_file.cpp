@@ -174,16 +174,10 @@ Display display_of(const std::vector<SceneOverride> &overrides) {
     return parse_scene("{}", "", overrides).display;
 }
 
-SceneFile read_scene_file(const std::string &path) {
-    SceneText scene = read_scene_text(path);
-    SceneFile file = parse_scene(std::move(scene.text), scene.path);
-    load_columns(file);
-    return file;
-}
-
-SceneText read_scene_text(const std::string &path) {
-    return path == standard_stream ? SceneText{"standard input", read_standard_input()}
-                                   : SceneText{path, read_file(path)};
+SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides) {
+    const bool is_stream = path == standard_stream;
+    return parse_scene(is_stream ? read_standard_input() : read_file(path), is_stream ? "standard input" : path,
+                       std::move(overrides));
 }
 
 } // namespace cli

@@ -81,16 +81,7 @@ SceneFile parse_scene(std::string text, const std::string &path, std::vector<Sce
 // What overrides of the section `film` say, where there is no scene file.
 Display display_of(const std::vector<SceneOverride> &overrides);
 
-// The path - is standard input. Reads the files of columns too. Throws Failure: ExitCode::file if a file cannot be
-// read, ExitCode::scene if it is not what it has to be.
-SceneFile read_scene_file(const std::string &path);
-
-// The text of a scene file, and what it is called in messages. path: "-" is standard input. Throws
-// Failure(ExitCode::file) if it cannot be read.
-struct SceneText {
-    std::string path;
-    std::string text;
-};
-SceneText read_scene_text(const std::string &path);
+// The same of a file, and of standard input, whose path is -. Throws Failure(ExitCode::file) if it cannot be read.
+SceneFile read_scene_file(const std::string &path, std::vector<SceneOverride> overrides = {});
 
 } // namespace cli

@@ -30,11 +30,11 @@ SceneOverride override_of(const SceneSection &section, const SceneKey &key, nloh
 
 void add_size(CLI::App &command, std::vector<SceneOverride> &overrides) {
     const auto read = [&overrides](const std::string &text) {
-        const auto size = parse_size(text);
+        const auto size = parse_numbers<2>(text, 'x'); // which are possible is the library's to say
         if (!size)
             refuse_option("--size", "must be two whole numbers like 1920x1080", text);
-        overrides.push_back({{{"film"}, {"width"}}, size->width, "--size: width", ExitCode::usage, true});
-        overrides.push_back({{{"film"}, {"height"}}, size->height, "--size: height", ExitCode::usage, true});
+        overrides.push_back({{{"film"}, {"width"}}, (*size)[0], "--size: width", ExitCode::usage, true});
+        overrides.push_back({{{"film"}, {"height"}}, (*size)[1], "--size: height", ExitCode::usage, true});
     };
     command.add_option_function<std::string>("--size", read, "Pixels (default: the scene's, else 512x512)")
         ->type_name("WxH")
@@ -56,8 +56,6 @@ void add_set(CLI::App &command, std::vector<SceneOverride> &overrides) {
         ->type_name("PATH=VALUE")
         ->group("Picture");
 }
-
-using nlohmann::json;
 
 // A key of the camera, of a material, of a sphere or of a plane.
 bool can_move(const JsonPath &path) {
@@ -106,12 +104,10 @@ json way_of(const AnimatedValue &value, std::uint32_t frame) {
 
 SceneOverride parse_override(const std::string &text) {
     const auto parsed = parse_path(text);
-    if (!parsed || !parsed->rest.starts_with('=') || parsed->path.size() < item_depth) {
-        throw Failure(ExitCode::usage,
-                      "--set " + text +
-                          ": must be a value within a section of the scene, like camera.vertical_fov=30 "
-                          "or spheres[0].radius=2");
-    }
+    refuse_if(!parsed || !parsed->rest.starts_with('=') || parsed->path.size() < item_depth,
+              "--set " + text +
+                  ": must be a value within a section of the scene, like camera.vertical_fov=30 or "
+                  "spheres[0].radius=2");
     const std::string value(parsed->rest.substr(1));
     json read = json::parse(value, nullptr, false);
     return {parsed->path, read.is_discarded() ? json(value) : std::move(read), "--set " + text, ExitCode::usage};

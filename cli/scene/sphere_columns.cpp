@@ -139,19 +139,19 @@ void for_each_file(AnyScene &scene, Use use) {
 
 // centers: with as many rows.
 void check_fit(const SceneKey &key, const NpyArray &array, const NpyArray &centers, const std::string &path) {
-    const auto refuse_if = [&](bool is_refused, const std::string &what) {
-        if (is_refused)
-            throw Failure(ExitCode::scene, path + ": has " + what);
+    const auto refuse_to_have = [&](bool is_refused, const std::string &what) {
+        refuse_if(is_refused, path + ": has " + what, ExitCode::scene);
     };
     const bool is_single = length_of(key) == 1;
-    refuse_if(is_single ? array.row_length != 0 : array.row_length != length_of(key),
-              concat("the shape (", array.row_count, ",", array.row_length == 0 ? "" : concat(" ", array.row_length),
-                     "), must be ", is_single ? "(N,)" : "(N, 3)"));
-    refuse_if(array.type == PT_TYPE_SRGB8 && !may_be_bytes(key),
-              "numbers of the type |u1, which colors alone may have; must be <f4 or <f8");
-    refuse_if(array.row_count > std::numeric_limits<std::uint32_t>::max(), "more than 4294967295 rows");
-    refuse_if(array.row_count != centers.row_count,
-              concat(array.row_count, " rows, and the centers ", centers.row_count));
+    refuse_to_have(is_single ? array.row_length != 0 : array.row_length != length_of(key),
+                   concat("the shape (", array.row_count, ",",
+                          array.row_length == 0 ? "" : concat(" ", array.row_length), "), must be ",
+                          is_single ? "(N,)" : "(N, 3)"));
+    refuse_to_have(array.type == PT_TYPE_SRGB8 && !may_be_bytes(key),
+                   "numbers of the type |u1, which colors alone may have; must be <f4 or <f8");
+    refuse_to_have(array.row_count > std::numeric_limits<std::uint32_t>::max(), "more than 4294967295 rows");
+    refuse_to_have(array.row_count != centers.row_count,
+                   concat(array.row_count, " rows, and the centers ", centers.row_count));
 }
 
 } // namespace

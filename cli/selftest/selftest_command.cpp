@@ -78,7 +78,10 @@ std::vector<float> render(const Context &context, const SceneFile &scene,
         info.sample_count = sample_count;
         context.require(pt_accumulate(context.get(), &info));
     }
-    return context.read_image(scene.render);
+    const pt_render &image = scene.render;
+    std::vector<float> radiance(std::size_t{3} * image.width * image.height);
+    context.read(0, image.width, image.height, PT_QUANTITY_RADIANCE, radiance.data());
+    return radiance;
 }
 
 double differing_values(std::span<const float> a, std::span<const float> b) {
@@ -145,16 +148,15 @@ constexpr const char *selftest_help =
 } // namespace
 
 void add_selftest_command(CLI::App &program, Run &chosen) {
-    const auto options = std::make_shared<SelftestOptions>();
-    CLI::App &command =
+    const auto [command, options] =
         add_command(program, chosen, "selftest", "Check a device against exact answers, in a second or so",
-                    selftest_help, [options] { return run_selftest(*options); });
-    add_device(command, options->device);
-    add_text(command, "--json", options->json, "JSON",
+                    selftest_help, &run_selftest);
+    add_device(command, options.device);
+    add_text(command, "--json", options.json, "JSON",
              "Write the same as JSON; - is standard output, the text then goes to stderr");
-    command.add_flag("--directions", options->directions,
+    command.add_flag("--directions", options.directions,
                      "Check the directions that kernels sample alone: means, second moments and sides");
-    add_shader_dir(command, options->shader_dir);
+    add_shader_dir(command, options.shader_dir);
 }
 
 bool SelftestReport::passed() const {

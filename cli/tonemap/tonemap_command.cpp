@@ -26,8 +26,8 @@ struct TonemapOptions {
 
 void check(const TonemapOptions &options) {
     check_image_names({&options.output, 1}, options.format);
-    if (image_target(options.output, options.format).format == ImageFormat::exr)
-        throw Failure(ExitCode::usage, options.output + ": a tone-mapped image is a .png or .jpg");
+    refuse_if(image_target(options.output, options.format).format == ImageFormat::exr,
+              options.output + ": a tone-mapped image is a .png or .jpg");
     require_distinct_files({{"the image", options.input}}, {{"the output", options.output}});
 }
 
@@ -50,10 +50,9 @@ ImageWindow window_of(const DecodedImage &image) {
 }
 
 std::vector<float> radiance_of(const DecodedImage &image) {
-    if (!image.is_float) {
-        throw Failure(ExitCode::file, "cannot read " + image.path +
-                                          ": holds whole numbers, as displays take them, not linear radiance");
-    }
+    refuse_if(!image.is_float,
+              "cannot read " + image.path + ": holds whole numbers, as displays take them, not linear radiance",
+              ExitCode::file);
     std::vector<float> radiance = image.layer("");
     const auto bad = std::find_if(radiance.begin(), radiance.end(), [](float value) { return !std::isfinite(value); });
     if (bad != radiance.end())
@@ -124,16 +123,15 @@ constexpr const char *tonemap_help =
 } // namespace
 
 void add_tonemap_command(CLI::App &program, Run &chosen) {
-    const auto options = std::make_shared<TonemapOptions>();
-    CLI::App &command =
+    const auto [command, options] =
         add_command(program, chosen, "tonemap", "Make a picture of a file of radiance, without rendering", tonemap_help,
-                    [options] { return run_tonemap(*options); });
-    add_text(command, "IN", options->input, "IN", "Linear radiance (.exr)")->required();
-    add_text(command, "OUT", options->output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
-    add_format(command, options->format, picture_format_names);
-    add_scene_options(command, options->display, false);
-    add_png_bits(command, options->png_bits);
-    add_quiet(command, options->quiet);
+                    &run_tonemap);
+    add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
+    add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
+    add_format(command, options.format, picture_format_names);
+    add_scene_options(command, options.display, false);
+    add_png_bits(command, options.png_bits);
+    add_quiet(command, options.quiet);
 }
 
 } // namespace cli

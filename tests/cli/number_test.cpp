@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <string_view>
+
 namespace {
 
 TEST(Number, ReadsTheWholeText) {
@@ -32,12 +35,10 @@ TEST(Number, Share) {
 }
 
 TEST(Number, Size) {
-    const auto size = cli::parse_size("1920x1080");
-    ASSERT_TRUE(size);
-    EXPECT_EQ(size->width, 1920U);
-    EXPECT_EQ(size->height, 1080U);
+    const auto parse_size = [](std::string_view text) { return cli::parse_numbers<2>(text, 'x'); };
+    EXPECT_EQ(parse_size("1920x1080"), (std::array{1920U, 1080U}));
     for (const char *text : {"", "x", "12", "12x", "x12", "1e9x1", "-1x5", "1x-5", "1x2x3", "1X2", "4294967296x1"}) {
-        EXPECT_FALSE(cli::parse_size(text)) << text;
+        EXPECT_FALSE(parse_size(text)) << text;
     }
 }
 

@@ -113,13 +113,13 @@ TEST(Progress, StyleFollowsTheTerminal) {
 }
 
 // A scene is mostly there before anybody looks.
-TEST(SceneProgress, IsALineThatGoesAway) {
+TEST(Progress, OfTheSceneIsALineThatGoesAway) {
     const auto output_after = [](ProgressStyle style, int milliseconds_in_all) {
         std::ostringstream output;
         {
-            cli::SceneProgress progress(output, style, start);
+            Progress progress(output, style, 0, 0, start);
             for (int i = 0; i <= milliseconds_in_all; ++i) {
-                progress.update(i / 1000.0, start + milliseconds(i));
+                progress.update_scene(i / 1000.0, start + milliseconds(i));
             }
         }
         return output.str();
