@@ -88,11 +88,11 @@ int run_devices(bool as_json) {
 } // namespace
 
 std::string kind_name(std::uint32_t kind) {
-    static constexpr MethodNames names({{"other", PT_DEVICE_OTHER},
-                                        {"integrated GPU", PT_DEVICE_INTEGRATED_GPU},
-                                        {"discrete GPU", PT_DEVICE_DISCRETE_GPU},
-                                        {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
-                                        {"CPU", PT_DEVICE_CPU}});
+    static constexpr ValueNames names({{"other", PT_DEVICE_OTHER},
+                                       {"integrated GPU", PT_DEVICE_INTEGRATED_GPU},
+                                       {"discrete GPU", PT_DEVICE_DISCRETE_GPU},
+                                       {"virtual GPU", PT_DEVICE_VIRTUAL_GPU},
+                                       {"CPU", PT_DEVICE_CPU}});
     return std::string(names.name(kind));
 }
 

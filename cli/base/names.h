@@ -1,5 +1,6 @@
-// The names of pt.h's samplers, estimators and ways to spread samples, of which a new one is one more line here:
-// options, scene files and reports follow. And which known name a misspelt one was probably meant to be.
+// Values by their names: those of pt.h's samplers, estimators and ways to spread samples, of which a new one is one
+// more line here: options, scene files and reports follow. And which known name a misspelt one was probably meant to
+// be.
 #pragma once
 
 #include <pt/pt.h>
@@ -15,37 +16,41 @@
 
 namespace cli {
 
-struct Method {
+template <typename Value>
+struct Named {
     std::string_view name;
-    std::uint32_t value;
+    Value value;
 };
 
-template <std::size_t Count>
-class MethodNames {
+template <std::size_t Count, typename Value = std::uint32_t>
+class ValueNames {
 public:
-    constexpr explicit MethodNames(const Method (&methods)[Count]) {
-        std::ranges::transform(methods, names_.begin(), &Method::name);
-        std::ranges::transform(methods, values_.begin(), &Method::value);
+    constexpr explicit ValueNames(const Named<Value> (&named)[Count]) {
+        std::ranges::transform(named, names_.begin(), &Named<Value>::name);
+        std::ranges::transform(named, values_.begin(), &Named<Value>::value);
     }
 
     constexpr std::span<const std::string_view> names() const { return names_; }
 
-    constexpr std::optional<std::uint32_t> find(std::string_view name) const {
+    constexpr std::optional<Value> find(std::string_view name) const {
         const auto found = std::ranges::find(names_, name);
         return found == names_.end() ? std::nullopt : std::optional(values_[std::size_t(found - names_.begin())]);
     }
 
-    // Throws std::out_of_range for a value that the table lacks.
-    constexpr std::string_view name(std::uint32_t value) const {
+    // The first one. Throws std::out_of_range for a value that the table lacks.
+    constexpr std::string_view name(Value value) const {
         return names_.at(std::size_t(std::ranges::find(values_, value) - values_.begin()));
     }
 
 private:
     std::array<std::string_view, Count> names_{};
-    std::array<std::uint32_t, Count> values_{};
+    std::array<Value, Count> values_{};
 };
 
-inline constexpr MethodNames samplers({
+template <std::size_t Count>
+ValueNames(const Named<std::uint32_t> (&)[Count]) -> ValueNames<Count>;
+
+inline constexpr ValueNames samplers({
     {"best", PT_SAMPLER_BEST},
     {"random", PT_SAMPLER_RANDOM},
     {"halton", PT_SAMPLER_HALTON},
@@ -53,13 +58,13 @@ inline constexpr MethodNames samplers({
     {"sobol", PT_SAMPLER_SOBOL},
 });
 
-inline constexpr MethodNames samplings({
+inline constexpr ValueNames samplings({
     {"best", PT_SAMPLING_BEST},
     {"uniform", PT_SAMPLING_UNIFORM},
     {"adaptive", PT_SAMPLING_ADAPTIVE},
 });
 
-inline constexpr MethodNames estimators({
+inline constexpr ValueNames estimators({
     {"best", PT_ESTIMATOR_BEST},
     {"uniform", PT_ESTIMATOR_UNIFORM},
     {"cosine", PT_ESTIMATOR_COSINE},

@@ -4,6 +4,7 @@
 #include "cli/base/file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <dlfcn.h>
 #include <stdexcept>
@@ -36,17 +37,7 @@ std::optional<ImageFormat> image_format(const std::string &path) {
     std::string extension = std::filesystem::path(path).extension();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension.empty() ? std::nullopt : find_image_format(extension.substr(1));
-}
-
-std::optional<ImageFormat> find_image_format(std::string_view name) {
-    if (name == "exr")
-        return ImageFormat::exr;
-    if (name == "png")
-        return ImageFormat::png;
-    if (name == "jpg" || name == "jpeg")
-        return ImageFormat::jpeg;
-    return std::nullopt;
+    return extension.empty() ? std::nullopt : image_formats.find(extension.substr(1));
 }
 
 std::uint32_t longest_side(ImageFormat format) {

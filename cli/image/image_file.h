@@ -2,9 +2,9 @@
 // other formats by the module of image_module.h.
 #pragma once
 
+#include "cli/base/names.h"
 #include "cli/image/image_module.h"
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +12,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace cli {
 
@@ -22,13 +21,12 @@ enum class ImageFormat {
     jpeg
 };
 
+// As in an extension; those that are tone-mapped come last.
+inline constexpr ValueNames<4, ImageFormat> image_formats(
+    {{"exr", ImageFormat::exr}, {"png", ImageFormat::png}, {"jpg", ImageFormat::jpeg}, {"jpeg", ImageFormat::jpeg}});
+
 // By the extension, whatever its case. Nothing if it is none of .exr, .png, .jpg and .jpeg.
 std::optional<ImageFormat> image_format(const std::string &path);
-
-// "exr", "png" or "jpg", as in an extension.
-std::optional<ImageFormat> find_image_format(std::string_view name);
-inline constexpr std::array<std::string_view, 4> image_format_names{"exr", "png", "jpg", "jpeg"};
-inline constexpr std::array<std::string_view, 3> picture_format_names{"png", "jpg", "jpeg"}; // that are tone-mapped
 
 // The longest side that the format, or the library that encodes it, can hold. To be checked before writing: libjpeg
 // ends the whole process if it is asked for more.

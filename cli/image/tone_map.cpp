@@ -155,13 +155,6 @@ std::vector<Signal> with_alpha(const std::vector<Signal> &colors, std::span<cons
 
 } // namespace
 
-std::optional<ToneCurve> find_tone_curve(std::string_view name) {
-    const auto found = std::find(tone_curve_names.begin(), tone_curve_names.end(), name);
-    if (found == tone_curve_names.end())
-        return std::nullopt;
-    return static_cast<ToneCurve>(found - tone_curve_names.begin());
-}
-
 Color apply_curve(ToneCurve curve, const Color &radiance) {
     switch (curve) {
     case ToneCurve::reinhard:
@@ -233,14 +226,14 @@ double automatic_exposure(std::span<const float> radiance) {
 }
 
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map) {
-    attributes.push_back({"pt.toneMap", std::string(tone_curve_names[static_cast<std::size_t>(tone_map.curve)])});
+    attributes.push_back({"pt.toneMap", std::string(tone_curves.name(tone_map.curve))});
     attributes.push_back({"pt.exposure", tone_map.exposure});
     attributes.push_back(tone_map.gamma ? ImageAttribute{"pt.gamma", *tone_map.gamma}
                                         : ImageAttribute{"pt.encoding", "sRGB"});
 }
 
-std::string automatic_exposure_line(const ToneMap &tone_map) {
-    return formatted("exposure %.2f EV (auto)\n", tone_map.exposure);
+std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map) {
+    return tone_map && tone_map->is_automatic ? formatted("exposure %.2f EV (auto)\n", tone_map->exposure) : "";
 }
 
 void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageData image,

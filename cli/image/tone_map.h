@@ -3,6 +3,7 @@
 // same bits.
 #pragma once
 
+#include "cli/base/names.h"
 #include "cli/image/image_file.h"
 
 #include <algorithm>
@@ -28,14 +29,17 @@ enum class ToneCurve {
     neutral   // Khronos PBR Neutral, 2024
 };
 
-inline constexpr std::array<std::string_view, 5> tone_curve_names{"none", "reinhard", "aces", "agx", "neutral"};
-
-std::optional<ToneCurve> find_tone_curve(std::string_view name);
+inline constexpr ValueNames<5, ToneCurve> tone_curves({{"none", ToneCurve::none},
+                                                       {"reinhard", ToneCurve::reinhard},
+                                                       {"aces", ToneCurve::aces},
+                                                       {"agx", ToneCurve::agx},
+                                                       {"neutral", ToneCurve::neutral}});
 
 struct ToneMap {
     double exposure = 0.0; // stops: radiance is multiplied by 2^exposure
     ToneCurve curve = ToneCurve::none;
     std::optional<double> gamma; // encode with the power 1 / gamma in place of the sRGB curve
+    bool is_automatic = false;   // whether the exposure follows from the picture
 };
 
 // Radiance >= 0 to light of the display, each component in [0, 1].
@@ -86,15 +90,15 @@ struct Display {
     std::optional<double> gamma; // nothing: the sRGB curve
 
     ToneMap tone_map(std::span<const float> radiance) const {
-        return {exposure ? *exposure : automatic_exposure(radiance), curve, gamma};
+        return {exposure ? *exposure : automatic_exposure(radiance), curve, gamma, !exposure};
     }
 };
 
 // What is done to the radiance, for the metadata.
 void add_tone_map(std::vector<ImageAttribute> &attributes, const ToneMap &tone_map);
 
-// "exposure -3.13 EV (auto)" and the end of the line.
-std::string automatic_exposure_line(const ToneMap &tone_map);
+// "exposure -3.13 EV (auto)" and the end of the line; empty where it was given, or nothing is tone-mapped.
+std::string automatic_exposure_line(const std::optional<ToneMap> &tone_map);
 
 // image: its window and attributes. radiance: R, G, B triples of the window's part, >= 0. png_bits: of a channel, 8 or
 // 16; JPEG has 8. alpha: of each pixel, by which its radiance is multiplied already; empty for none, and for JPEG.

@@ -188,10 +188,8 @@ bool write_outputs(const FilmHandle &film, const MergeOptions &options, MergeRep
     RenderedImage image{report.picture.window.part, film.read_image(PT_QUANTITY_RADIANCE), {}};
     if (!output.standard_error.empty())
         image.standard_error = film.read_image(PT_QUANTITY_STANDARD_ERROR);
-    const Display display = display_of(options.display);
     if (needs_tone_map(output))
-        report.picture.tone_map = display.tone_map(image.radiance);
-    report.picture.automatic_exposure = report.picture.tone_map && !display.exposure;
+        report.picture.tone_map = display_of(options.display).tone_map(image.radiance);
     ImageWriter writer;
     const std::size_t written = write_images(writer, output, report.picture, image).size();
     const bool has_film = output.film.empty() || write_film(output.film, film.bytes());
@@ -207,7 +205,7 @@ int run_merge(const MergeOptions &options) {
     if (!write_outputs(*film, options, report))
         return static_cast<int>(ExitCode::file);
     if (!options.output.quiet) {
-        print_for_people(summary_text(report) + "\n" + automatic_exposure_line(report.picture) +
+        print_for_people(summary_text(report) + "\n" + automatic_exposure_line(report.picture.tone_map) +
                              error_text(report.picture) + "\n",
                          options.output.takes_standard_output());
         print_message(missing_text(report));

@@ -12,7 +12,7 @@
 namespace cli {
 
 // By what they are, PT_QUANTITY_*. The radiance, which is the mean of the samples, is always there.
-inline constexpr MethodNames layer_names({
+inline constexpr ValueNames layer_names({
     {"mean", PT_QUANTITY_RADIANCE},
     {"standard-error", PT_QUANTITY_STANDARD_ERROR},
     {"sample-count", PT_QUANTITY_SAMPLE_COUNT},

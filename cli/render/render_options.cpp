@@ -181,8 +181,9 @@ bool OutputOptions::takes_standard_output() const {
 }
 
 void add_format(CLI::App &command, std::optional<ImageFormat> &format, std::span<const std::string_view> names) {
-    add_name(command, "--format", format, &find_image_format, "format", names,
-             "Format of the image that goes to standard output")
+    add_name(
+        command, "--format", format, [](std::string_view name) { return image_formats.find(name); }, "format", names,
+        "Format of the image that goes to standard output")
         ->group("Output");
 }
 
@@ -204,7 +205,7 @@ void add_output_options(CLI::App &command, OutputOptions &options) {
         ->expected(1)
         ->take_all()
         ->type_name("IMAGE");
-    add_format(command, options.format, image_format_names);
+    add_format(command, options.format, image_formats.names());
     add_text(command, "--standard-error", options.standard_error, "EXR",
              "Write the standard error of every pixel (.exr), estimated from two parts of its samples");
     add_text(command, "--film", options.film, "FILM",

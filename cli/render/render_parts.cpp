@@ -31,7 +31,7 @@ Json facts_of(const RenderTask &task) {
             {"target_error", task.options.target_error},
             {"sampling", task.options.sampling},
             {"exposure", display.exposure ? Json(*display.exposure) : Json("auto")},
-            {"tonemap", tone_curve_names.at(static_cast<std::size_t>(display.curve))},
+            {"tonemap", tone_curves.name(display.curve)},
             {"gamma", display.gamma ? Json(*display.gamma) : Json(nullptr)}};
 }
 

@@ -76,8 +76,8 @@ void print_pieces(const Context &context, const RenderTask &task, std::uint32_t 
 }
 
 void print_summary(const OutputOptions &output, const RenderReport &report, const std::vector<std::string> &written) {
-    print_for_people("wrote " + listed(written) + ": " + summary_text(report) + "\n" + automatic_exposure_line(report) +
-                         error_text(report) + "\n",
+    print_for_people("wrote " + listed(written) + ": " + summary_text(report) + "\n" +
+                         automatic_exposure_line(report.tone_map) + error_text(report) + "\n",
                      output.takes_standard_output());
 }
 
@@ -184,7 +184,6 @@ ExitCode render_picture(const Context &context, const RenderTask &task, const Re
         return ExitCode::signal;
     }
     report.tone_map = tone_map_of(task, image.radiance);
-    report.automatic_exposure = report.tone_map && !task.scene.display.exposure;
     writer.wait();
     const bool all_written = write_outputs(writer, context, task, report, image, times.start);
     if (interrupted && all_written)

@@ -16,21 +16,21 @@
 namespace cli {
 namespace {
 
-constexpr MethodNames feature_names({{"lamps", PT_FEATURE_LAMPS},
-                                     {"gloss", PT_FEATURE_GLOSS},
-                                     {"motion", PT_FEATURE_MOTION},
-                                     {"large", PT_FEATURE_LARGE},
-                                     {"tree", PT_FEATURE_TREE},
-                                     {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
-                                     {"hidden", PT_FEATURE_HIDDEN}});
-constexpr MethodNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
-                                         {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
-                                         {"unseen", PT_UNCERTAIN_UNSEEN},
-                                         {"unmet", PT_UNCERTAIN_UNMET}});
+constexpr ValueNames feature_names({{"lamps", PT_FEATURE_LAMPS},
+                                    {"gloss", PT_FEATURE_GLOSS},
+                                    {"motion", PT_FEATURE_MOTION},
+                                    {"large", PT_FEATURE_LARGE},
+                                    {"tree", PT_FEATURE_TREE},
+                                    {"orthographic", PT_FEATURE_ORTHOGRAPHIC},
+                                    {"hidden", PT_FEATURE_HIDDEN}});
+constexpr ValueNames uncertainty_names({{"rmse", PT_UNCERTAIN_RMSE},
+                                        {"relative_rmse", PT_UNCERTAIN_RELATIVE_RMSE},
+                                        {"unseen", PT_UNCERTAIN_UNSEEN},
+                                        {"unmet", PT_UNCERTAIN_UNMET}});
 
 // Of those bits that are set.
 template <std::size_t Count>
-std::vector<std::string_view> names_of(std::uint32_t bits, const MethodNames<Count> &all) {
+std::vector<std::string_view> names_of(std::uint32_t bits, const ValueNames<Count> &all) {
     std::vector<std::string_view> names;
     for (const std::string_view name : all.names())
         if ((bits & all.find(name).value()) != 0)
@@ -102,9 +102,9 @@ nlohmann::ordered_json tone_map_json(const RenderReport &report) {
     if (!report.tone_map)
         return nullptr;
     const ToneMap &map = *report.tone_map;
-    return {{"curve", tone_curve_names[static_cast<std::size_t>(map.curve)]},
+    return {{"curve", tone_curves.name(map.curve)},
             {"exposure", map.exposure},
-            {"automatic_exposure", report.automatic_exposure},
+            {"automatic_exposure", map.is_automatic},
             {"gamma", map.gamma ? nlohmann::ordered_json(*map.gamma) : nullptr}};
 }
 
@@ -161,10 +161,6 @@ nlohmann::ordered_json stats_json(const RenderReport &report) {
 std::string summary_text(const RenderReport &report) {
     return window_text(report.window) + ", " + samples_text(report.stats) +
            formatted(" spp in %.2f s on ", report.total_seconds) + report.device.name;
-}
-
-std::string automatic_exposure_line(const RenderReport &report) {
-    return report.automatic_exposure ? automatic_exposure_line(report.tone_map.value()) : "";
 }
 
 std::string error_text(const RenderReport &report) {

@@ -31,8 +31,7 @@ struct RenderReport {
     double accumulate_seconds;
     double total_seconds;
     std::optional<ToneMap> tone_map; // of .png and .jpg; nothing if none is written
-    bool automatic_exposure;
-    std::string ended_by; // "samples", "error", "time" or "signal"
+    std::string ended_by;            // "samples", "error", "time" or "signal"
     std::vector<std::string> warnings;
 
     bool target_reached() const { return target_error > 0.0 && error.relative_rmse_high <= target_error; }
@@ -46,9 +45,6 @@ nlohmann::ordered_json tone_map_json(const RenderReport &report);
 
 // "256x128, 64 spp in 1.23 s on llvmpipe"
 std::string summary_text(const RenderReport &report);
-
-// "exposure -3.13 EV (auto)" and the end of the line; empty where it was given, or nothing is tone-mapped.
-std::string automatic_exposure_line(const RenderReport &report);
 
 // "error 0.42% (0.40% to 0.44%); target reached after 64 samples", of the relative error.
 std::string error_text(const RenderReport &report);

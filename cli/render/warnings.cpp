@@ -125,7 +125,7 @@ std::optional<std::string> burnt_out_picture(const RenderReport &report, std::sp
     const double share = burnt_out_share(radiance, *report.tone_map);
     if (!(share > largest_share))
         return std::nullopt;
-    const std::string hint = report.automatic_exposure
+    const std::string hint = report.tone_map->is_automatic
                                  ? "a lower --exposure than " + formatted("%.2f", report.tone_map->exposure)
                                  : "--exposure auto, here " + formatted("%.2f", automatic_exposure(radiance));
     return formatted("%.0f%%", 100.0 * share) + " of the pixels are burnt out, with a channel at its maximum: try " +

@@ -103,9 +103,9 @@ constexpr std::array film_keys{
                  item.scene.display.exposure = value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
              },
              "--exposure"},
-    SceneKey{"tonemap", one_of("tone map", tone_curve_names), "Curve from radiance to light", "none", optional,
+    SceneKey{"tonemap", one_of("tone map", tone_curves.names()), "Curve from radiance to light", "none", optional,
              [](Item item, Value value) {
-                 item.scene.display.curve = find_tone_curve(value.get_ref<const std::string &>()).value();
+                 item.scene.display.curve = tone_curves.find(value.get_ref<const std::string &>()).value();
              },
              "--tonemap"},
     SceneKey{"gamma", number(0.1, 10.0), "Encode with the power 1 / gamma, in place of the sRGB curve",

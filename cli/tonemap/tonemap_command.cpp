@@ -100,15 +100,14 @@ int run_tonemap(const TonemapOptions &options) {
     const ImageTarget target = image_target(options.output, options.format);
     check_image_target(target, window);
 
-    const Display display = display_of(options.display);
-    const ToneMap tone_map = display.tone_map(radiance);
+    const ToneMap tone_map = display_of(options.display).tone_map(radiance);
     const std::vector<ImageAttribute> attributes = attributes_of(image, tone_map);
     ImageWriter writer;
     write_display_image(writer, target, {.window = window, .attributes = attributes}, radiance, tone_map,
                         options.png_bits, alpha_of(image, target.format));
     if (!options.quiet) {
         print_for_people("wrote " + (options.output == standard_stream ? "standard output" : options.output) + ": " +
-                             window_text(window) + "\n" + (display.exposure ? "" : automatic_exposure_line(tone_map)),
+                             window_text(window) + "\n" + automatic_exposure_line(tone_map),
                          options.output == standard_stream);
     }
     return static_cast<int>(ExitCode::done);
@@ -128,7 +127,7 @@ void add_tonemap_command(CLI::App &program, Run &chosen) {
                     &run_tonemap);
     add_text(command, "IN", options.input, "IN", "Linear radiance (.exr)")->required();
     add_text(command, "OUT", options.output, "OUT", "Image to write (.png, .jpg); - is standard output")->required();
-    add_format(command, options.format, picture_format_names);
+    add_format(command, options.format, image_formats.names().subspan(1));
     add_scene_options(command, options.display, false);
     add_png_bits(command, options.png_bits);
     add_quiet(command, options.quiet);

@@ -68,12 +68,12 @@ TEST(RenderReport, ToneMapAndWarningsInJson) {
     EXPECT_TRUE(cli::stats_json(report).at("tone_map").is_null()); // EXR alone
     EXPECT_EQ(cli::stats_json(report).at("warnings"), nlohmann::json::array());
     report.tone_map = cli::ToneMap{-3.13, cli::ToneCurve::agx, std::nullopt};
-    report.automatic_exposure = true;
+    report.tone_map->is_automatic = true;
     report.warnings = {"one", "two"};
     const auto json = cli::stats_json(report);
     EXPECT_EQ(json.at("tone_map").dump(), R"({"curve":"agx","exposure":-3.13,"automatic_exposure":true,"gamma":null})");
     EXPECT_EQ(json.at("warnings"), (std::vector<std::string>{"one", "two"}));
-    EXPECT_EQ(cli::automatic_exposure_line(report), "exposure -3.13 EV (auto)\n");
+    EXPECT_EQ(cli::automatic_exposure_line(report.tone_map), "exposure -3.13 EV (auto)\n");
     report.tone_map->gamma = 2.2;
     EXPECT_EQ(cli::stats_json(report).at("tone_map").at("gamma"), 2.2);
 }

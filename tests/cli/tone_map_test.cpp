@@ -67,7 +67,7 @@ TEST(ToneMap, CurvesNeverFall) {
     for (const ToneCurve curve : all_curves) {
         EXPECT_TRUE(is_nondecreasing([curve](double x) {
             return apply_curve(curve, {x, x, x})[1];
-        })) << cli::tone_curve_names[static_cast<std::size_t>(curve)];
+        })) << cli::tone_curves.name(curve);
     }
     EXPECT_FALSE(is_nondecreasing([](double x) { return x - 2e-3 * std::sin(1e3 * x); })); // the check can fail
 }
@@ -121,9 +121,9 @@ TEST(ToneMap, NeutralAnchors) {
 
 TEST(ToneMap, NamesMatchCurves) {
     for (const ToneCurve curve : all_curves) {
-        EXPECT_EQ(cli::find_tone_curve(cli::tone_curve_names[static_cast<std::size_t>(curve)]), curve);
+        EXPECT_EQ(cli::tone_curves.find(cli::tone_curves.name(curve)), curve);
     }
-    EXPECT_EQ(cli::find_tone_curve("filmic"), std::nullopt);
+    EXPECT_EQ(cli::tone_curves.find("filmic"), std::nullopt);
 }
 
 TEST(ToneMap, EightBits) {

@@ -157,7 +157,7 @@ TEST(Warnings, BurntOutPictures) {
         image_warnings(report, radiance),
         Texts{"60% of the pixels are burnt out, with a channel at its maximum: try --exposure auto, here -0.87, or "
               "--tonemap agx"});
-    report.automatic_exposure = true;
+    report.tone_map->is_automatic = true;
     report.tone_map->curve = cli::ToneCurve::neutral;
     report.tone_map->exposure = 9.0;
     EXPECT_TRUE(image_warnings(report, radiance).at(0).ends_with(": try a lower --exposure than 9.00"));
