@@ -3,6 +3,7 @@
 #include "cli/base/interrupt.h"
 #include "cli/render/render_output.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -42,12 +43,10 @@ RenderOptions options_of_frame(const RenderOptions &options, std::uint32_t frame
 
 // Files appear whole or not at all.
 bool is_done(const OutputOptions &frame) {
-    for (const NamedFile &file : outputs_of(frame)) {
+    return std::ranges::all_of(outputs_of(frame), [](const NamedFile &file) {
         std::error_code ignored;
-        if (!file.path.empty() && !std::filesystem::exists(file.path, ignored))
-            return false;
-    }
-    return true;
+        return file.path.empty() || std::filesystem::exists(file.path, ignored);
+    });
 }
 
 // The frames of an animation, one after the other on one context. A frame that a signal stops is not written: each file

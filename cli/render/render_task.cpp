@@ -36,27 +36,20 @@ ImageWindow chosen_window(const std::optional<Rectangle> &crop, const pt_render 
     return window;
 }
 
-constexpr std::uint64_t unlimited = std::numeric_limits<std::uint64_t>::max();
-
-// The memory limit of a container, as seen from inside of it (Linux, cgroup v2). The file says "max" where there is no
-// limit, and does not exist outside of containers.
-std::uint64_t container_limit() {
-    std::uint64_t bytes = 0;
-    return std::ifstream("/sys/fs/cgroup/memory.max") >> bytes ? bytes : unlimited;
-}
-
-std::uint64_t address_space_limit() {
-    rlimit limit{};
-    return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY ? limit.rlim_cur : unlimited;
-}
-
 // The most that this process could ever have: memory and swap space, within its limits. What others use is not counted.
 std::uint64_t most_bytes() {
+    // The limit of a container, as seen from inside of it (Linux, cgroup v2). The file says "max" where there is no
+    // limit, and does not exist outside of containers.
+    std::uint64_t container = 0;
+    if (!(std::ifstream("/sys/fs/cgroup/memory.max") >> container))
+        container = std::numeric_limits<std::uint64_t>::max();
     struct sysinfo system {};
-    if (sysinfo(&system) != 0)
-        return address_space_limit();
-    const std::uint64_t memory = std::min(std::uint64_t{system.totalram} * system.mem_unit, container_limit());
-    return std::min(memory + std::uint64_t{system.totalswap} * system.mem_unit, address_space_limit());
+    rlimit address_space{}; // without a limit it is the largest number
+    sysinfo(&system);
+    getrlimit(RLIMIT_AS, &address_space);
+    const auto bytes = [&](std::uint64_t units) { return units * system.mem_unit; };
+    return std::min<std::uint64_t>(std::min(bytes(system.totalram), container) + bytes(system.totalswap),
+                                   address_space.rlim_cur);
 }
 
 std::uint32_t image_count(const RenderOptions &options) {
