@@ -56,7 +56,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 
 std::string unknown_name(std::string_view kind, std::string_view name, std::span<const std::string_view> known) {
     constexpr std::size_t longest_list = 12;
-    const std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
+    std::string message = "unknown " + std::string(kind) + " \"" + std::string(name) + "\"";
     const std::string_view nearest = nearest_name(name, known);
     if (!nearest.empty())
         return message + ", did you mean \"" + std::string(nearest) + "\"?";

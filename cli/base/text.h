@@ -19,6 +19,7 @@ std::string concat(const Parts &...parts) {
 }
 
 // As printf writes it; what is longer than 255 characters is cut off.
+// NOLINTNEXTLINE(cert-dcl50-cpp): compilers check the arguments
 __attribute__((format(printf, 1, 2))) inline std::string formatted(const char *format, ...) {
     char text[256];
     std::va_list arguments;

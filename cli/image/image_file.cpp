@@ -15,11 +15,11 @@ namespace {
 
 std::array<std::size_t, 3> channels_of(const DecodedImage &image, const std::string &layer) {
     std::array<std::size_t, 3> channels{};
+    const auto in_layer = [&](char letter) { return concat(layer, layer.empty() ? "" : ".", letter); };
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::string color{"RGB"[i]};
-        const std::string component{"XYZ"[i]};
-        const auto names =
-            layer.empty() ? std::vector{color} : std::vector{layer + "." + color, layer + "." + component, layer};
+        std::vector<std::string> names{in_layer("RGB"[i])};
+        if (!layer.empty())
+            names.insert(names.end(), {in_layer("XYZ"[i]), layer});
         const auto name = std::ranges::find_first_of(names, image.channels);
         refuse_if(name == names.end(),
                   "cannot read " + image.path + ": must have the channels R, G and B" +

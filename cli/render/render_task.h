@@ -42,6 +42,6 @@ std::int32_t call_listener(void *user, double share);
 
 // Hands scene and camera over. goes_on is told the share of the scene that is taken over, and may end that by returning
 // false: then false is returned, and the context is as it was.
-bool describe_scene(const Context &context, const SceneFile &scene, const std::function<bool(double)> &goes_on);
+bool describe_scene(const Context &context, const SceneFile &file, const std::function<bool(double)> &goes_on);
 
 } // namespace cli

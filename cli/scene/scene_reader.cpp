@@ -24,7 +24,7 @@ void refuse_unknown_section(const JsonPlace &place) {
     std::vector<std::string_view> known;
     for (const SceneSection &section : scene_sections())
         known.push_back(section.name);
-    known.push_back("animation");
+    known.emplace_back("animation");
     refuse_unknown_key(*place.parent, place.key, known);
 }
 

@@ -61,6 +61,7 @@ std::vector<SelftestCheck> check_functions(const Context &context) {
     context.require(pt_get_accuracy(context.get(), rows.data(), &count));
     rows.resize(count);
     std::vector<SelftestCheck> checks;
+    checks.reserve(rows.size());
     for (const pt_function_accuracy &row : rows) {
         checks.push_back(
             {"function", row.name, row.worst_error, row.bound, "ulp", formatted("worst at %.9g", row.worst_input)});
