@@ -36,7 +36,7 @@ float at_least(float number, float limit)
 }
 
 // The largest of R, G and B, none of them negative.
-float strongest_of(vec3 colour) { return at_least(colour.r, at_least(colour.g, colour.b)); }
+float strongest_of(vec3 color) { return at_least(color.r, at_least(color.g, color.b)); }
 
 // The greater of two numbers that are not positive: their integers have the opposite order.
 float nearer_to_zero(float a, float b)
@@ -91,9 +91,9 @@ float one_minus_exp2(float x)
 }
 
 // Mean of R, G and B: positive whenever one of them is, which a luminance rounded to float need not be.
-float mean(vec3 colour)
+float mean(vec3 color)
 {
-    return (colour.r + colour.g + colour.b) * (1.0 / 3.0);
+    return (color.r + color.g + color.b) * (1.0 / 3.0);
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* Ten thousand particles, as simulations have them: positions and colours in arrays, one radius for all. pt_set_scene
+/* Ten thousand particles, as simulations have them: positions and colors in arrays, one radius for all. pt_set_scene
  * reads them where they are. The picture goes to particles.pfm (linear radiance as floats).
  *
  *     particles [COUNT [SAMPLES]]
@@ -15,7 +15,7 @@ enum { WIDTH = 128, HEIGHT = 96 };
 typedef struct particles {
     uint32_t count;
     float (*positions)[3];
-    uint8_t (*colors)[3]; /* sRGB, as colour maps have them */
+    uint8_t (*colors)[3]; /* sRGB, as color maps have them */
     float radius;
 } particles;
 
@@ -40,7 +40,7 @@ static void arrange(particles *all) {
 
 static pt_result set_scene(pt_context *context, const particles *all) {
     static const pt_material materials[] = {
-        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0}, /* white, so that colours are as given */
+        {{1.0f, 1.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 0}, /* white, so that colors are as given */
         {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {40.0f, 40.0f, 36.0f}, 0.0f, 0}, /* a lamp */
     };
     static const pt_sphere lamp = {{2.0, 5.0, 2.0}, 1.0, {0.0, 0.0, 0.0}, 1, 0};

@@ -20,8 +20,8 @@ namespace pt {
 
 namespace {
 
-float mean(const glm::vec3 &colour) {
-    return (colour.r + colour.g + colour.b) / 3.0F;
+float mean(const glm::vec3 &color) {
+    return (color.r + color.g + color.b) / 3.0F;
 }
 
 // The lobes are chosen by what they can reflect, but the diffuse one with twice the weight: it gathers from the whole

@@ -22,8 +22,8 @@ constexpr double least_glow_diffuse = 0.35; // mean of R, G and B
 constexpr double least_image_specular = 0.45; // mean of R, G and B
 constexpr double widest_image = 0.02;
 
-double mean_of_colour(const glm::vec3 &colour) {
-    return (static_cast<double>(colour.r) + colour.g + colour.b) / 3.0;
+double mean_of_color(const glm::vec3 &color) {
+    return (static_cast<double>(color.r) + color.g + color.b) / 3.0;
 }
 
 double height_above(const CurvedPlane &plane, const SeenSphere &lamp) {
@@ -32,7 +32,7 @@ double height_above(const CurvedPlane &plane, const SeenSphere &lamp) {
 
 bool shows_image(const Material &material, const SeenSphere &lamp, double distance) {
     const double sine = lamp.radius / distance;
-    return mean_of_colour(material.specular) >= least_image_specular && distance > lamp.radius &&
+    return mean_of_color(material.specular) >= least_image_specular && distance > lamp.radius &&
            1.0 / material.glossiness + sine * sine / 4.0 <= widest_image;
 }
 
@@ -73,7 +73,7 @@ private:
             if (plane.curvature != 0.0)
                 continue;
             if (height >= least_glow_height * ball.radius && height <= largest_glow_height * farthest &&
-                mean_of_colour(material.diffuse) >= least_glow_diffuse)
+                mean_of_color(material.diffuse) >= least_glow_diffuse)
                 add(lamp, surface_of_plane(i), material.diffuse, -1.0F);
             if (shows_image(material, ball, height))
                 add(lamp, surface_of_plane(i), material.specular, material.glossiness);
@@ -81,7 +81,7 @@ private:
     }
 
     void add(std::uint32_t lamp, std::uint32_t surface, const glm::vec3 &reflectance, float glossiness) {
-        spots_.push_back({lamp, surface, static_cast<float>(mean_of_colour(reflectance)), glossiness});
+        spots_.push_back({lamp, surface, static_cast<float>(mean_of_color(reflectance)), glossiness});
     }
 
     std::uint32_t surface_of_plane(std::uint32_t plane) const {

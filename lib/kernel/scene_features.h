@@ -43,7 +43,7 @@ struct Features {
     bool tree;                     // most spheres are in a tree, and not among sphere_count
     std::uint32_t tree_levels;     // of nodes, rounded up, so that few trees want a kernel of their own
     bool tree_inside;              // the camera is inside one of them, or too near to its surface to tell
-    bool tree_colors;              // with colours of their own
+    bool tree_colors;              // with colors of their own
     std::uint32_t tree_lamps;      // of lamp_count, those in the tree, which come last
 
     bool operator==(const Features &) const = default;

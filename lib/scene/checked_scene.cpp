@@ -18,15 +18,15 @@ namespace {
 // Indices of surfaces, and a few times their number in words of the scene buffer, are 32-bit numbers.
 constexpr std::uint64_t max_surface_count = std::uint64_t{1} << 30;
 
-// Of pt_set_scene, where spheres are so many that it takes long: measured, 8% of a million floats with colours.
+// Of pt_set_scene, where spheres are so many that it takes long: measured, 8% of a million floats with colors.
 constexpr double share_of_checks = 0.08;
 
-glm::vec3 colour(const float (&components)[3]) {
+glm::vec3 color(const float (&components)[3]) {
     return {components[0], components[1], components[2]};
 }
 
-// Up to 1e18 the product of two colours is a float32 number: 1e36 < 2^128 = 3.4e38.
-const char *colour_rule(double value) {
+// Up to 1e18 the product of two colors is a float32 number: 1e36 < 2^128 = 3.4e38.
+const char *color_rule(double value) {
     if (!std::isfinite(value))
         return "must be finite";
     if (value < 0.0)
@@ -53,7 +53,7 @@ Plane normalized(const pt_plane &plane) {
 }
 
 Material owned(const pt_material &material) {
-    return {colour(material.diffuse), colour(material.specular), colour(material.emission), material.glossiness,
+    return {color(material.diffuse), color(material.specular), color(material.emission), material.glossiness,
             (material.flags & PT_MATERIAL_HIDDEN_FROM_CAMERA) != 0};
 }
 
@@ -71,9 +71,9 @@ public:
 
     void check(const pt_material &source, std::size_t index) const {
         const Subject material(violations_, "materials", index);
-        material.check_each("diffuse", source.diffuse, colour_rule);
-        material.check_each("specular", source.specular, colour_rule);
-        material.check_each("emission", source.emission, colour_rule);
+        material.check_each("diffuse", source.diffuse, color_rule);
+        material.check_each("specular", source.specular, color_rule);
+        material.check_each("emission", source.emission, color_rule);
         material.check("glossiness", source.glossiness, glossiness_rule);
         material.require(source.flags <= PT_MATERIAL_HIDDEN_FROM_CAMERA, "flags", source.flags,
                          "must be 0 or PT_MATERIAL_HIDDEN_FROM_CAMERA (1)");

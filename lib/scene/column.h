@@ -46,7 +46,7 @@ decltype(auto) with_vectors(const pt_column &column, Use use) {
     return use([&column](std::size_t index) { return element<glm::dvec3>(column, index); });
 }
 
-// The same of colours, whose bytes are decoded.
+// The same of colors, whose bytes are decoded.
 template <typename Use>
 decltype(auto) with_colors(const pt_column &column, Use use) {
     if (column.type != PT_TYPE_SRGB8)

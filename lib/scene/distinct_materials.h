@@ -1,4 +1,4 @@
-// Materials that are told apart by what they are. Used for the colours of spheres, and for digests.
+// Materials that are told apart by what they are. Used for the colors of spheres, and for digests.
 #pragma once
 
 #include "lib/scene/scene.h"

@@ -11,7 +11,7 @@ namespace pt {
 
 namespace {
 
-// Gives spheres with colours of their own a material for each colour, which is one of those that are there already if
+// Gives spheres with colors of their own a material for each color, which is one of those that are there already if
 // it is equal.
 class ColoredMaterials {
 public:

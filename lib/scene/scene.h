@@ -43,7 +43,7 @@ struct Plane {
 };
 
 struct Scene {
-    std::vector<Material> materials; // the caller's, and those that spheres with colours of their own have
+    std::vector<Material> materials; // the caller's, and those that spheres with colors of their own have
     std::vector<Sphere> spheres;     // pt_scene.spheres, and those of the arrays
     std::vector<Plane> planes;
     std::vector<std::uint32_t> array_starts = {}; // index of the first sphere of each of pt_scene.sphere_arrays

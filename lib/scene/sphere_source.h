@@ -25,7 +25,7 @@ public:
 
     std::size_t size() const { return starts_.back(); }
 
-    // Whether spheres may have a colour of their own: else all colours are 1.
+    // Whether spheres may have a color of their own: else all colors are 1.
     bool has_colors() const { return has_colors_; }
 
     // One sphere, and by what its material's diffuse is multiplied. For many the functions below are faster.

@@ -1,4 +1,4 @@
-// The sRGB encoding of colours in bytes (IEC 61966-2-1), as a table that is computed while the library is compiled, so
+// The sRGB encoding of colors in bytes (IEC 61966-2-1), as a table that is computed while the library is compiled, so
 // that no library of functions has a say in a scene's bits.
 #pragma once
 

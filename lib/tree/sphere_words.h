@@ -17,7 +17,7 @@ glm::uvec4 sphere_word(const Sphere &sphere, const Grid &grid);
 
 glm::uvec4 motion_word(const Sphere &sphere);
 
-// Ten bits for the root of each component, which keep dark colours apart as well as bright ones.
+// Ten bits for the root of each component, which keep dark colors apart as well as bright ones.
 std::uint32_t color_word(const glm::vec3 &color);
 
 // All that the kernel has of where a sphere is.

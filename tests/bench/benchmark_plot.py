@@ -26,11 +26,11 @@ LABELS = {"default": "default: sobol, mis", "Mitsuba": "Mitsuba, multijitter"}
 
 
 def draw_scene(axes, name, scene):
-    for option, (colour, dash) in STYLES.items():
+    for option, (color, dash) in STYLES.items():
         if option in scene["options"]:
             points = [(point["cost"], point["rel_mse"]) for point in scene["options"][option]["points"]]
             strong = option in LABELS
-            axes.plot(*zip(*points), dash, color=colour, linewidth=2.2 if strong else 1.3, marker="o",
+            axes.plot(*zip(*points), dash, color=color, linewidth=2.2 if strong else 1.3, marker="o",
                       markersize=4 if strong else 2.5, label=LABELS.get(option, option))
     axes.set(xscale="log", yscale="log")
     largest = max(point["rel_mse"] for point in scene["options"]["default"]["points"])

@@ -8,7 +8,7 @@ SEED = 5
 SPACING = 1.68  # of a face-centred cubic lattice, its edge: a Lennard-Jones crystal that is about to melt
 JITTER = 0.08  # standard deviation
 RADIUS = 0.56  # so that neighbours all but touch
-COLOURS = ((0.0, 0.447, 0.698), (0.902, 0.624, 0.0), (0.0, 0.62, 0.451))  # of the types, sRGB
+COLORS = ((0.0, 0.447, 0.698), (0.902, 0.624, 0.0), (0.0, 0.62, 0.451))  # of the types, sRGB
 HEADER = 9  # lines of a dump before its atoms
 
 
@@ -31,7 +31,7 @@ def write_dump(path, count):
         file.write(f"{-side:.4f} {side:.4f}\n" * 3 + "ITEM: ATOMS id type x y z vx\n")
         for number, (_, *site) in enumerate(sites[:count], 1):
             x, y, z = (SPACING / 2 * i + generator.gauss(0, JITTER) for i in site)
-            kind = 1 + (site[2] // 4) % len(COLOURS)
+            kind = 1 + (site[2] // 4) % len(COLORS)
             file.write(f"{number} {kind} {x:.4f} {y:.4f} {z:.4f} {generator.gauss(0, 1):.4f}\n")
 
 
@@ -47,9 +47,9 @@ def view_of_scene(path):
             "max_path_length": scene["render"]["max_path_length"]}
 
 
-def linear(colour):
+def linear(color):
     """Of sRGB."""
-    return [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in colour]
+    return [value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4 for value in color]
 
 
 def read_dump(path):

@@ -8,12 +8,12 @@ import sys
 
 import mitsuba
 import numpy
-from figure_data import COLOURS, RADIUS, linear, read_dump
+from figure_data import COLORS, RADIUS, linear, read_dump
 
 
-def balls(shape, places, colour):
-    """One shape for all of a colour, or each ball by itself."""
-    bsdf = {"type": "diffuse", "reflectance": {"type": "rgb", "value": linear(colour)}}
+def balls(shape, places, color):
+    """One shape for all of a color, or each ball by itself."""
+    bsdf = {"type": "diffuse", "reflectance": {"type": "rgb", "value": linear(color)}}
     if shape == "ellipsoids":
         turns = numpy.tile(numpy.array([0, 0, 0, 1], "f4"), (len(places), 1))
         return [{"type": "ellipsoids", "extent": 1.0, "centers": mitsuba.TensorXf(places.astype("f4")),
@@ -29,7 +29,7 @@ def main():
     with open(view_path, encoding="utf-8") as file:
         view = json.load(file)
     types, places = read_dump(data)
-    shapes = [ball for kind, colour in enumerate(COLOURS, 1) for ball in balls(shape, places[types == kind], colour)]
+    shapes = [ball for kind, color in enumerate(COLORS, 1) for ball in balls(shape, places[types == kind], color)]
     camera, lamp = view["camera"], view["lamp"]
     scene = mitsuba.load_dict({
         "type": "scene",

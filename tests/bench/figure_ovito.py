@@ -11,7 +11,7 @@ import sys
 
 import ovito.io
 import ovito.vis
-from figure_data import COLOURS, RADIUS
+from figure_data import COLORS, RADIUS
 
 
 def main():
@@ -21,9 +21,9 @@ def main():
     pipeline = ovito.io.import_file(data)
 
     def look(_, data_collection):
-        for kind, colour in enumerate(COLOURS, 1):
+        for kind, color in enumerate(COLORS, 1):
             types = data_collection.particles_.particle_types_
-            types.type_by_id_(kind).color = colour
+            types.type_by_id_(kind).color = color
             types.type_by_id_(kind).radius = RADIUS
         data_collection.cell_.vis.enabled = False
 

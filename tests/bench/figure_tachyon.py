@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-from figure_data import COLOURS, RADIUS, read_dump
+from figure_data import COLORS, RADIUS, read_dump
 
 ALBEDO = 0.8
 
@@ -32,9 +32,9 @@ def write_scene(file, data, view, width, height):
                f"RAYDEPTH 8\nCENTER {texts(camera['position'])}\nVIEWDIR {texts(forward)}\n"
                f"UPDIR {texts(camera['up'])}\n"
                f"END_CAMERA\nDIRECTIONAL_LIGHT DIRECTION {texts(light)} COLOR 1 1 1\nBACKGROUND 1 1 1\n")
-    for kind, colour in enumerate(COLOURS, 1):
+    for kind, color in enumerate(COLORS, 1):
         file.write(f"TEXDEF type{kind} AMBIENT 0 DIFFUSE {ALBEDO} SPECULAR 0 OPACITY 1 "
-                   f"COLOR {texts(colour)} TEXFUNC 0\n")
+                   f"COLOR {texts(color)} TEXFUNC 0\n")
     types, places = read_dump(data)
     for kind, (x, y, z) in zip(types.tolist(), places.tolist()):
         file.write(f"SPHERE CENTER {x} {y} {z} RAD {RADIUS} type{kind}\n")

@@ -11,11 +11,11 @@ import sys
 import time
 
 from mitsuba_scene import SAMPLERS, MitsubaScene, bsdf
-from sphere_cloud import COLOURS, MATERIALS, SphereCloud, surroundings
+from sphere_cloud import COLORS, MATERIALS, SphereCloud, surroundings
 
 
 class MitsubaCloud(MitsubaScene):
-    """The spheres of one colour are a shape of ellipsoids: 10,000 spheres one by one render at an eighth of the speed.
+    """The spheres of one color are a shape of ellipsoids: 10,000 spheres one by one render at an eighth of the speed.
     With 100,000 the pictures of ellipsoids are too bright, those of spheres are not."""
 
     def __init__(self, variant, cloud, size, lengths):
@@ -26,7 +26,7 @@ class MitsubaCloud(MitsubaScene):
         np, mi, shapes = self.np, self.mi, {}
         centers = np.frombuffer(self.cloud.centers, "f4").reshape(-1, 3)
         radii, materials = np.frombuffer(self.cloud.radii, "f4"), np.frombuffer(self.cloud.materials, "u4")
-        for name in COLOURS:
+        for name in COLORS:
             chosen = materials == list(MATERIALS).index(name)
             if not chosen.any():
                 continue

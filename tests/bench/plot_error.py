@@ -16,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 # Okabe and Ito's palette without its yellow, which is too light for lines (Wong 2011, "Color blindness").
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00"]
+COLORS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00"]
 DASHES = ["-", "--", ":", "-."]
 
 
@@ -35,13 +35,13 @@ def spread_labels(axes, labels, gap=13):
     bottom = axes.transAxes.transform((0, 0))[1]
     height = axes.transAxes.transform((0, 1))[1] - bottom
     free_above = float("-inf")
-    for text, cell, colour in sorted(labels, key=lambda label: label[1]["rel_mse"]):
+    for text, cell, color in sorted(labels, key=lambda label: label[1]["rel_mse"]):
         end = (cell["seconds"], cell["rel_mse"])
         place = max(axes.transData.transform(end)[1], free_above)
         free_above = place + gap / points_per_pixel
-        axes.annotate(text, end, (1.02, (place - bottom) / height), textcoords="axes fraction", color=colour,
+        axes.annotate(text, end, (1.02, (place - bottom) / height), textcoords="axes fraction", color=color,
                       va="center", fontsize=9, annotation_clip=False,
-                      arrowprops={"arrowstyle": "-", "color": colour, "alpha": 0.4, "linewidth": 0.7})
+                      arrowprops={"arrowstyle": "-", "color": color, "alpha": 0.4, "linewidth": 0.7})
 
 
 def plot(bench):
@@ -52,14 +52,14 @@ def plot(bench):
     axes.set(xscale="log", yscale="log", xlabel="seconds of sampling", ylabel="relative MSE")
     labels = []
     for (sampler, estimator), cells in lines.items():
-        colour = COLOURS[samplers.index(sampler) % len(COLOURS)]
+        color = COLORS[samplers.index(sampler) % len(COLORS)]
         dash = DASHES[estimators.index(estimator) % len(DASHES)]
         points = [(cell["seconds"], cell["rel_mse"]) for cell in cells]
-        axes.plot(*zip(*points), dash, color=colour, linewidth=1.5)
+        axes.plot(*zip(*points), dash, color=color, linewidth=1.5)
         for cell in cells:
-            face = "white" if cell["near_reference_noise"] else colour
-            axes.plot(cell["seconds"], cell["rel_mse"], "o", color=colour, markerfacecolor=face, markersize=5)
-        labels.append((f"{sampler}, {estimator}", cells[-1], colour))
+            face = "white" if cell["near_reference_noise"] else color
+            axes.plot(cell["seconds"], cell["rel_mse"], "o", color=color, markerfacecolor=face, markersize=5)
+        labels.append((f"{sampler}, {estimator}", cells[-1], color))
     own_error = bench["reference"].get("own_error")
     if own_error and own_error["rel_mse"] > 0:
         axes.axhline(own_error["rel_mse"], color="#888888", linewidth=0.8)

@@ -42,7 +42,7 @@ from table import print_table  # noqa: E402
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(FOLDER), "support"))
-from scene_renderer import SceneRenderer, colour, structs, vector  # noqa: E402 (which finds pt)
+from scene_renderer import SceneRenderer, color, structs, vector  # noqa: E402 (which finds pt)
 from pt import DeviceKind  # noqa: E402
 
 FLOAT32, UINT32 = 1, 3  # PT_TYPE_*
@@ -98,7 +98,7 @@ class Library:
 
     def set_scene(self, scene, cloud):
         names = list(scene["materials"])
-        materials = [structs.pt_material(diffuse=colour(m.get("diffuse", 0)), emission=colour(m.get("emission", 0)))
+        materials = [structs.pt_material(diffuse=color(m.get("diffuse", 0)), emission=color(m.get("emission", 0)))
                      for m in scene["materials"].values()]
         lamps = [structs.pt_sphere(vector(s["center"]), s["radius"], material=names.index(s["material"]))
                  for s in scene["spheres"]]

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 from scale import difference_of_means, relative_error
-from sphere_cloud import COLOURS, EXTENT, MATERIALS, SphereCloud, surroundings
+from sphere_cloud import COLORS, EXTENT, MATERIALS, SphereCloud, surroundings
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 LIBRARY = os.environ["PT_LIBRARY"]
@@ -31,7 +31,7 @@ class Clouds(unittest.TestCase):
     def test_columns_hold_spheres_that_stay_away_from_camera_and_lamp(self):
         cloud, scene = SphereCloud(100), surroundings()
         self.assertEqual((len(cloud.centers), len(cloud.radii), len(cloud.materials)), (300, 100, 100))
-        self.assertEqual({list(MATERIALS)[i] for i in cloud.materials}, set(COLOURS))
+        self.assertEqual({list(MATERIALS)[i] for i in cloud.materials}, set(COLORS))
         for i, radius in enumerate(cloud.radii):
             center = cloud.centers[3 * i:3 * i + 3]
             self.assertLessEqual(abs(center[0]), EXTENT[0] / 2)

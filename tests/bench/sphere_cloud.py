@@ -7,7 +7,7 @@ SEED = 5
 EXTENT = (8.0, 4.0, 4.0)  # of the cloud, which fills the picture
 MATERIALS = {"lamp": {"emission": [60, 54, 45]}, "floor": {"diffuse": 0.6}, "white": {"diffuse": 0.6},
              "red": {"diffuse": [0.8, 0.3, 0.2]}, "blue": {"diffuse": [0.2, 0.5, 0.8]}}
-COLOURS = ("white", "red", "blue")  # of the spheres, in turn
+COLORS = ("white", "red", "blue")  # of the spheres, in turn
 
 
 def surroundings():
@@ -26,12 +26,12 @@ class SphereCloud:
         largest = 0.45 * (EXTENT[0] * EXTENT[1] * EXTENT[2] / count) ** (1 / 3)
         self.count = count
         self.centers, self.radii, self.materials = array.array("f"), array.array("f"), array.array("I")
-        first = list(MATERIALS).index(COLOURS[0])
+        first = list(MATERIALS).index(COLORS[0])
         for i in range(count):
             self.centers.extend((uniform(-EXTENT[0] / 2, EXTENT[0] / 2), uniform(0.05, EXTENT[1]),
                                  uniform(-EXTENT[2] / 2, EXTENT[2] / 2)))
             self.radii.append(largest * uniform(0.4, 1))
-            self.materials.append(first + i % len(COLOURS))
+            self.materials.append(first + i % len(COLORS))
 
     def surroundings(self):
         return surroundings()

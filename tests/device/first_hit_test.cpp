@@ -276,8 +276,8 @@ TEST_F(FirstHit, TwinsHaveTheNumberOfTheFirst) {
     }
 }
 
-// Spheres by columns are counted after those of structs, and have their colours: in a tree held to a thousandth.
-TEST_F(FirstHit, ColumnsHaveNumbersAndColours) {
+// Spheres by columns are counted after those of structs, and have their colors: in a tree held to a thousandth.
+TEST_F(FirstHit, ColumnsHaveNumbersAndColors) {
     Given given;
     given.materials = {{{0.8F, 0.8F, 0.8F}, {0, 0, 0}, {0, 0, 0}, 0, 0}};
     given.spheres = {{{0, 0, -500}, 100, {0, 0, 0}, 0, 0}};

@@ -21,9 +21,9 @@ InvarianceScene scene_with_zeros(float zero) {
     InvarianceScene scene = InvarianceScene::coursework();
     scene.materials[1].emission[2] = 0;
     for (pt_material &material : scene.materials)
-        for (float *colour : {material.diffuse, material.specular, material.emission})
+        for (float *color : {material.diffuse, material.specular, material.emission})
             for (int i = 0; i < 3; ++i)
-                colour[i] = colour[i] == 0.0F ? zero : colour[i];
+                color[i] = color[i] == 0.0F ? zero : color[i];
     return scene;
 }
 

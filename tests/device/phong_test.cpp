@@ -160,7 +160,7 @@ TEST(Phong, AWrongNormalisationWouldBeSeen) {
     EXPECT_GT(std::abs(integrate_lobe(40.0, 0.0, 41.0F / 42.0F).value - 1.0), tolerance);
 }
 
-TEST(Phong, DiffuseAlbedoIsItsColour) {
+TEST(Phong, DiffuseAlbedoIsItsColor) {
     EXPECT_NEAR(integrate_diffuse(30.0, 0.7F).value, 0.7, tolerance);
 }
 

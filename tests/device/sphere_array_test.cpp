@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint32_t picture_width = 32;
 constexpr std::uint32_t picture_height = 24;
 
-// A heap of balls of a few colours, some of them in motion, under a lamp and on a floor.
+// A heap of balls of a few colors, some of them in motion, under a lamp and on a floor.
 struct Heap {
     static constexpr std::uint32_t ball_count = 300;
 
@@ -99,7 +99,7 @@ struct Heap {
     }
 };
 
-// Without a tree, in which colours are rounded (tree_render_test.cpp).
+// Without a tree, in which colors are rounded (tree_render_test.cpp).
 class SphereArrayRender : public ContextFixture {
 protected:
     Context create_fixtures_context() override {

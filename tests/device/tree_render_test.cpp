@@ -1,4 +1,4 @@
-// Pictures of spheres in a tree against those of the kernel without one, through pt.h: colours, lamps, motion, a camera
+// Pictures of spheres in a tree against those of the kernel without one, through pt.h: colors, lamps, motion, a camera
 // within a sphere and one far away, a sky.
 #include "tests/device/tree_fixture.h"
 #include "tests/support/render_image.h"
@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t picture_width = 32;
 constexpr std::uint32_t picture_height = 24;
 
-// Balls of radius about 0.2 in [-2, 2]^3 with a colour each; below them a floor, and above a lamp that is one of them.
+// Balls of radius about 0.2 in [-2, 2]^3 with a color each; below them a floor, and above a lamp that is one of them.
 struct Balls {
     static constexpr std::uint32_t count = 80;
 
@@ -109,14 +109,14 @@ protected:
     }
 };
 
-// The root of a colour c is off by half of 1/1023 at most, and so c by (root + 1/4092)/1023, which is the largest share
+// The root of a color c is off by half of 1/1023 at most, and so c by (root + 1/4092)/1023, which is the largest share
 // of c for the darkest, 0.04: 0.2003/1023/0.04 = 0.0049. Light from lamps alone is proportional to c in each sample.
 TEST_F(TreeRender, HasColorsToHalfAStepOfTheirRoots) {
     const Balls balls;
     pt_sphere_array array;
     const Difference found = difference_of(balls.scene_with_colors(array), camera_at(0, 1, 6), 2);
     EXPECT_LT(found.most, 0.0049 + 1e-4);
-    EXPECT_GT(found.most, 1e-4) << "colours are not rounded: nothing was compared";
+    EXPECT_GT(found.most, 1e-4) << "colors are not rounded: nothing was compared";
 }
 
 TEST_F(TreeRender, MovesSpheresWithTheShutter) {

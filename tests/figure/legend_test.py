@@ -1,4 +1,4 @@
-"""Legends and colour bars, as files and in the picture. Skipped without matplotlib."""
+"""Legends and color bars, as files and in the picture. Skipped without matplotlib."""
 
 import io
 import sys
@@ -65,7 +65,7 @@ class InThePicture(unittest.TestCase):
             picture = self.figure(background=background, title="$E$ / eV").to_srgb8()
             self.assertEqual(picture.shape, (160, 240, channels))
             strip = picture[:, -60:, :3].astype(int)
-            # A column of the bar has the colours of the map from above, but for its border.
+            # A column of the bar has the colors of the map from above, but for its border.
             best = max(range(60), key=lambda x: len({tuple(c) for c in strip[:, x]} & {tuple(c) for c in TABLE.tolist()}))
             found = [TABLE.tolist().index(c) for c in strip[:, best].tolist() if c in TABLE.tolist()]
             self.assertGreater(len(found), 80)
@@ -77,7 +77,7 @@ class InThePicture(unittest.TestCase):
     def test_without_a_legend_there_is_no_strip(self):
         plain = pt.figure(np.eye(3), colorbar=True, samples=1, size=(64, 48), context=self.context)
         self.assertEqual((plain.shape, plain.legend), ((48, 64, 3), None))
-        with self.assertRaisesRegex(ValueError, "no room for particles beside the colour bar"):
+        with self.assertRaisesRegex(ValueError, "no room for particles beside the color bar"):
             pt.figure(np.eye(3), color=[1.0, 2, 3], colorbar=True, size=(48, 200))
 
 

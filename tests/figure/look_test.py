@@ -1,4 +1,4 @@
-"""Colours and radii of particles, and what is before and behind them."""
+"""Colors and radii of particles, and what is before and behind them."""
 
 import unittest
 
@@ -43,7 +43,7 @@ class Numbers(unittest.TestCase):
                 rgb, legend, _ = colored(values, Particles(np.zeros((len(values), 3))), colormap=colormap, **options)
                 shares = np.clip(np.asarray(norm(values)), 0, 1)
                 expected = matplotlib.colormaps[colormap](shares, bytes=True)[:, :3]
-                # Where the share falls on the border of two colours, roundings decide.
+                # Where the share falls on the border of two colors, roundings decide.
                 differ = (rgb != expected).any(axis=1)
                 border = np.abs(shares * legend.colormap.N - np.round(shares * legend.colormap.N)) < 1e-9
                 self.assertFalse((differ & ~border).any(), (colormap, options))

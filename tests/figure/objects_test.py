@@ -165,7 +165,7 @@ class Files(unittest.TestCase):
         for key, values in zip(records.dtype.names, [*PLACES.T, packed]):
             records[key] = values
         text = "".join(f"{x} {y} {z} {color} 0 0 0\n" for (x, y, z), color in zip(PLACES, packed))
-        for kind in "FU":  # the bytes of colours are those of a float, or a number
+        for kind in "FU":  # the bytes of colors are those of a float, or a number
             found = self.read("a.pcd", head.format(kind, 3, "binary").encode() + records.tobytes())
             np.testing.assert_array_equal(found.positions, PLACES)
             np.testing.assert_array_equal(found.colors[1], (0x40, 0x50, 0x60))
@@ -180,7 +180,7 @@ class Files(unittest.TestCase):
                 self.read("a.pcd", content.encode())
 
     def test_las(self):
-        """Bytes among its 16-bit colours are bytes."""
+        """Bytes among its 16-bit colors are bytes."""
         if installed("laspy"):
             import laspy
             las = laspy.LasData(laspy.LasHeader(point_format=3, version="1.2"))

@@ -57,9 +57,9 @@ bool are_lengths(const glm::dvec3 &v) {
     return is_length(v.x) && is_length(v.y) && is_length(v.z);
 }
 
-bool is_colour(const glm::vec3 &colour) {
+bool is_color(const glm::vec3 &color) {
     const auto in_range = [](float x) { return x >= 0.0F && x <= 1e18F; };
-    return in_range(colour.r) && in_range(colour.g) && in_range(colour.b);
+    return in_range(color.r) && in_range(color.g) && in_range(color.b);
 }
 
 // Squares, their sum, the root and the quotient round once each, at 2^-53 of the value or less.
@@ -69,8 +69,8 @@ bool is_unit(const glm::dvec3 &v) {
 
 void require_scene(const pt::Scene &scene) {
     for (const pt::Material &material : scene.materials) {
-        require(is_colour(material.diffuse) && is_colour(material.specular) && is_colour(material.emission),
-                "colours lie in [0, 1e18]");
+        require(is_color(material.diffuse) && is_color(material.specular) && is_color(material.emission),
+                "colors lie in [0, 1e18]");
         require(material.glossiness >= 0.0F && material.glossiness <= 1e9F, "glossiness lies in [0, 1e9]");
     }
     for (const pt::Sphere &sphere : scene.spheres) {
@@ -127,7 +127,7 @@ void require_features(const pt::Features &features, const pt::Scene &scene) {
 }
 
 // The kernel squares all that is a length and adds three squares: up to 3e18 from the pinhole, which may be 6e18 behind
-// the start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger than lengths and colours may be.
+// the start of rays. Only the peak of a lobe, k_s (n + 2) / (2 pi), is larger than lengths and colors may be.
 constexpr float largest_length = 9.0001e18F;
 constexpr float largest_peak = 1.6e26F;
 

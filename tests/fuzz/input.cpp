@@ -26,9 +26,9 @@ pt_material material(Numbers &numbers, ByteReader &bytes) {
     const bool emits = bytes.one_in(4);
     const bool shines = bytes.one_in(2);
     const bool gains = bytes.one_in(32);
-    const auto reflectance = [&](float most) { return gains ? numbers.colour() : std::min(numbers.colour(), most); };
+    const auto reflectance = [&](float most) { return gains ? numbers.color() : std::min(numbers.color(), most); };
     for (std::size_t i = 0; i < 3; ++i) {
-        material.emission[i] = emits ? numbers.colour() : 0.0F;
+        material.emission[i] = emits ? numbers.color() : 0.0F;
         material.diffuse[i] = reflectance(1.0F);
         material.specular[i] = shines ? reflectance(1.0F - material.diffuse[i]) : 0.0F;
     }
@@ -255,11 +255,11 @@ void change_one_number(Input &input, ByteReader &bytes) {
     } else if (kind == 6 && !input.materials.empty()) {
         pt_material &material = any(input.materials);
         if (component(material.emission) > 0.0F)
-            component(material.emission) = numbers.colour();
+            component(material.emission) = numbers.color();
         else if (material.glossiness > 0.0F)
             material.glossiness = numbers.glossiness();
         else
-            component(material.diffuse) = std::min(numbers.colour(), 1.0F);
+            component(material.diffuse) = std::min(numbers.color(), 1.0F);
     } else {
         component(bytes.one_in(2) ? input.camera.target : input.camera.position) = numbers.length();
     }

@@ -92,7 +92,7 @@ double Numbers::field_of_view() {
     return bytes_.one_in(4) ? bytes_.choice(ends) : (1 + bytes_.below(255)) / 256.0 * std::numbers::pi;
 }
 
-float Numbers::colour() {
+float Numbers::color() {
     if (breaks_rule())
         return static_cast<float>(anything());
     static constexpr float ends[] = {1e18F, 1e-18F, -0.0F, FLT_MIN, std::numeric_limits<float>::denorm_min(), 1e-30F};

@@ -17,7 +17,7 @@ public:
     double component();                     // of a vector that may be longer or shorter than any length: finite
     double share();                         // in [0, 1]
     double field_of_view();                 // in [1e-8, pi)
-    float colour();                         // in [0, 1e18]
+    float color();                          // in [0, 1e18]
     float glossiness();                     // in [0, 1e9]
     std::uint32_t count(std::uint32_t end); // in [0, end), end <= 256
 

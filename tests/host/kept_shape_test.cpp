@@ -101,7 +101,7 @@ TEST(KeptShape, HasTheWordsOfTheTreeThatItWasMadeFor) {
     EXPECT_EQ(back->words(), tree.words());
 }
 
-// Radii, motion, materials and colours are what they are now; the shape is what was before.
+// Radii, motion, materials and colors are what they are now; the shape is what was before.
 TEST(KeptShape, IsOfAllThatIsNotPlacesToo) {
     const Spheres spheres = heap(ball_count, 0.0);
     const pt::SphereTree tree = tree_of(spheres);

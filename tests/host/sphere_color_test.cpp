@@ -1,4 +1,4 @@
-// Colours of spheres that are given by columns: materials of their own, shared where they are equal.
+// Colors of spheres that are given by columns: materials of their own, shared where they are equal.
 #include "lib/scene/scene.h"
 #include "lib/scene/scene_digest.h"
 #include "lib/scene/sphere_source.h"
@@ -22,7 +22,7 @@ namespace {
 TEST(SphereArrays, ColorsMultiplyTheDiffuse) {
     const Particles particles;
     const pt::Scene scene = particles.validated();
-    // The first sphere has its material's own colour, and that of the second reflects nothing, whatever its colour.
+    // The first sphere has its material's own color, and that of the second reflects nothing, whatever its color.
     ASSERT_EQ(scene.materials.size(), 5U);
     EXPECT_EQ(scene.spheres[0].material, 0U);
     EXPECT_EQ(scene.spheres[1].material, 2U);
@@ -69,7 +69,7 @@ TEST(SphereArrays, EqualColorsShareAMaterial) {
         array.color = {bytes.data(), 3, PT_TYPE_SRGB8};
     };
     const pt::Scene scene = particles.validated();
-    // 12^3 colours of two materials, of which white is there already; all of them turn up.
+    // 12^3 colors of two materials, of which white is there already; all of them turn up.
     EXPECT_EQ(scene.materials.size(), 2 * 12 * 12 * 12U);
     for (std::uint32_t i = 0; i < count; ++i) {
         const pt::Material &material = scene.materials[scene.spheres[i].material];

@@ -121,7 +121,7 @@ class RealErrors(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "position = .*: must be three numbers"):
                 pt.Camera(position=wrong, target=(1, 2, 3))
 
-    def test_of_colours(self):
+    def test_of_colors(self):
         for grey in 0.5, np.float32(0.5), (0.5, 0.5, 0.5), np.full(3, 0.5), [0.5] * 3:
             self.assertEqual(pt.Material(diffuse=grey).diffuse, (0.5, 0.5, 0.5))
         with self.assertRaisesRegex(ValueError, "emission = .*: must be three numbers"):

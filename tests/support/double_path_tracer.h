@@ -31,7 +31,7 @@ public:
         right_(glm::normalize(glm::cross(forward_, vector(camera.up)))),
         up_(glm::cross(right_, forward_)) {
         for (std::uint32_t i = 0; i < scene.sphere_count; ++i)
-            if (colour(scene.materials[scene.spheres[i].material].emission) != glm::dvec3(0.0))
+            if (color(scene.materials[scene.spheres[i].material].emission) != glm::dvec3(0.0))
                 lamps_.push_back(i);
     }
 
@@ -85,7 +85,7 @@ private:
 
     static glm::dvec3 vector(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
-    static glm::dvec3 colour(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+    static glm::dvec3 color(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
 
     double share() { return std::generate_canonical<double, 53>(engine_); }
 
@@ -107,10 +107,10 @@ private:
                 break;
             const pt_material &material = scene_.materials[hit.material];
             const double by_lamp = vertex == 0 ? 0.0 : lamp_density(hit.surface, origin, time);
-            radiance += weight * colour(material.emission) * (by_lamp > 0.0 ? density / (density + by_lamp) : 1.0);
+            radiance += weight * color(material.emission) * (by_lamp > 0.0 ? density / (density + by_lamp) : 1.0);
             origin += hit.distance * direction + 1e-7 * hit.normal;
-            const Reflection reflection{hit.normal, glm::reflect(direction, hit.normal), colour(material.diffuse),
-                                        colour(material.specular), material.glossiness};
+            const Reflection reflection{hit.normal, glm::reflect(direction, hit.normal), color(material.diffuse),
+                                        color(material.specular), material.glossiness};
             if (reflection.sum() == 0.0 || vertex + 1 == render.max_path_length)
                 break;
             radiance += weight * light_of_a_lamp(origin, reflection, time);
@@ -154,7 +154,7 @@ private:
         if (glm::dot(to, reflection.normal) <= 0.0 || first_hit(from, to, time, false).surface != index)
             return glm::dvec3(0.0);
         const double density = lamp_density(index, from, time) + reflection.density(to);
-        return colour(scene_.materials[lamp.material].emission) * reflection.value_times_cosine(to) / density;
+        return color(scene_.materials[lamp.material].emission) * reflection.value_times_cosine(to) / density;
     }
 
     // At 1 - cos from an axis.

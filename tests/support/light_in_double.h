@@ -59,8 +59,8 @@ inline Blocks exact_blocks(const Given &given, std::uint32_t samples,
 inline double mean_of_block(const std::vector<float> &image, glm::uvec2 first) {
     double sum = 0.0;
     for (std::uint32_t i = 0; i < block.x * block.y; ++i)
-        for (std::uint32_t colour = 0; colour < 3; ++colour)
-            sum += image[3 * ((first.y + i / block.x) * picture.x + first.x + i % block.x) + colour];
+        for (std::uint32_t color = 0; color < 3; ++color)
+            sum += image[3 * ((first.y + i / block.x) * picture.x + first.x + i % block.x) + color];
     return sum / (3.0 * block.x * block.y);
 }
 

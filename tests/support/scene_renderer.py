@@ -17,7 +17,7 @@ SAMPLERS = {"random": 1, "halton": 2, "halton-cp": 3, "sobol": 4}
 ESTIMATORS = {"best": 0, "uniform": 1, "cosine": 2, "bsdf": 3, "light": 4, "mis": 5}
 
 
-def colour(value):
+def color(value):
     return (ctypes.c_float * 3)(*(value if isinstance(value, list) else [value] * 3))
 
 
@@ -105,8 +105,8 @@ class SceneRenderer(Renderer):
         """Takes materials, spheres and planes of a scene file's JSON."""
         names = list(scene["materials"])
         self.set_scene(
-            [structs.pt_material(colour(m.get("diffuse", 0)), colour(m.get("specular", 0)),
-                                 colour(m.get("emission", 0)), m.get("glossiness", 0))
+            [structs.pt_material(color(m.get("diffuse", 0)), color(m.get("specular", 0)),
+                                 color(m.get("emission", 0)), m.get("glossiness", 0))
              for m in scene["materials"].values()],
             [structs.pt_sphere(vector(s["center"]), s["radius"], vector(s.get("motion", [0, 0, 0])),
                                names.index(s["material"])) for s in scene.get("spheres", [])],

@@ -7,7 +7,7 @@
  * data), pt/devices.h (which devices there are), pt/film.h (films that are saved and added), pt/vulkan.h (a device of
  * the caller's own), pt/shaders.h (changed kernels) and pt/accuracy.h (how well a device computes).
  *
- * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Colour is
+ * - World: right-handed, lengths in scene units, positions in double, angles in radians, time in [0, 1]. Color is
  *   linear RGB radiance, unclamped. Row 0 of an image is the top row.
  * - Numbers: all finite. Lengths are 0 or lie in [1e-18, 1e18], where their squares are float32 numbers too.
  * - Structs: one passed by pointer begins with struct_size = sizeof(the struct) as the caller compiled it and grows
@@ -135,8 +135,8 @@ enum {
     PT_TYPE_FLOAT32 = 1, /**< float */
     PT_TYPE_FLOAT64 = 2, /**< double */
     PT_TYPE_UINT32 = 3,  /**< uint32_t */
-    /** uint8_t, for colours alone: 255 times the sRGB encoding (IEC 61966-2-1) of a linear value in [0, 1], which is
-     * what pictures and colour maps have. */
+    /** uint8_t, for colors alone: 255 times the sRGB encoding (IEC 61966-2-1) of a linear value in [0, 1], which is
+     * what pictures and color maps have. */
     PT_TYPE_SRGB8 = 4
 };
 
@@ -157,7 +157,7 @@ typedef struct pt_sphere_array {
     pt_column motion;     /**< x, y, z; FLOAT32 or FLOAT64; default (0, 0, 0) */
     pt_column material;   /**< index into pt_scene.materials; UINT32; default 0 */
     /** R, G, B in [0, 1], by which the diffuse of the sphere's material is multiplied; FLOAT32 or FLOAT64, linear like
-     * all colours, or SRGB8; default (1, 1, 1). So spheres of one white material have each a colour of their own. Held
+     * all colors, or SRGB8; default (1, 1, 1). So spheres of one white material have each a color of their own. Held
      * to a thousandth where spheres are in a tree (PT_FEATURE_TREE). */
     pt_column color;
 } pt_sphere_array;
@@ -468,7 +468,7 @@ PT_API void pt_destroy(pt_context *context);
  * The three setters may be called in any order and again at any time. Each copies what it is given.
  *
  * Many spheres are put into a tree here, which takes most of the time. If a scene has as many of them as the one
- * before, and they have only moved a little or changed their colours, the tree's shape is kept, and the call takes
+ * before, and they have only moved a little or changed their colors, the tree's shape is kept, and the call takes
  * half of the time.
  * The image, its bits and its films do not depend on that.
  *

@@ -17,7 +17,7 @@ enum {
     PT_FEATURE_MOTION = 4, /**< spheres that move while the shutter is open */
     PT_FEATURE_LARGE = 8,  /**< more surfaces than a uniform buffer holds, or a tree */
     /** so many spheres that they are in a tree: a ray tests those near its way. From 113 on.
-     * Centres are held to 2^-30 of the extent of those in the tree, colours of spheres to a thousandth. */
+     * Centres are held to 2^-30 of the extent of those in the tree, colors of spheres to a thousandth. */
     PT_FEATURE_TREE = 16,
     PT_FEATURE_ORTHOGRAPHIC = 32, /**< parallel camera rays */
     PT_FEATURE_HIDDEN = 64        /**< surfaces that the camera does not see */

@@ -5,7 +5,7 @@
     image.save("picture.png")                     # or leave it as the last line of a notebook's cell
 
 For everything else: a Context, which is given a Scene, a Camera and RenderSettings, accumulates samples and reads the
-image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Colour is linear RGB
+image back. World: right-handed, lengths in scene units, angles in radians, time in [0, 1]. Color is linear RGB
 radiance, unclamped. Row 0 of an image is the top row.
 
 The library is libpt.so.0.3: that which PT_LIBRARY names, else the one installed with the package, else the system's.

@@ -77,7 +77,7 @@ class ColumnType(enum.IntEnum):
     FLOAT32 = 1  # float
     FLOAT64 = 2  # double
     UINT32 = 3  # uint32_t
-    SRGB8 = 4  # uint8_t, for colours alone
+    SRGB8 = 4  # uint8_t, for colors alone
 
 
 class LogLevel(enum.IntEnum):

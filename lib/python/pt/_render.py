@@ -24,7 +24,7 @@ def render(positions: npt.ArrayLike, radii: npt.ArrayLike, colors: npt.ArrayLike
     radii       shape (n,), or one number for all; > 0
     colors      shape (n, 3) or (3,): sRGB, floats in [0, 1] or uint8. They multiply the material's diffuse; None: grey
 
-    All else is as of figure(), which reads files, maps numbers to colours and has more options. Arrays are read in
+    All else is as of figure(), which reads files, maps numbers to colors and has more options. Arrays are read in
     place where SphereArray says so.
     """
     centers = real_column("positions", positions, 3, None)

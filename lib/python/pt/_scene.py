@@ -22,7 +22,7 @@ from pt._vectors import Color, Vector, color, vector
 class Material:
     """How a surface reflects and shines: the physically-normalised Phong model of pt/pt.h.
 
-    Colours are linear R, G, B, each in [0, 1e18]; a single number is a grey.
+    Colors are linear R, G, B, each in [0, 1e18]; a single number is a grey.
 
     diffuse      share of the light that is scattered evenly
     specular     weight of the lobe about the mirror direction
@@ -98,15 +98,15 @@ class SphereArray:
     material   a Material or an index in Scene.materials for all, or indices of shape (n,)
     motion     shape (n, 3) or (3,): way from time 0 to time 1; none by default
     color      shape (n, 3) or (3,), by which the material's diffuse is multiplied: floats in [0, 1], linear, or uint8,
-               sRGB as pictures and colour maps have it. By default the material is as it is
+               sRGB as pictures and color maps have it. By default the material is as it is
 
-    Read in place are arrays of float32 and float64, of uint32 (indices) and of uint8 (colours), in the machine's byte
+    Read in place are arrays of float32 and float64, of uint32 (indices) and of uint8 (colors), in the machine's byte
     order, whose rows are contiguous and ascend, at any distance: slices a[::2], the first columns a[:, :3] of a table,
     fields of structured arrays, np.broadcast_to. Everything else is copied here, once: transposed (Fortran) and
     reversed arrays, the other byte order, lists, other types of numbers. `copied` has the names of those columns.
     Changes of arrays that were copied do not count.
 
-    ValueError: shapes do not fit. TypeError: not numbers, or colours of integers that are not uint8.
+    ValueError: shapes do not fit. TypeError: not numbers, or colors of integers that are not uint8.
     """
 
     def __init__(self, center: npt.ArrayLike, radius: npt.ArrayLike, material: MaterialOrIndex | npt.ArrayLike, *,

@@ -1,4 +1,4 @@
-"""Triples of numbers: positions and colours of single things."""
+"""Triples of numbers: positions and colors of single things."""
 
 from __future__ import annotations
 

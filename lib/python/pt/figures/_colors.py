@@ -1,4 +1,4 @@
-"""Colours of particles: one for all, given for each, of categories, or of numbers by a map."""
+"""Colors of particles: one for all, given for each, of categories, or of numbers by a map."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Bytes: TypeAlias = npt.NDArray[np.uint8]
 RGB: TypeAlias = tuple[int, ...]
 
 PLAIN: Final = "#96aabe"  # a light bluish grey
-# Okabe and Ito 2008, "Color Universal Design", which the colour-blind can tell apart: blue, orange, bluish green,
+# Okabe and Ito 2008, "Color Universal Design", which the color-blind can tell apart: blue, orange, bluish green,
 # vermilion, sky blue, reddish purple, yellow. The order is our own: the first two differ most in lightness too.
 PALETTE: Final = ((0, 114, 178), (230, 159, 0), (0, 158, 115), (213, 94, 0), (86, 180, 233), (204, 121, 167),
                   (240, 228, 66))
@@ -34,10 +34,10 @@ SKEW: Final = 4.0  # all over 1% to 99% of the numbers; 1 of uniform numbers, 2 
 
 @dataclass(frozen=True)
 class ColorBar:
-    """Numbers as colours, by matplotlib.
+    """Numbers as colors, by matplotlib.
 
-    low, high   numbers of the first and the last colour; where they are equal the norm is wider, and they are in its middle
-    no_value    colour of what is no number, if there is any
+    low, high   numbers of the first and the last color; where they are equal the norm is wider, and they are in its middle
+    no_value    color of what is no number, if there is any
     """
 
     title: str
@@ -50,7 +50,7 @@ class ColorBar:
 
 @dataclass(frozen=True)
 class Swatches:
-    """Categories as colours: names, and sRGB of shape (k, 3)."""
+    """Categories as colors: names, and sRGB of shape (k, 3)."""
 
     title: str
     names: tuple[str, ...]
@@ -72,7 +72,7 @@ def srgb(name: str, color: Any) -> RGB:
     try:
         red, green, blue = (math.floor(255 * float(each) + 0.5) for each in named.to_rgb(color))
     except ValueError:
-        raise ValueError(f"{name} = {color!r}: must be a colour like #ff8000 or orange") from None
+        raise ValueError(f"{name} = {color!r}: must be a color like #ff8000 or orange") from None
     return red, green, blue
 
 
@@ -97,12 +97,12 @@ def colors_of(particles: Particles, given: Options, notes: list[str]) -> tuple[B
     if array.shape in ((count, 3), (count, 4)) and array.dtype.kind in "fiu":
         return _direct(array, notes), None
     if array.shape != (count,):
-        raise ValueError(f"color has shape {array.shape}: must be ({count},), numbers or words, or ({count}, 3), colours")
+        raise ValueError(f"color has shape {array.shape}: must be ({count},), numbers or words, or ({count}, 3), colors")
     return _of_values(array, given.title or "", given, notes)
 
 
 def _named(particles: Particles, color: str, given: Options, notes: list[str]) -> tuple[Bytes, Legend]:
-    """A column, its magnitude, three columns of red, green and blue, or a colour."""
+    """A column, its magnitude, three columns of red, green and blue, or a color."""
     title = given.title or color
     if color in ("type", "element") and color not in particles.columns:
         return _of_types(particles, given, {})
@@ -117,7 +117,7 @@ def _named(particles: Particles, color: str, given: Options, notes: list[str]) -
         try:
             return np.array(srgb("color", color), np.uint8), None
         except ValueError:
-            raise ValueError(f"color = {color!r} is no colour, and {unknown}") from None
+            raise ValueError(f"color = {color!r} is no color, and {unknown}") from None
     return _of_values(values, title, given, notes)
 
 
@@ -148,7 +148,7 @@ def _direct(colors: Any, notes: list[str]) -> Bytes:
         least, largest = min(least, float(shares.min())), max(largest, float(shares.max()))
         result[rows] = np.floor(255.0 * np.clip(shares, 0.0, 1.0) + 0.5)
     if least < -1e-3 or largest > 1.001:
-        notes.append(f"colours from {least:.3g} to {largest:.3g} are clipped to 0 to 1")
+        notes.append(f"colors from {least:.3g} to {largest:.3g} are clipped to 0 to 1")
     return result
 
 
@@ -162,7 +162,7 @@ def _of_values(values: Array, title: str, given: Options, notes: list[str]) -> t
 
 
 def _of_types(particles: Particles, given: Options, own: Mapping[str, str]) -> tuple[Bytes, Legend]:
-    """Elements have their colours, other types those of the palette."""
+    """Elements have their colors, other types those of the palette."""
     known: dict[str, RGB] = {}
     kind, labels = ("type", column(particles, "type")) if particles.elements is None else ("element", particles.elements)
     names, codes = categories(labels)
@@ -211,7 +211,7 @@ def _colormap(colormap: Any) -> Any:
     """A color map of matplotlib, by its name or as an object."""
     if not isinstance(colormap, str):
         return colormap
-    colormaps = module("matplotlib", "a colour map").colormaps
+    colormaps = module("matplotlib", "a color map").colormaps
     if colormap not in colormaps:
         near = difflib.get_close_matches(colormap, list(colormaps), 3)
         raise ValueError(f"colormap = {colormap!r}: must be one of matplotlib's, like "
@@ -227,7 +227,7 @@ def _of_numbers(values: Array, title: str, given: Options, notes: list[str]) -> 
         raise ValueError(f"color range = {low:g}, {high:g}: must be two numbers, the second larger"
                          f"{', and above 0 on a log scale' if log else ''}")
     wider = 0.5 * (abs(low) or 1.0) if low == high else 0.0
-    norms = module("matplotlib.colors", "a colour map")
+    norms = module("matplotlib.colors", "a color map")
     norm = (norms.LogNorm if log else norms.Normalize)(low - wider, high + wider)
     no_value = srgb("nan_color", given.nan_color)
     colors = np.empty((len(values), 3), np.uint8)
@@ -266,5 +266,5 @@ def _range(values: Array, given: Options, title: str, notes: list[str]) -> tuple
     if given.scale == "symmetric":
         largest = max(abs(least), abs(largest))
         least, words = -largest, f"symmetric about 0; {words}"
-    notes.append(f"colours of {title or 'values'} go from {least:.6g} to {largest:.6g}, {words}")
+    notes.append(f"colors of {title or 'values'} go from {least:.6g} to {largest:.6g}, {words}")
     return least, largest

@@ -55,7 +55,7 @@ def parser() -> argparse.ArgumentParser:
         "output")
     add("--format", dest="output_format", choices=PICTURES, help="of an image to standard output")
     add("--png-bits", type=int, choices=(8, 16), default=8)
-    add("--legend", metavar="FILE", help="what the colours say, as .svg, .pdf or .png")
+    add("--legend", metavar="FILE", help="what the colors say, as .svg, .pdf or .png")
     add("--write-scene", metavar="SCENE", help="scene file for `pt render`, with NPY files beside it")
     add("--turntable", type=at_least(2, int), metavar="N", help="N pictures once round the vertical axis, lamps and all")
     add("--frames", type=typed(two("-", int), "two frames like 0-99"), metavar="A-B", help="a picture of each frame")

@@ -34,7 +34,7 @@ from pt.figures._where import holds
 
 LEAST_LENGTH: Final = 1e-18  # which the library takes
 INK: Final = "#222222"  # of words on a bright background
-LEAST_WIDTH: Final = 16  # pixels beside a colour bar
+LEAST_WIDTH: Final = 16  # pixels beside a color bar
 PICTURES: Final = ("png", "jpg", "jpeg", "exr")
 LEGENDS: Final = ("svg", "pdf", "png")
 
@@ -117,7 +117,7 @@ def view_of(drawn: Drawn, options: Options, turns: bool = False) -> View:
     if size is not None and options.colorbar and drawn.legend is not None:
         size = size[0] - _strip_width(raster(drawn.legend, size[1], INK), size[1]), size[1]
         if size[0] < LEAST_WIDTH:
-            raise ValueError(f"size = {options.size}: has no room for particles beside the colour bar")
+            raise ValueError(f"size = {options.size}: has no room for particles beside the color bar")
     if options.camera is not None:
         return View.through(options.camera, options.up, size or (1024, 768), drawn.scale)
     return View.of(drawn.balls, options.view, options.up, options.projection, size, turns)
@@ -175,11 +175,11 @@ class Staged:
 
 
 class Figure(Image):
-    """A rendered figure: an Image whose picture has its background, lines and colour bar, and whose numbers are the
+    """A rendered figure: an Image whose picture has its background, lines and color bar, and whose numbers are the
     radiance before them.
 
     scene      what was rendered, with camera and settings
-    legend     what the colours say; None where that is nothing
+    legend     what the colors say; None where that is nothing
     notes      what was decided by the data, and what is not shown: sentences
     error      of the radiance, stated by the renderer, as of any Image
     """
@@ -256,7 +256,7 @@ class Figure(Image):
 
     def save_scene(self, path: Path) -> None:
         """A scene file for `pt render`, and beside it NPY files of the particles. Background, outlines, lines of the
-        cell and colour bar are no part of it; neither is the seed."""
+        cell and color bar are no part of it; neither is the seed."""
         self._staged.save_scene(path)
 
     def _repr_png_(self) -> bytes:
@@ -290,7 +290,7 @@ def _with_keywords(make: Callable[P, Options]) -> Callable[Concatenate[Any, P], 
         with Context(options.device) as context:
             return staged.draw(context)
 
-    figure.__doc__ = f"""Renders particles: camera, light, sizes and colours follow from the data where options do not say otherwise.
+    figure.__doc__ = f"""Renders particles: camera, light, sizes and colors follow from the data where options do not say otherwise.
 
     data             a file's name, an array of shape (n, 3), a dict or frame of columns, or what load() takes besides
 {described()}

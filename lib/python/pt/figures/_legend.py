@@ -1,4 +1,4 @@
-"""What the colours of a figure say, drawn by matplotlib: as a file of its own, or for a strip beside the picture."""
+"""What the colors of a figure say, drawn by matplotlib: as a file of its own, or for a strip beside the picture."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def _plain(text: str) -> str:
 
 
 def draw(legend: Legend, height: float, font: float, ink: Any) -> Any:
-    """A matplotlib Figure. height: of a colour bar, and at most of a column of swatches, inches. font: points."""
+    """A matplotlib Figure. height: of a color bar, and at most of a column of swatches, inches. font: points."""
     if legend is None:
-        raise ValueError("legend: there is nothing to tell, as all colours are given or alike")
+        raise ValueError("legend: there is nothing to tell, as all colors are given or alike")
     with _matplotlib().rc_context({"font.size": font, "text.color": ink, "axes.labelcolor": ink, "axes.edgecolor": ink,
                      "xtick.color": ink, "ytick.color": ink, "axes.linewidth": font / 14.0}):
         sheet = _matplotlib("figure").Figure(figsize=(3.0, height))

@@ -61,24 +61,24 @@ class Options:
                              "place of those that are looked for")
     drop_nonfinite: bool = _data(False, "", "leaves out particles whose position or radius is no finite number")
     where: str | Sequence[str] = _data((), "CONDITION", "shows particles for which this holds, \"z < 5\", \"element != H\"; or "
-                                       "several. Ranges of colours and radii are those of all")
+                                       "several. Ranges of colors and radii are those of all")
     wrap: bool = _data(False, "", "brings particles that have left a periodic cell back into it")
 
     color: Color = _particles(
-        None, "COLUMN|COLOUR|...", "a column of numbers or words; \"|velocity|\" or \"|vx,vy,vz|\", a magnitude; "
-        "\"red,green,blue\", columns of sRGB; a colour for all, \"#ff8000\" or \"orange\"; of types, \"O=red,H=#ffffff\", in "
+        None, "COLUMN|COLOR|...", "a column of numbers or words; \"|velocity|\" or \"|vx,vy,vz|\", a magnitude; "
+        "\"red,green,blue\", columns of sRGB; a color for all, \"#ff8000\" or \"orange\"; of types, \"O=red,H=#ffffff\", in "
         "Python {\"O\": \"red\"} too, and arrays of shape (n,), or (n, 3) of sRGB, floats from 0 to 1 or uint8. By default of "
         "elements those of Jmol, of types a palette, those of the data, else grey")
     colormap: Any = _particles(None, "MAP", "of matplotlib, in Python as an object too; _r reverses it. By default viridis, and "
                                "coolwarm on a symmetric scale")
     range: tuple[float, float] | None = _particles(
-        None, "LO,HI", "numbers that the first and the last colour stand for. By default all there are, or, where these reach "
+        None, "LO,HI", "numbers that the first and the last color stand for. By default all there are, or, where these reach "
         "more than 4 times as far as 1% to 99% of them, those; it is said", flag="--color-range", read=two(",", float))
-    scale: str = _particles("linear", "", "of the colours; symmetric is about 0", flag="--color-scale",
+    scale: str = _particles("linear", "", "of the colors; symmetric is about 0", flag="--color-scale",
                             choices=("linear", "log", "symmetric"))
-    categories: bool | Sequence[str] = _particles(False, "", "numbers name categories, no two of which have one colour; in Python "
+    categories: bool | Sequence[str] = _particles(False, "", "numbers name categories, no two of which have one color; in Python "
                                                   "all names, in their order, too")
-    nan_color: str = _particles("#bfbfbf", "COLOUR", "of particles without a number")
+    nan_color: str = _particles("#bfbfbf", "COLOR", "of particles without a number")
     title: str | None = _particles(None, "WORDS", "of the legend, with the unit; matplotlib's TeX. By default the column")
     colorbar: bool = _particles(False, "", "the legend is in the picture, at the right")
     radius: Radius = _particles(
@@ -86,7 +86,7 @@ class Options:
         "angstroms); of all types, \"O=0.7,H=0.3\", in Python {\"O\": 0.7} and arrays too; with a factor, \"0.5*diameter\". By "
         "default the data's, else covalent where distances are of angstroms, else half of what most neighbours are apart")
 
-    size: tuple[int, int] | None = _view(None, "WxH", "pixels, with the colour bar. By default as many as 1024x768 have, in the "
+    size: tuple[int, int] | None = _view(None, "WxH", "pixels, with the color bar. By default as many as 1024x768 have, in the "
                                          "shape of the data", read=two("x", int))
     view: Direction = _view(VIEWS[0], "SIDE|X,Y,Z", f"{', '.join(VIEWS)}, or the direction to the camera")
     up: Direction = _view("z", "AXIS|X,Y,Z", "x, y, z, -x, -y or -z, or a direction: what is up in the data and the picture")
@@ -95,10 +95,10 @@ class Options:
 
     style: str = _look("matte", "", "the last one: light from all sides alone",
                        choices=("matte", "glossy", "ambient-occlusion"))
-    material: Material | None = _python(None, "", "of the particles, in place of the style's; colours multiply its diffuse")
+    material: Material | None = _python(None, "", "of the particles, in place of the style's; colors multiply its diffuse")
     outlines: bool = _look(False, "", "dark lines round the balls")
     floor: bool = _look(False, "", "a floor that shows the shadows alone")
-    background: Any = _look("white", "COLOUR", "a colour, or transparent")
+    background: Any = _look("white", "COLOR", "a color, or transparent")
     box: str = _look("lines", "", "what is shown of the cell, where the data have one", choices=("lines", "none"))
     exposure: float | None = _look(0.0, "EV", "stops by which balls are brightened; auto, in Python None: as pt render",
                                    read=_stops, rule=(lambda stops: -64.0 <= stops <= 64.0, "from -64 to 64"))

@@ -1,4 +1,4 @@
-"""Frames of a trajectory, and turns of one, that go together: one camera, one scale of colours, one rule of radii."""
+"""Frames of a trajectory, and turns of one, that go together: one camera, one scale of colors, one rule of radii."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from typing import Final
 from pt._fit import Doubles
 from pt._scene import Material, Plane, Sphere
 
-# A surface that faces the key lamp and sees all of the surround has the radiance of its albedo: the colours of a legend
+# A surface that faces the key lamp and sees all of the surround has the radiance of its albedo: the colors of a legend
 # are those of the lit sides.
 SURROUND_BRIGHTNESS: Final = 0.4375  # of few bits, so that means are the same number
 KEY_BRIGHTNESS: Final = 0.75
@@ -26,7 +26,7 @@ class Stage:
     """lamps      the surround, a sphere around everything that shines evenly, and the key, a large lamp far behind the
                   left shoulder of the camera
     floor      white, below all
-    material   of the particles, whose diffuse their colours multiply
+    material   of the particles, whose diffuse their colors multiply
     """
 
     lamps: tuple[Sphere, ...]
