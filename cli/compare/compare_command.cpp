@@ -79,7 +79,8 @@ float write_difference(const std::string &path, std::uint32_t width, const std::
                                           [](float most, float each) { return std::fmax(most, each); });
     const auto height = static_cast<std::uint32_t>(differences.size() / width);
     const std::vector<std::uint8_t> bytes = difference_picture(differences, largest);
-    ImageWriter().write({path, ImageFormat::png}, {.window = whole_window(width, height), .bytes = bytes});
+    ImageWriter().write({path, ImageFormat::png},
+                        {.window = whole_window(width, height), .signals = std::as_bytes(std::span(bytes))});
     return largest;
 }
 

@@ -55,7 +55,7 @@ std::filesystem::path module_path();
 // One of the names in image_module.h. Throws Failure(ExitCode::internal) if the module cannot be loaded.
 void *load_symbol(const std::filesystem::path &path, const char *name);
 
-// A whole file of PNG, by libpng and without the module: image.bytes or image.words, and the attributes as text chunks.
+// A whole file of PNG, by libpng and without the module: image.signals, and the attributes as text chunks.
 // Throws std::runtime_error.
 std::vector<unsigned char> encode_png(const ImageData &image);
 

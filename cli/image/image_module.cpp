@@ -128,7 +128,7 @@ std::vector<unsigned char> encode(const ImageData &image, const char *extension)
     add_attributes(spec, image.attributes);
     const bool is_written =
         output->set_ioproxy(&memory) && output->open(std::string("image.") + extension, spec) &&
-        (is_radiance ? write_layers(*output, spec, image) : output->write_image(spec.format, image.bytes.data())) &&
+        (is_radiance ? write_layers(*output, spec, image) : output->write_image(spec.format, image.signals.data())) &&
         output->close();
     if (!is_written)
         throw std::runtime_error(output->geterror());

@@ -93,16 +93,16 @@ struct ImageLayer {
     std::span<const std::uint32_t> numbers = {}; // in place of them, of LayerKind::numbers
 };
 
-// Layers for "exr"; bytes for the others, or words for PNG.
+// Layers for "exr", signals for the others.
 struct ImageData {
     ImageWindow window;
     std::span<const ImageLayer> layers = {};
-    std::span<const std::uint8_t> bytes = {};  // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
-    std::span<const std::uint16_t> words = {}; // the same of 16 bits
-    std::optional<double> gamma = {};          // light is the signal to this power; nothing: by the sRGB curve. For PNG
+    std::span<const std::byte> signals = {}; // R, G, B of each pixel, for PNG also R, G, B, A, not multiplied by A
+    std::uint32_t bits = 8;                  // of each; for PNG also 16, in the machine's byte order
+    std::optional<double> gamma = {};        // light is the signal to this power; nothing: by the sRGB curve. For PNG
     std::span<const ImageAttribute> attributes = {};
 
-    bool has_alpha() const { return std::max(bytes.size(), words.size()) == 4 * window.part.pixel_count(); }
+    bool has_alpha() const { return signals.size() == std::size_t{bits} / 8 * 4 * window.part.pixel_count(); }
 };
 
 // Encodes an image in memory. extension: "exr" or "jpg".

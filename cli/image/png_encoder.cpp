@@ -81,24 +81,17 @@ void set_color_space(const Encoding &encoding, std::optional<double> gamma) {
     }
 }
 
-bool has_words(const ImageData &image) {
-    return !image.words.empty();
-}
-
 std::vector<png_bytep> rows_of(const ImageData &image) {
-    const auto *first =
-        has_words(image) ? reinterpret_cast<const std::uint8_t *>(image.words.data()) : image.bytes.data();
-    const std::size_t row_bytes =
-        (has_words(image) ? image.words.size_bytes() : image.bytes.size()) / image.window.part.height;
     std::vector<png_bytep> rows(image.window.part.height);
-    for (std::size_t y = 0; y < rows.size(); ++y)
-        rows[y] = const_cast<png_bytep>(first + y * row_bytes); // only read
+    const std::size_t row_bytes = image.signals.size() / rows.size();
+    for (std::size_t y = 0; y < rows.size(); ++y) // libpng only reads them
+        rows[y] = reinterpret_cast<png_bytep>(const_cast<std::byte *>(&image.signals[y * row_bytes]));
     return rows;
 }
 
 // PNG has the more significant byte of a word first (ISO 15948, 7.2).
 int transforms_of(const ImageData &image) {
-    const bool is_swapped = has_words(image) && std::endian::native == std::endian::little;
+    const bool is_swapped = image.bits == 16 && std::endian::native == std::endian::little;
     return is_swapped ? PNG_TRANSFORM_SWAP_ENDIAN : PNG_TRANSFORM_IDENTITY;
 }
 
@@ -107,7 +100,7 @@ bool write(Encoding &encoding, const ImageData &image, std::span<png_text> texts
     if (setjmp(png_jmpbuf(encoding.png)) != 0) // NOLINT(cert-err52-cpp): libpng's way to tell of errors
         return false;
     png_set_IHDR(encoding.png, encoding.info, image.window.part.width, image.window.part.height,
-                 has_words(image) ? 16 : 8, image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 static_cast<int>(image.bits), image.has_alpha() ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     set_color_space(encoding, image.gamma);
     // Pictures are noise about slopes. Differences of neighbours in a row, matched with less effort, make files as

@@ -242,16 +242,17 @@ void write_display_image(ImageWriter &writer, const ImageTarget &target, ImageDa
     const std::vector<float> covering = alpha.empty() ? std::vector<float>() : unassociated(radiance, alpha);
     const std::span<const float> colors = alpha.empty() ? radiance : covering;
     image.gamma = tone_map.gamma;
-    const auto write = [&](auto signal, auto ImageData::*channels) {
+    const auto write = [&](auto signals) {
         if (!alpha.empty())
-            signal = with_alpha(signal, alpha);
-        image.*channels = signal;
+            signals = with_alpha(signals, alpha);
+        image.signals = std::as_bytes(std::span(signals));
+        image.bits = 8 * sizeof signals[0];
         writer.write(target, image);
     };
     if (target.format == ImageFormat::png && png_bits == 16)
-        write(map_to_16_bits(colors, tone_map), &ImageData::words);
+        write(map_to_16_bits(colors, tone_map));
     else
-        write(map_to_8_bits(colors, tone_map), &ImageData::bytes);
+        write(map_to_8_bits(colors, tone_map));
 }
 
 } // namespace cli
