@@ -124,14 +124,13 @@ private:
         for (const auto &member : value.items())
             if (find_key(*section_, member.key()) == nullptr)
                 refuse_unknown_key(place, member.key(), key_names(*section_));
-        for (const SceneKey &key : section_->keys)
-            if (key.is_required && !value.contains(key.name))
-                refuse(place, "\"" + std::string(key.name) + "\" is missing");
         SceneItem item{scene_};
-        const bool is_many = section_->name == "spheres" && value.at("center").is_string();
+        const bool is_many = section_->name == "spheres" && value.contains("center") && value["center"].is_string();
         SphereColumns columns{place.index};
         for (const SceneKey &key : section_->keys) {
             const auto found = value.find(key.name);
+            if (found == value.end() && key.is_required)
+                refuse(place, "\"" + std::string(key.name) + "\" is missing");
             if (found == value.end())
                 continue;
             const JsonPlace member = place.member(key.name);
