@@ -2,7 +2,7 @@
 
 #include "lib/film/adaptive_rule.h"
 #include "lib/film/error_estimate.h"
-#include "lib/film/error_region.h"
+#include "lib/film/region_errors.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,5 @@
 // The errors of regions and tiles, which are found for many values at once, bit for bit: value by value, by the
 // definitions in shaders/pixel_error.h, with sums in the order of the values.
-#include "lib/film/error_region.h"
 #include "lib/film/region_errors.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What single pixels say about the error of an image, in regions whose result is known.
-#include "lib/film/error_region.h"
+#include "lib/film/region_errors.h"
 #include "shaders/pixel_error.h"
 
 #include <gtest/gtest.h>
